@@ -15,14 +15,18 @@ use basemat::prelude::*;
 use basemat::structure::{Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, ShearBuilding};
 
 const FLOOR_COUNT: usize = 5;
+/// Mass of each floor, kg/m.
 const FLOOR_MASS: f64 = 20.0e3;
+/// Mass of the slab on the bearings, kg/m.
 const SLAB_MASS: f64 = 30.0e3;
+/// Stiffness of each storey, N/m².
+const STOREY_STIFFNESS: f64 = 40.0e6;
 
 /// Five storeys of 3 m, per metre of thickness.
 ///
 /// The damping is 2 % of critical at the fixed-base frequency. It does not change where columns yield.
 fn building() -> Result<ShearBuilding> {
-    let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOOR_COUNT];
+    let storeys = [Storey::new(3.0, FLOOR_MASS, STOREY_STIFFNESS); FLOOR_COUNT];
     ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.02)
 }
 
@@ -55,28 +59,32 @@ fn main() -> Result<()> {
     let level =
         IsolationLevel { height: 0.3, slab_mass: SLAB_MASS, slab_inertia: 2.5e5, damping: 0.0 };
     // Every storey yields at 15 % of the weight above it and hardens with 3 % of its stiffness.
-    let mut yielding = building()?;
+    let mut yielding_building = building()?;
     for storey in 0..FLOOR_COUNT {
         let weight_above = STANDARD_GRAVITY * FLOOR_MASS * (FLOOR_COUNT - storey) as f64;
-        yielding = yielding.with_law(storey, Bilinear::new(40.0e6, 0.15 * weight_above, 0.03)?)?;
+        yielding_building = yielding_building
+            .with_law(storey, Bilinear::new(STOREY_STIFFNESS, 0.15 * weight_above, 0.03)?)?;
     }
     let pendulums = FrictionPendulum::new(weight, 2.0, 0.06)?;
     let rubber = LeadRubber::from_strength(0.6e6, 0.05 * weight)?;
-    let isolated = [
+    let isolated_cases = [
         ("friction pendulum", building()?.isolated(level, pendulums)?),
         ("lead-rubber", building()?.isolated(level, rubber)?),
     ];
-    let direct = [("elastic", building()?), ("yielding", yielding)];
+    let direct_cases = [("elastic", building()?), ("yielding", yielding_building)];
     // The bearings are the lowest level of an isolated building.
-    let cases = direct.map(|case| (case, 0)).into_iter().chain(isolated.map(|case| (case, 1)));
+    let cases = direct_cases
+        .map(|case| (case, 0))
+        .into_iter()
+        .chain(isolated_cases.map(|case| (case, 1)));
 
     println!("                   bearing  1st storey  roof     base     uplift  input  hysteresis");
     println!("                   mm       drift, mm   acc., g  shear/W  %       kJ/m   kJ/m");
-    for ((name, structure), bearings) in cases {
+    for ((name, structure), bearing_levels) in cases {
         let total_weight = STANDARD_GRAVITY * structure.total_mass();
-        let run = shake(structure, bearings + 1)?;
-        let bearing_travel = if bearings > 0 { largest_drift(&run, 0)? } else { 0.0 };
-        let storey_drift = largest_drift(&run, bearings)?;
+        let run = shake(structure, bearing_levels + 1)?;
+        let bearing_travel = if bearing_levels > 0 { largest_drift(&run, 0)? } else { 0.0 };
+        let storey_drift = largest_drift(&run, bearing_levels)?;
         println!(
             "{name:<18} {:7.1} {:11.1} {:8.2} {:8.2} {:8.0} {:7.1} {:11.1}",
             bearing_travel,

@@ -4,13 +4,16 @@
 //! cargo run --release --example bearing_capacity
 //! ```
 //!
-//! The soil beneath an element settles permanently where the pressure reaches q; the half-plane below stays
-//! elastic. The settled ground is rounded at the edges of the block. A lower q makes the edges settle more, the block
-//! shake less, and the block lean more.
+//! The soil beneath a contact element settles permanently where the pressure reaches q; the half-plane below stays
+//! elastic. The settlement rounds the ground under the edges of the block. With a lower q, the edges settle more, the
+//! base shear is smaller, and the block is left with a larger tilt.
 
 use basemat::Result;
 use basemat::interface::Yielding;
 use basemat::prelude::*;
+
+/// Number of steps of 5 ms.
+const STEP_COUNT: usize = 7000;
 
 /// Permanent settlement of the soil under an element, mm; zero for a law without state variables.
 fn settlement(state: &State, element: usize) -> f64 {
@@ -38,7 +41,7 @@ fn main() -> Result<()> {
         } else {
             builder.interface(Coulomb::new(0.6)?).build()?
         };
-        let run = simulation.run(7000, |_| {})?;
+        let run = simulation.run(STEP_COUNT, |_| {})?;
         let state = simulation.state();
         println!(
             "{factor:8.1}{:17.3}{:22.2}{:17.1}{:9.1}{:9.0e}",

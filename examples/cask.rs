@@ -4,11 +4,11 @@
 //! cargo run --release --example cask
 //! ```
 //!
-//! A cylinder 3.4 m wide and 5.6 m high stands on a stiff pad over soil of 200 m/s. Three records shake it at
-//! the same time. With friction 0.3 it slides; with 0.8 it rocks on its rim and walks along it. The simpler models
-//! are a sliding block and a plane-strain slice. Newmark's block is rigid on rigid ground, under one record. The slice, a wall of the same section, also has one
-//! record; it rocks on an edge instead of a rim. Other cells and steps change sliding by a few percent.
-//! Walking depends on every impact, and changes by factors of up to four.
+//! A cylinder 3.4 m wide and 5.6 m high stands on a stiff pad over soil of 200 m/s. Three records shake it at the same
+//! time. With friction 0.3 it slides; with 0.8 it rocks on its rim and walks along it. The simpler models are a sliding
+//! block and a plane-strain slice. Newmark's block is rigid on rigid ground, under one record. The slice, a wall of the
+//! same section, is also under one record; it rocks on an edge instead of a rim. Other sizes of cells and steps change
+//! the sliding by a few percent. Walking depends on every impact, and changes by factors of up to four.
 
 use basemat::bem::plan::Plan;
 use basemat::motion::Triaxial;
@@ -18,11 +18,13 @@ use basemat::reference::SlidingBlock;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::RigidBody;
 
-/// Diameter and height of the cask, m; mean density of steel, concrete and fuel, kg/m³.
+/// Diameter of the cask, m.
 const CASK_DIAMETER: f64 = 3.4;
+/// Height of the cask, m.
 const CASK_HEIGHT: f64 = 5.6;
+/// Mean density of steel, concrete and fuel, kg/m³.
 const MASS_DENSITY: f64 = 3200.0;
-/// Time step, s, and number of steps.
+/// Time step, s.
 const TIME_STEP: f64 = 0.00125;
 const STEP_COUNT: usize = 4800;
 

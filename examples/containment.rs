@@ -6,9 +6,9 @@
 //! cargo run --release --example containment
 //! ```
 //!
-//! Five runs as in the paper's Table 1: bonded, uplift only, friction 0.4, 0.3 and 0.2. Prints a table;
-//! writes time series as CSV and pictures to `target/containment`. The paper's figure with the dimensions is
-//! not available. Contact length and height are therefore calibrated on the first two rows of Table 1, and
+//! The five runs are those of the paper's Table 1: bonded, uplift only, friction 0.4, 0.3 and 0.2. The example prints a
+//! table, and writes time series as CSV and pictures to `target/containment`. The paper's figure with the dimensions
+//! was not available to us. Contact length and height are therefore calibrated on the first two rows of Table 1, and
 //! the density of the soil is assumed.
 
 use std::path::Path;
@@ -18,19 +18,25 @@ use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
 use basemat::plot;
 use basemat::prelude::*;
 
-/// The paper's units in SI: feet, pounds per square foot, slugs per cubic foot, pounds per foot.
+/// The paper's unit of length, m.
 const FOOT_IN_METRES: f64 = 0.3048;
+/// The paper's unit of stress, Pa.
 const POUND_PER_SQUARE_FOOT: f64 = 47.880_258_980_335_84;
+/// The paper's unit of density, kg/m³.
 const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
+/// The paper's unit of force per width, N/m.
 const POUND_PER_FOOT: f64 = 14.593_902_937_206_364;
 
-/// Contact length and height, ft; elements along the base, layers of rectangles.
+/// Length of the contact with the ground, ft.
 const CONTACT_LENGTH: f64 = 34.0;
+/// Height, ft.
 const CONTAINMENT_HEIGHT: f64 = 80.0;
+/// Number of elements along the base.
 const BASE_ELEMENTS: usize = 10;
+/// Number of layers of rectangles.
 const ELEMENT_LAYERS: usize = 13;
 
-/// Cases, their friction (`None`: bonded), and the peak base shears of Table 1, lb/ft.
+/// Cases of Table 1: name, friction coefficient (`None`: bonded), and the paper's peak base shear, lb/ft.
 const PAPER_CASES: [(&str, Option<f64>, f64); 5] = [
     ("bonded", None, 28_970.0),
     ("uplift only", Some(f64::INFINITY), 20_130.0),
@@ -106,7 +112,7 @@ fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
 }
 
 fn main() -> Result<()> {
-    let out = Path::new("target/containment");
+    let output_folder = Path::new("target/containment");
     // Runs are independent: with the feature `rayon`, they run in parallel on all processors.
     let runs = Sweep::new(PAPER_CASES.len()).collect(|case| shake(PAPER_CASES[case.index].1));
     let runs: Vec<_> = runs.into_iter().collect::<std::result::Result<_, _>>()?;
@@ -114,13 +120,13 @@ fn main() -> Result<()> {
         "{:<14}{:>7}{:>17}{:>9}{:>8}{:>10}{:>11}{:>9}{:>8}",
         "case", "lb/ft", "ratio (paper)", "uplift", "slip", "residual", "roof", "balance", "run"
     );
-    let bonded = runs[0].0.probe("base shear")?.magnitude();
+    let bonded_shear = runs[0].0.probe("base shear")?.magnitude();
     for ((name, _, paper_shear), (run, time_series)) in PAPER_CASES.iter().zip(&runs) {
         let shear = run.probe("base shear")?.magnitude();
         println!(
             "{name:<14}{:>7.0}{:>9.3} ({:.3}){:>7.0} %{:>5.1} mm{:>7.2} mm{:>8.1} mm{:>9.0e}{:>6.2} s",
             shear / POUND_PER_FOOT,
-            shear / bonded,
+            shear / bonded_shear,
             paper_shear / PAPER_CASES[0].2,
             100.0 * run.whole.uplifted_fraction.largest().value,
             1e3 * run.whole.mean_slip.magnitude(),
@@ -130,16 +136,19 @@ fn main() -> Result<()> {
             run.wall.as_secs_f64()
         );
         let name = name.replace([' ', '.'], "_");
-        time_series.csv().save(out.join(format!("{name}.csv")))?;
+        time_series.csv().save(output_folder.join(format!("{name}.csv")))?;
         plot::mode_map("Contact modes", time_series)?
-            .save(out.join(format!("modes_{name}.svg")))?;
+            .save(output_folder.join(format!("modes_{name}.svg")))?;
     }
     let curves: Vec<_> =
         PAPER_CASES.iter().zip(&runs).map(|(case, (_, series))| (case.0, series)).collect();
     for probe in ["base shear", "roof x", "roof y"] {
-        let file = out.join(format!("{}.svg", probe.replace(' ', "_")));
+        let file = output_folder.join(format!("{}.svg", probe.replace(' ', "_")));
         plot::probe_time_series("El Centro on a containment", &curves, probe)?.save(file)?;
     }
-    println!("\nratio: over the bonded shear, in the paper's Table 1; files in {}", out.display());
+    println!(
+        "\nratio: over the bonded shear, in the paper's Table 1; files in {}",
+        output_folder.display()
+    );
     Ok(())
 }

@@ -4,11 +4,11 @@
 //! cargo run --release --example containment_in_space
 //! ```
 //!
-//! Raft, wall and dome are shells. The raft bends: the ground acts on each cell of its underside. Three components of an
-//! earthquake shake it. A bonded base is compared with one that opens and slides: forces at the wall's foot, and the
-//! largest bending moment in the raft. This moment falls with the size of the cells: 3.5, 3.4 and 3.3 MNm/m on 132, 224
-//! and 332 cells. `target/containment_raft.svg` shows the moments along x of the raft that opens at the instant of the
-//! largest moment.
+//! Raft, wall and dome are shells. The raft bends: the ground acts on each cell of its underside. Three components of
+//! an earthquake shake it. A bonded base is compared with a base that opens and slides, by the forces at the wall's
+//! foot and by the largest bending moment in the raft. This moment decreases as the cells become smaller: 3.5, 3.4 and
+//! 3.3 MNm/m on 132, 224 and 332 cells. `target/containment_raft.svg` shows the moments m_x in the raft that opens, at
+//! the instant of its largest moment.
 
 use basemat::fem::{Material, Mesh};
 use basemat::motion::Triaxial;
@@ -16,23 +16,25 @@ use basemat::plot::shell_plan;
 use basemat::prelude::*;
 use basemat::structure::{FemModel, RayleighDamping};
 
-/// Radius of the wall's middle surface and its height, m.
+/// Radius of the wall's middle surface, m.
 const WALL_RADIUS: f64 = 20.0;
+/// Height of the wall, m.
 const WALL_HEIGHT: f64 = 30.0;
-/// Thickness of the shells, m.
+// Thicknesses of the shells, m.
 const RAFT_THICKNESS: f64 = 3.0;
 const WALL_THICKNESS: f64 = 1.2;
 const DOME_THICKNESS: f64 = 1.0;
-/// Sectors round the axis, and rows of elements along the meridian.
+/// Number of elements around the axis.
 const SECTOR_COUNT: usize = 24;
+// Numbers of rows of elements along the meridian.
 const RAFT_ROWS: usize = 5;
 const WALL_ROWS: usize = 5;
 const DOME_ROWS: usize = 4;
-/// Time step, s, and number of steps.
+/// Time step, s.
 const TIME_STEP: f64 = 0.01;
 const STEP_COUNT: usize = 1000;
 
-/// Radius and height (m) of points along raft, wall and spherical dome.
+/// Points of the meridian from the centre of the raft along wall and spherical dome: radius and height, m.
 fn meridian() -> Vec<[f64; 2]> {
     let fraction = |row: usize, rows: usize| row as f64 / rows as f64;
     let mut points = Vec::new();
@@ -79,7 +81,8 @@ fn containment() -> basemat::Result<(FemModel, Vec<usize>)> {
 }
 
 fn main() -> basemat::Result<()> {
-    // The crate contains one record only. It also acts along y with 70 % half a second later, and upwards with 40 %.
+    // The crate contains one record only. It also acts along y with 70 % half a second later, and upwards with 40 % a
+    // second later.
     let record = el_centro_1940();
     let motion = Triaxial {
         x: Some(record.clone()),
@@ -88,7 +91,7 @@ fn main() -> basemat::Result<()> {
     };
     let soil = Soil::from_shear_wave_speed(500.0, 1.0 / 3.0, 2000.0)?;
     let (model, raft_shells) = containment()?;
-    // Moments at the nodes of the raft, along x and y; tension at the underside is positive.
+    // Bending moments at the nodes of the raft, in axes along x and across it.
     let moment_rows = model.shell_rows(&raft_shells, |_| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
     // Forces of the wall on the raft.
     let wall_foot = model.section_in_space(0.0, [0.0; 2])?;

@@ -12,9 +12,11 @@ use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::structure::{ModalDamping, PlanStorey, RigidBody, StoreyBuilding};
 
-/// Length along x and width along y, m.
+/// Length of the floors along x and their width along y, m.
 const FLOOR_SIDES: [f64; 2] = [20.0, 12.0];
+/// Time step, s.
 const TIME_STEP: f64 = 0.005;
+const STEP_COUNT: usize = 2400;
 
 /// The building with its walls at the distance `eccentricity` (m) from the middle.
 fn building(eccentricity: f64) -> basemat::Result<StoreyBuilding> {
@@ -23,10 +25,10 @@ fn building(eccentricity: f64) -> basemat::Result<StoreyBuilding> {
     StoreyBuilding::new(mat, &[PlanStorey { stiffness_center: [eccentricity, 0.0], ..storey }; 4])
 }
 
-/// Runs the building; its probes are transverse drifts of the lowest storey at both ends.
+/// Runs the building; the probes are the transverse drifts of the lowest storey at both ends of the floor.
 fn shake(eccentricity: f64, law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
     let building = building(eccentricity)?;
-    // Each drift has components along x and y, and a twist.
+    // A drift at a point has the components x, y and twist; y is transverse.
     let left_drift = building.drift_at(0, [-0.5 * FLOOR_SIDES[0], 0.0])?[1].clone();
     let right_drift = building.drift_at(0, [0.5 * FLOOR_SIDES[0], 0.0])?[1].clone();
     let soil = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
@@ -39,9 +41,9 @@ fn shake(eccentricity: f64, law: impl InterfaceLaw + 'static) -> basemat::Result
         .motion(Triaxial { y: Some(record), ..Triaxial::default() })
         .probe(Probe::displacement("left", left_drift))
         .probe(Probe::displacement("right", right_drift))
-        .expected_steps(2400)
+        .expected_steps(STEP_COUNT)
         .build()?;
-    let run = simulation.run(2400, |_| {})?;
+    let run = simulation.run(STEP_COUNT, |_| {})?;
     assert!(run.energy_error < 1e-9);
     Ok(run)
 }

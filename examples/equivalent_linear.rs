@@ -4,9 +4,10 @@
 //! cargo run --release --example equivalent_linear
 //! ```
 //!
-//! The record, El Centro at 0.3 g, is the motion of the rock's outcrop. Strain-compatible moduli and damping
-//! are iterated with the curves of Vucetic & Dobry and of EPRI. The building's ground and the surface motion
-//! follow from them. The same building on soil with small-strain properties is computed beside it. Writes wave speeds, strains and spectra to `target/equivalent_linear.svg`.
+//! The record, El Centro at 0.3 g, is the motion of the rock's outcrop. Strain-compatible moduli and damping are
+//! iterated with the curves of Vucetic & Dobry and of EPRI. They determine the building's ground and the motion of the
+//! surface. For comparison, the same building is computed on soil with small-strain properties. The example writes wave
+//! speeds, strains and spectra to `target/equivalent_linear.svg`.
 
 use basemat::bem::ElasticGround;
 use basemat::motion::SpectralOrdinate;
@@ -17,7 +18,9 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile, StrainCurves};
 use basemat::structure::ModalDamping;
 use basemat::{Result, plot, unobserved};
 
+/// Time step, s.
 const TIME_STEP: f64 = 0.01;
+const STEP_COUNT: usize = 1500;
 
 /// Clay over sand on rock, in layers of two metres, and the strain curves of each layer.
 fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
@@ -50,20 +53,21 @@ fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
         .interface(Coulomb::new(0.5)?)
         .motion(site.surface.clone())
         .probe(Probe::acceleration("roof", roof))
-        .expected_steps(1500)
+        .expected_steps(STEP_COUNT)
         .build()?;
     let mut time_series = Recorder::new().start(&simulation)?;
-    let run = simulation.run(1500, |state| time_series.record(state))?;
+    let run = simulation.run(STEP_COUNT, |state| time_series.record(state))?;
     Ok((run, time_series.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
 }
 
 fn main() -> Result<()> {
     let (profile, curves) = site()?;
-    let rock = el_centro_1940().scaled_to_peak(0.3 * STANDARD_GRAVITY)?.resampled(TIME_STEP)?;
-    let rock = rock.padded(0.0, 15.0)?;
+    let record = el_centro_1940().scaled_to_peak(0.3 * STANDARD_GRAVITY)?.resampled(TIME_STEP)?;
+    // Time for the site to come to rest after the record.
+    let rock_motion = record.padded(0.0, 15.0)?;
     let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     let options = EquivalentLinearOptions::of_magnitude(6.9);
-    let compatible = column.equivalent_linear(&rock, &curves, &options, &mut unobserved)?;
+    let compatible = column.equivalent_linear(&rock_motion, &curves, &options, &mut unobserved)?;
     println!("{compatible}\n\n{}\n", compatible.profile);
 
     // The same site with small-strain properties.
@@ -72,11 +76,12 @@ fn main() -> Result<()> {
         small_strain_curves.push(StrainCurves::Linear { damping: curve.at(0.0)?[1] });
     }
     let linear =
-        column.equivalent_linear(&rock, &small_strain_curves, &options, &mut unobserved)?;
+        column.equivalent_linear(&rock_motion, &small_strain_curves, &options, &mut unobserved)?;
 
     let periods = log_spaced(0.05, 3.0, 121)?;
     let mut comparison = Comparison::default();
-    let mut spectra = vec![("rock", rock.response_spectrum(&periods, 0.05, &mut unobserved)?)];
+    let mut spectra =
+        vec![("rock", rock_motion.response_spectrum(&periods, 0.05, &mut unobserved)?)];
     for (name, site) in [("linear", &linear), ("strain-compatible", &compatible)] {
         let (run, roof_spectrum) = shake(site)?;
         let roof_peak = roof_spectrum

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The tower is a tube of beams on a rigid pedestal, the octagon is made of shells. Octagons of three thicknesses have
-//! the same weight of concrete and fill. The table shows when the octagon no longer counts as rigid.
+//! the same weight of concrete and fill. The table shows from which thickness on the octagon is no longer practically
+//! rigid.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,23 +14,32 @@ use basemat::coupled::Load;
 use basemat::fem::{BeamSection, Direction, LumpedMass, Material, Mesh, Shell, SpaceBeam};
 use basemat::prelude::*;
 
-/// Width of the octagon across flats, radius of the pedestal, height of the hub, m.
+/// Width of the octagon between parallel sides, m.
 const OCTAGON_WIDTH: f64 = 20.0;
+/// Radius of the pedestal, m.
 const PEDESTAL_RADIUS: f64 = 3.0;
+/// Height of the hub, m.
 const HUB_HEIGHT: f64 = 92.0;
-/// Mass of concrete and fill, kg/m²; mass of rotor and nacelle, kg.
+/// Mass of concrete and fill, kg/m².
 const MASS_PER_AREA: f64 = 6600.0;
+/// Mass of rotor and nacelle, kg.
 const ROTOR_MASS: f64 = 200.0e3;
-/// Sectors and rings of shells outside the pedestal; beams of the tower.
+/// Number of sectors of the octagon.
 const SECTOR_COUNT: usize = 16;
+/// Number of rings of shells outside the pedestal.
 const RING_COUNT: usize = 4;
+/// Number of beam elements of the tower.
 const BEAM_COUNT: usize = 6;
-/// Thrust on the rotor in steady wind and its largest increase in the gust, N; duration of the gust, s.
+/// Thrust on the rotor in steady wind, N.
 const STEADY_THRUST: f64 = 0.7e6;
+/// Largest increase of the thrust in the gust, N.
 const GUST_THRUST: f64 = 0.45e6;
+/// Duration of the gust, s.
 const GUST_DURATION: f64 = 10.5;
+/// Number of steps of 0.01 s.
+const STEP_COUNT: usize = 1500;
 
-/// Thrust in a gust that first falls (N), as the "Mexican hat" of IEC 61400-1.
+/// Thrust (N) over time (s) in a gust of the "Mexican hat" shape of IEC 61400-1, whose wind first decreases.
 fn thrust(time: f64) -> f64 {
     let t = (time / GUST_DURATION).clamp(0.0, 1.0);
     STEADY_THRUST - 0.5 * GUST_THRUST * (3.0 * PI * t).sin() * (1.0 - (TAU * t).cos())
@@ -42,10 +52,11 @@ fn edge(angle: f64) -> f64 {
 
 struct Turbine {
     model: FemModel,
-    /// Elements of the octagon outside the pedestal.
+    /// Indices of the octagon's elements outside the pedestal.
     octagon_shells: Vec<usize>,
-    /// Nodes at the foot and at the top of the tower.
+    /// Node at the foot of the tower.
     foot: usize,
+    /// Node at the top of the tower.
     hub: usize,
 }
 
@@ -90,19 +101,23 @@ fn turbine(thickness: f64) -> basemat::Result<Turbine> {
         }
     }
 
-    // A tube 4.2 m wide, 30 mm thick; bolts and fittings in the density.
+    // A tube 4.2 m wide and 30 mm thick; the density includes bolts and fittings.
     let steel = Material::new(210.0e9, 0.3, 8500.0)?;
-    let radius = 2.1_f64;
-    let wall = 0.030;
-    let moment = PI * radius.powi(3) * wall;
-    let tube = BeamSection::new(TAU * radius * wall, [moment; 2], 2.0 * moment)?;
-    let mut below = foot;
+    let tube_radius = 2.1_f64;
+    let wall_thickness = 0.030;
+    let second_moment = PI * tube_radius.powi(3) * wall_thickness;
+    let tube = BeamSection::new(
+        TAU * tube_radius * wall_thickness,
+        [second_moment; 2],
+        2.0 * second_moment,
+    )?;
+    let mut lower_node = foot;
     for k in 1..=BEAM_COUNT {
-        let above = mesh.add_node_at([0.0, 0.0, HUB_HEIGHT * k as f64 / BEAM_COUNT as f64])?;
-        mesh.add(SpaceBeam::new([below, above], steel, tube, [1.0, 0.0, 0.0])?)?;
-        below = above;
+        let upper_node = mesh.add_node_at([0.0, 0.0, HUB_HEIGHT * k as f64 / BEAM_COUNT as f64])?;
+        mesh.add(SpaceBeam::new([lower_node, upper_node], steel, tube, [1.0, 0.0, 0.0])?)?;
+        lower_node = upper_node;
     }
-    let hub = below;
+    let hub = lower_node;
     mesh.add(LumpedMass::in_space(hub, ROTOR_MASS, [0.0; 3])?)?;
     let damping = RayleighDamping::from_ratios([0.3, 3.0], [0.04, 0.02])?;
     let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &rings[0])?;
@@ -123,21 +138,22 @@ fn main() -> basemat::Result<()> {
             .structure(model)
             .interface(Coulomb::new(0.6)?)
             .load(Load::new(hub_displacement.clone(), thrust))
-            .expected_steps(1500)
+            .expected_steps(STEP_COUNT)
             .build()?;
         let at_rest = simulation.static_displacement().to_vec();
         let mut largest_displacement = 0.0_f64;
         let mut largest_tilt = 0.0_f64;
         let mut largest_opening = 0.0_f64;
         let mut largest_moment = 0.0_f64;
-        let run = simulation.run(1500, |state| {
+        let run = simulation.run(STEP_COUNT, |state| {
             let changes = state.displacement().iter();
-            let u: Vec<f64> =
+            let displacement: Vec<f64> =
                 at_rest.iter().zip(changes).map(|(rest, change)| rest + change).collect();
-            largest_displacement = largest_displacement.max(hub_displacement.value(&u));
-            largest_tilt = largest_tilt.max(foot_tilt.value(&u));
+            largest_displacement = largest_displacement.max(hub_displacement.value(&displacement));
+            largest_tilt = largest_tilt.max(foot_tilt.value(&displacement));
             largest_opening = largest_opening.max(state.uplifted_fraction);
-            let moments = moment_rows.iter().flat_map(|row| row.value(&u).principal_moments());
+            let moments =
+                moment_rows.iter().flat_map(|row| row.value(&displacement).principal_moments());
             largest_moment = moments.fold(largest_moment, |largest, m| largest.max(m.abs()));
         })?;
         println!(

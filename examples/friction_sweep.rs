@@ -5,10 +5,9 @@
 //! cargo run --release --features rayon --example friction_sweep
 //! ```
 //!
-//! Each motion of a small set is scaled to the same peak acceleration, and all cases are run. The fraction of
-//! motions with more slip than a limit is one row of a fragility table. The set is far too small for a
-//! design; it shows the method. [`Sweep`] runs the cases on all processors if the crate is built with the
-//! feature `rayon`.
+//! The motions of a small set are scaled to the same peak acceleration, and all cases are run. The fractions of motions
+//! that cause more slip than a limit form a fragility table. The set is far too small for a design; it shows the
+//! method. [`Sweep`] runs the cases on all processors if the crate is built with the feature `rayon`.
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -18,10 +17,13 @@ const FRICTION_COEFFICIENTS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
 /// Peak accelerations, g.
 const PEAK_ACCELERATIONS: [f64; 4] = [0.2, 0.3, 0.45, 0.6];
 
+/// Index in [`PEAK_ACCELERATIONS`] of the peak whose slips are printed for each motion.
+const PRINTED_PEAK_INDEX: usize = 2;
+
 /// Slip above which a motion counts in the fraction, m.
 const SLIP_LIMIT: f64 = 0.025;
 
-/// Set of motions: El Centro unchanged, compressed and stretched in time, and sine pulses.
+/// Names and records of the motions: El Centro unchanged, compressed and stretched in time, and sine pulses.
 fn motions() -> Result<Vec<(&'static str, Record)>> {
     let record = el_centro_1940();
     Ok(vec![
@@ -44,7 +46,7 @@ fn sine_pulse(period: f64) -> Result<Record> {
     Record::from_fn(0.01 * period, period, |time| (std::f64::consts::TAU * time / period).sin())
 }
 
-/// Largest mean slip of the block's base (m) in 15 s.
+/// Runs 15 s of a block on soil; returns the largest mean slip of its base, m.
 fn slide(friction: f64, motion: Record) -> Result<f64> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let block = RigidBlock::new(8.0, 4.0, 2000.0)?;
@@ -61,8 +63,8 @@ fn slide(friction: f64, motion: Record) -> Result<f64> {
 fn main() -> Result<()> {
     let motions = motions()?;
 
-    // Every combination is a case; the last parameter varies fastest. The row of a case that fails holds its
-    // error; the other cases continue.
+    // Every combination of values is a case; the last parameter varies fastest. If a case fails, its row contains the
+    // error, and the other cases continue.
     let sweep = Sweep::grid([
         Parameter::numbers("friction", FRICTION_COEFFICIENTS),
         Parameter::numbers("peak_g", PEAK_ACCELERATIONS),
@@ -80,17 +82,17 @@ fn main() -> Result<()> {
 
     println!(
         "Largest mean slip of the base in mm, motions scaled to {} g\n",
-        PEAK_ACCELERATIONS[2]
+        PEAK_ACCELERATIONS[PRINTED_PEAK_INDEX]
     );
     print!("{:<26}", "friction");
     for friction in FRICTION_COEFFICIENTS {
         print!("{friction:>9.2}");
     }
     println!();
-    for (m, (name, _)) in motions.iter().enumerate() {
+    for (motion_index, (name, _)) in motions.iter().enumerate() {
         print!("{name:<26}");
         for row in &rows {
-            match &row[2][m] {
+            match &row[PRINTED_PEAK_INDEX][motion_index] {
                 Ok(slip) => print!("{:>9.1}", 1e3 * slip),
                 Err(_) => print!("{:>9}", "failed"),
             }
@@ -107,10 +109,10 @@ fn main() -> Result<()> {
     for (friction, row) in FRICTION_COEFFICIENTS.iter().zip(&rows) {
         print!("{:<26}", format!("friction {friction:.2}"));
         for slips_at_peak in *row {
-            let computed: Vec<f64> =
+            let computed_slips: Vec<f64> =
                 slips_at_peak.iter().filter_map(|slip| slip.as_ref().ok().copied()).collect();
-            let exceeding = computed.iter().filter(|&&slip| slip > SLIP_LIMIT).count();
-            print!("{:>9.2}", exceeding as f64 / computed.len().max(1) as f64);
+            let exceeding_count = computed_slips.iter().filter(|&&slip| slip > SLIP_LIMIT).count();
+            print!("{:>9.2}", exceeding_count as f64 / computed_slips.len().max(1) as f64);
         }
         println!();
     }

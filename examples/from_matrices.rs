@@ -4,11 +4,10 @@
 //! cargo run --release --example from_matrices
 //! ```
 //!
-//! Usually another program writes `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals writes them
-//! into `target`. The structure has 50 000 degrees of freedom. The files are read back, and the nodes of the base are
-//! added. A Craig–Bampton reduction keeps these
-//! nodes and the lowest modes of the rest. Two periods of the full model are computed as well, for
-//! comparison.
+//! Usually another program writes `mass.mtx` and `stiffness.mtx`; this example assembles them from a mesh of
+//! quadrilaterals and writes them into `target`. The structure has 50 000 degrees of freedom. The files are read back,
+//! and the nodes of the base are added. A Craig–Bampton reduction keeps these nodes and the lowest modes of the
+//! structure on a fixed base. Two periods of the full model are computed as well, for comparison.
 
 use std::path::Path;
 use std::time::Instant;
@@ -19,10 +18,14 @@ use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::prelude::*;
 use basemat::structure::{CraigBampton, DofCombination, MatrixModel};
 
+/// Time step, s.
 const TIME_STEP: f64 = 0.01;
+/// Number of modes on a fixed base that the reduced model keeps.
 const FIXED_BASE_MODES: usize = 20;
-/// Number of steps in two of the tower's longest periods, 2.1 s each.
-const TWO_PERIODS: usize = 430;
+/// Number of steps of the reduced model.
+const STEP_COUNT: usize = 3000;
+/// Number of steps of the full model: two of the tower's longest periods, 2.1 s each.
+const TWO_PERIOD_STEPS: usize = 430;
 
 /// Writes the matrices of a tower; returns its base and the displacement of its top.
 ///
@@ -55,13 +58,15 @@ fn simulation(
         .motion(el_centro_1940())
         .probe(Probe::absolute_displacement("top", top))
         .coordinates(coordinates)
-        .expected_steps(3000)
+        .expected_steps(STEP_COUNT)
         .build()
 }
 
-/// Displacement of the tower's top at every step, m, and the seconds per step.
+/// Motion of the tower's top, and the computing time.
 struct TopMotion {
+    /// Displacement at the end of every step, m.
     displacement: Vec<f64>,
+    /// Mean computing time of a step, s.
     step_seconds: f64,
 }
 
@@ -91,35 +96,35 @@ fn main() -> Result<()> {
     println!("{} degrees of freedom read in {read_seconds:.2} s", model.dofs());
 
     let begin = Instant::now();
-    let reduced = CraigBampton::new(FIXED_BASE_MODES).reduce(model.clone())?;
+    let reduced_model = CraigBampton::new(FIXED_BASE_MODES).reduce(model.clone())?;
     println!(
         "reduced to {} degrees of freedom in {:.2} s, modes on a fixed base {:.2} to {:.1} Hz",
-        reduced.dofs(),
+        reduced_model.dofs(),
         begin.elapsed().as_secs_f64(),
-        reduced.frequencies()[0],
-        reduced.frequencies()[FIXED_BASE_MODES - 1]
+        reduced_model.frequencies()[0],
+        reduced_model.frequencies()[FIXED_BASE_MODES - 1]
     );
-    let recovery = reduced.recovery();
+    let recovery = reduced_model.recovery();
 
     // In the reduced model the top is not a degree of freedom but a weighted sum of them.
     let reduced_top = recovery.row(&top)?;
-    let mut small_simulation = simulation(reduced, reduced_top, Coordinates::Auto)?;
+    let mut small_simulation = simulation(reduced_model, reduced_top, Coordinates::Auto)?;
     let mut large_simulation = simulation(model, top.clone(), Coordinates::Physical)?;
-    let full = run(&mut large_simulation, TWO_PERIODS)?;
-    let reduced = run(&mut small_simulation, 3000)?;
+    let full_motion = run(&mut large_simulation, TWO_PERIOD_STEPS)?;
+    let reduced_motion = run(&mut small_simulation, STEP_COUNT)?;
 
     println!("\n          degrees of freedom   ms per step   times real time");
     for (name, simulation, motion) in
-        [("full", &large_simulation, &full), ("reduced", &small_simulation, &reduced)]
+        [("full", &large_simulation, &full_motion), ("reduced", &small_simulation, &reduced_motion)]
     {
         let dofs = simulation.state().absolute_displacement().len();
         let seconds = motion.step_seconds;
         println!("{name:<8} {dofs:9} {:13.3} {:17.1}", 1e3 * seconds, TIME_STEP / seconds);
     }
 
-    let pairs = full.displacement.iter().zip(&reduced.displacement);
+    let pairs = full_motion.displacement.iter().zip(&reduced_motion.displacement);
     let difference: Vec<f64> = pairs.map(|(full, reduced)| full - reduced).collect();
-    let largest_displacement = largest_magnitude(&full.displacement);
+    let largest_displacement = largest_magnitude(&full_motion.displacement);
     println!(
         "\nsway of the top in the first {:.1} s: {:.1} mm, reduced and full apart by {:.1e} of it",
         TIME_STEP * difference.len() as f64,

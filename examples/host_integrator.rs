@@ -1,15 +1,17 @@
-//! A time integrator of another program with ground and contact of this crate.
+//! Ground and contact of this crate inside the time integrator of another program.
 //!
-//! The program integrates the structure by central differences. The crate computes the ground and the contact of each
-//! step.
+//! The other program (the host) integrates the structure by central differences. In every step, this crate computes the
+//! ground and the contact.
 //!
 //! ```text
 //! cargo run --release --example host_integrator
 //! ```
 //!
-//! The structure is a rigid base with a mass on a column. Its degrees of freedom are base to the right, base
-//! up, rotation, mass to the right. Its mass matrix is diagonal, so a step needs no solve: `u₁ = 2u₀ − u₋₁ +
-//! Δt² M⁻¹ (−K u₀ − BᵀA τ)`, and `W = G¹ + Δt² B M⁻¹ BᵀA`.
+//! The structure is a rigid base with a mass on a column. Its degrees of freedom are the displacements of the base to
+//! the right and up, the rotation, and the displacement of the mass to the right. The mass matrix M is diagonal, so a
+//! step solves no system of equations: `u₁ = 2u₀ − u₋₁ + Δt² M⁻¹ (−K u₀ − BᵀA τ)`. With the step compliance G¹ of the
+//! ground, the Delassus matrix of the contact is `W = G¹ + Δt² B M⁻¹ BᵀA`. B gives the base displacement under the
+//! elements, and A contains their lengths.
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::ContactProblem;
@@ -17,21 +19,25 @@ use basemat::interface::{ContactState, Coulomb, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::{Result, Soil, unobserved};
 
+/// Time step, s.
 const TIME_STEP: f64 = 1.0e-3;
 const STEP_COUNT: usize = 8000;
+/// Half the width of the base, m.
 const HALF_WIDTH: f64 = 2.0;
+/// Height of the column, m.
 const COLUMN_HEIGHT: f64 = 6.0;
+/// Lateral stiffness of the column, N/m².
 const COLUMN_STIFFNESS: f64 = 4.0e6;
-/// Diagonal of the mass matrix.
+/// Diagonal of the mass matrix, per metre of thickness: kg, kg, kg·m and kg.
 const DIAGONAL_MASS: [f64; 4] = [10.0e3, 30.0e3, 40.0e3, 20.0e3];
 
-/// Element means of the base displacement for elements at `centers` (2Q, normal components down first).
+/// Mean displacement of the base over each of the Q elements at `centers`: Q components down, then Q to the right.
 fn base_displacement(u: &[f64; 4], centers: &[f64]) -> Vec<f64> {
     let down = centers.iter().map(|x| -(u[1] + x * u[2]));
     down.chain(centers.iter().map(|_| u[0])).collect()
 }
 
-/// Acceleration due to the column and to tractions on the base.
+/// Accelerations of the degrees of freedom due to the column and to tractions on the base.
 fn acceleration(u: &[f64; 4], traction: &[f64], centers: &[f64], lengths: &[f64]) -> [f64; 4] {
     let count = centers.len();
     let shear = COLUMN_STIFFNESS * (u[3] - u[0] + COLUMN_HEIGHT * u[2]);
@@ -53,24 +59,24 @@ fn main() -> Result<()> {
     let centers: Vec<f64> = ground.elements().iter().map(|element| element.center()[0]).collect();
     let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();
     let count = centers.len();
-    let size = 2 * count;
+    let component_count = 2 * count;
 
     ground.prepare(TIME_STEP, Some(STEP_COUNT), &mut unobserved)?;
-    let mut delassus = vec![0.0; size * size];
+    let mut delassus = vec![0.0; component_count * component_count];
     ground.step_compliance(&mut delassus)?;
-    for column in 0..size {
-        let mut unit = vec![0.0; size];
+    for column in 0..component_count {
+        let mut unit = vec![0.0; component_count];
         unit[column] = 1.0;
         let response =
             acceleration(&[0.0; 4], &unit, &centers, &lengths).map(|a| TIME_STEP * TIME_STEP * a);
         for (row, displacement) in base_displacement(&response, &centers).into_iter().enumerate() {
-            delassus[row * size + column] -= displacement;
+            delassus[row * component_count + column] -= displacement;
         }
     }
 
-    // The weight is spread evenly at the beginning of the run.
+    // At the beginning of the run the weight is distributed evenly over the base.
     let pressure = STANDARD_GRAVITY * DIAGONAL_MASS[1] / (2.0 * HALF_WIDTH);
-    let mut at_rest = vec![0.0; size];
+    let mut at_rest = vec![0.0; component_count];
     at_rest[..count].fill(pressure);
     let mut contact = ContactProblem::new(delassus, vec![Box::new(Coulomb::new(0.4)?)])?
         .with_static_tractions(at_rest)?;
@@ -78,25 +84,28 @@ fn main() -> Result<()> {
     let mut start =
         contact.start(&vec![PreviousContact::new(closed, Mode::Stick, TIME_STEP); count])?;
 
-    let mut previous = [0.0; 4];
-    let mut current = [0.0; 4];
-    let mut history = vec![0.0; size];
-    let mut free_field = vec![0.0; size];
+    let mut previous_displacement = [0.0; 4];
+    let mut current_displacement = [0.0; 4];
+    let mut history = vec![0.0; component_count];
+    let mut free_field = vec![0.0; component_count];
     let mut largest_shear = 0.0_f64;
     let mut largest_open_count = 0;
     let mut largest_slip = 0.0_f64;
     for step in 1..=STEP_COUNT {
         ground.history(&mut history)?;
         ground.free_field(&motion, step as f64 * TIME_STEP, &mut free_field);
-        let untouched = acceleration(&current, &vec![0.0; size], &centers, &lengths);
-        let mut next: [f64; 4] = std::array::from_fn(|i| {
-            2.0 * current[i] - previous[i] + TIME_STEP * TIME_STEP * untouched[i]
+        let free_acceleration =
+            acceleration(&current_displacement, &vec![0.0; component_count], &centers, &lengths);
+        let mut next_displacement: [f64; 4] = std::array::from_fn(|i| {
+            2.0 * current_displacement[i] - previous_displacement[i]
+                + TIME_STEP * TIME_STEP * free_acceleration[i]
         });
-        let base = base_displacement(&next, &centers);
-        let jump: Vec<f64> = (0..size).map(|i| free_field[i] + history[i] - base[i]).collect();
-        let solution = contact.solve(&jump, &start)?;
-        let by_tractions = acceleration(&[0.0; 4], solution.traction, &centers, &lengths);
-        for (u, a) in next.iter_mut().zip(by_tractions) {
+        let base = base_displacement(&next_displacement, &centers);
+        let displacement_jump: Vec<f64> =
+            (0..component_count).map(|i| free_field[i] + history[i] - base[i]).collect();
+        let solution = contact.solve(&displacement_jump, &start)?;
+        let traction_acceleration = acceleration(&[0.0; 4], solution.traction, &centers, &lengths);
+        for (u, a) in next_displacement.iter_mut().zip(traction_acceleration) {
             *u += TIME_STEP * TIME_STEP * a;
         }
         ground.commit(solution.traction);
@@ -107,11 +116,10 @@ fn main() -> Result<()> {
         for element in solution.states {
             largest_slip = largest_slip.max(element.slip.abs());
         }
-        // Accepts the step: its end, with the laws' state variables, becomes the previous contact of the next
-        // step.
+        // Accepts the step: the contact at its end, with the laws' state variables, becomes the start of the next step.
         solution.commit(&mut start)?;
-        previous = current;
-        current = next;
+        previous_displacement = current_displacement;
+        current_displacement = next_displacement;
     }
     println!(
         "base shear {:.1} kN/m, {largest_open_count} of {count} elements open at once",

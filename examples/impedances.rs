@@ -4,11 +4,11 @@
 //! cargo run --release --example impedances
 //! ```
 //!
-//! A strip 6 m wide is bonded to soil of 150 m/s in three cases: an undamped half-plane; a layer of 6 m with
-//! 5 % damping on rock of 450 m/s with 1 %; and the same layer on a rigid base. Every K(ω) is split into a
-//! spring Re K and a dashpot Im K/ω. The dashpots of the half-plane represent radiation damping only. The
-//! dashpots of the layers contain the soil's own damping, and almost nothing else below the first frequency
-//! of the layer, 6.25 Hz. A half-plane therefore overestimates the damping of such a site.
+//! A strip 6 m wide is bonded to soil of 150 m/s in three cases: an undamped half-plane; a layer of 6 m with 5 %
+//! damping on rock of 450 m/s with 1 %; and the same layer on a rigid base. Every dynamic stiffness K(ω) is split into
+//! a spring Re K and a dashpot Im K/ω. The dashpots of the half-plane represent radiation damping only. The dashpots of
+//! the layers contain the soil's own damping, and almost nothing else below the first frequency of the layer, 6.25 Hz.
+//! A half-plane therefore overestimates the damping of such a site.
 
 use std::error::Error;
 use std::path::Path;
@@ -22,14 +22,14 @@ use basemat::unobserved;
 
 /// Half the strip's width, m.
 const HALF_WIDTH: f64 = 3.0;
-/// Number of elements, graded: errors below 1 %.
+/// Number of graded elements, enough for errors below 1 %.
 const ELEMENT_COUNT: usize = 24;
 const COMPONENT_NAMES: [&str; 4] = ["hh", "vv", "rr", "hr"];
 
 /// A ground's name and its impedances.
 type Case = (&'static str, Vec<StripImpedance>);
 
-/// K over μ, μ, μ B² and μ B, as in published tables: real and imaginary parts.
+/// Real and imaginary parts of K_hh/μ, K_vv/μ, K_rr/(μ B²) and K_hr/(μ B), as in published tables.
 fn normalized(impedance: &StripImpedance, soil: Soil) -> [[f64; 2]; 4] {
     let scales =
         [1.0, 1.0, HALF_WIDTH * HALF_WIDTH, HALF_WIDTH].map(|scale| soil.shear_modulus() * scale);

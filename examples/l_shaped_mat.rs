@@ -14,12 +14,16 @@ use basemat::plot::contact_plan;
 use basemat::prelude::*;
 use basemat::structure::{BaseNode, MatrixModel};
 
-/// Ends of each wing along x and y, m; height, m; mean density, kg/m³.
+/// Ends of each wing along x and y, m.
 const WING_ENDS: [[[f64; 2]; 2]; 2] = [[[0.0, 24.0], [0.0, 8.0]], [[0.0, 8.0], [8.0, 20.0]]];
+/// Height of both wings, m.
 const BUILDING_HEIGHT: f64 = 18.0;
+/// Mean density, kg/m³.
 const MASS_DENSITY: f64 = 350.0;
 /// Point of the degrees of freedom u_x, u_y, u_z, r_x, r_y, r_z: the middle of the bounding box.
 const MAT_CENTER: [f64; 2] = [12.0, 10.0];
+/// Number of steps of 0.01 s.
+const STEP_COUNT: usize = 1000;
 
 /// Adds the mass of a cuboid. Its centre moves by u + r × (x, y, z), and it rotates about its centre.
 fn add_wing(mass: &mut Triplets, along_x: [f64; 2], along_y: [f64; 2]) {
@@ -60,10 +64,10 @@ fn main() -> basemat::Result<()> {
         .ground(ground)
         .interface(Coulomb::new(0.5)?)
         .motion(Triaxial { x: Some(record.scaled(1.5)?), ..Triaxial::default() })
-        .expected_steps(1000)
+        .expected_steps(STEP_COUNT)
         .build()?;
     let mut series = Recorder::new().contact(1).start(&simulation)?;
-    let run = simulation.run(1000, |state| series.record(state))?;
+    let run = simulation.run(STEP_COUNT, |state| series.record(state))?;
 
     println!("                                along x    along y");
     for (name, factor, along_x, along_y) in [
@@ -78,7 +82,7 @@ fn main() -> basemat::Result<()> {
     }
     let whole = &run.whole;
     println!("\ntorque {:.1} MN·m", 1e-6 * whole.torque.magnitude());
-    println!("twist at the end {:.3} mrad", 1e3 * series.series(Quantity::Twist)[1000]);
+    println!("twist at the end {:.3} mrad", 1e3 * series.series(Quantity::Twist)[STEP_COUNT]);
     let uplift = whole.uplifted_area.highest;
     println!("uplifted area {:.0} m² at {:.2} s", uplift.value, uplift.time);
     if let Some((pressed, peak)) = run.largest_pressure() {

@@ -4,10 +4,11 @@
 //! cargo run --release --example layered_site
 //! ```
 //!
-//! The record, El Centro at 0.15 g, is the motion of the rock's outcrop. A simulation takes the motion of the
-//! free surface. On rock this is the record itself; elsewhere `site::SoilColumn` computes it from the record
-//! and the damped layers. The three soils have the same surface motion, so differences come only from the
-//! ground under the building. The half-plane has the properties of the surface soil. Writes floor spectra to `target/layered_site.svg`.
+//! The record, El Centro at 0.15 g, is the motion of the rock's outcrop. The input of a simulation is the motion of the
+//! free surface. On rock this is the record itself; on the three soils `site::SoilColumn` computes it from the record
+//! and the damped layers. The three soils have the same surface motion, so the results differ only because of the
+//! ground under the building. The half-plane has the properties of the surface soil. The example writes floor spectra
+//! to `target/layered_site.svg`.
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::EnergyTerm;
@@ -19,11 +20,14 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::ModalDamping;
 use basemat::{Result, plot, unobserved};
 
+/// Time step, s.
 const TIME_STEP: f64 = 5.0e-3;
+const STEP_COUNT: usize = 2000;
+/// Number of contact elements.
 const ELEMENT_COUNT: usize = 10;
 const FRICTION_COEFFICIENT: f64 = 0.3;
 
-/// Six metres of clay and twelve of sand on rock; damping ratios are multiplied by `damping_factor`.
+/// Six metres of clay and twelve metres of sand on rock; damping ratios are multiplied by `damping_factor`.
 fn site(damping_factor: f64) -> Result<SoilProfile> {
     let rock_damping = band_damping(0.01 * damping_factor)?;
     let profile = SoilProfile::on_half_plane(rock()?).with_bedrock_damping(rock_damping);
@@ -50,7 +54,7 @@ fn building() -> Result<ShearBuilding> {
     ShearBuilding::new(8.0, 60.0e3, 4.0e5, &[Storey::new(3.0, 24.0e3, 60.0e6); 5])
 }
 
-/// The ground under the building.
+/// The ground under the building, for one of the sites.
 fn ground(site: impl Into<SoilProfile>) -> Result<ElasticGround> {
     ElasticGround::under(site, &building()?, ELEMENT_COUNT)
 }
@@ -65,10 +69,10 @@ fn shake(motion: &Record, ground: ElasticGround) -> Result<(Run, Vec<SpectralOrd
         .interface(Coulomb::new(FRICTION_COEFFICIENT)?)
         .motion(motion.clone())
         .probe(Probe::acceleration("roof", roof))
-        .expected_steps(2000)
+        .expected_steps(STEP_COUNT)
         .build()?;
     let mut time_series = Recorder::new().start(&simulation)?;
-    let run = simulation.run(2000, |state| time_series.record(state))?;
+    let run = simulation.run(STEP_COUNT, |state| time_series.record(state))?;
     Ok((run, time_series.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
 }
 
@@ -94,13 +98,14 @@ fn main() -> Result<()> {
         ("layers, damped", &surface, ground(damped_site)?),
     ] {
         let (run, spectrum) = shake(motion, ground)?;
-        let peak = spectrum
+        let roof_peak = spectrum
             .iter()
-            .fold(0.0_f64, |peak, ordinate| peak.max(ordinate.pseudo_acceleration));
-        let soil = 100.0 * run.energy_balance.fraction(EnergyTerm::Soil).unwrap_or(f64::NAN);
+            .fold(0.0_f64, |roof_peak, ordinate| roof_peak.max(ordinate.pseudo_acceleration));
+        let soil_percent =
+            100.0 * run.energy_balance.fraction(EnergyTerm::Soil).unwrap_or(f64::NAN);
         println!(
-            "{name:<16} roof's spectrum {:.1} g, {soil:.0} % of the energy to the soil",
-            peak / STANDARD_GRAVITY
+            "{name:<16} roof's spectrum {:.1} g, {soil_percent:.0} % of the energy to the soil",
+            roof_peak / STANDARD_GRAVITY
         );
         comparison.add(name, run);
         spectra.push((name, spectrum));

@@ -4,10 +4,10 @@
 //! cargo run --release --example machine_foundation
 //! ```
 //!
-//! The unbalance m e rotates at the top of the block and pulls outwards with m e ω². For a bonded block, the
-//! amplitude follows from (K(ω) − ω² M) u = F with the impedances K of the ground. Steady vibration is compared with
-//! this amplitude. In a run-up through resonance, the machine lifts the block at high speed, and the frequency domain no
-//! longer applies.
+//! The unbalance m e rotates at the top of the block and causes a force of m e ω² in its direction. For a bonded block,
+//! the amplitude of steady vibration follows from (K(ω) − ω² M) u = F with the impedances K of the ground. Runs in the
+//! time domain are compared with this amplitude. In a run-up through resonance, the machine lifts the block at high
+//! speed, and a computation in the frequency domain no longer applies.
 
 use std::f64::consts::TAU;
 
@@ -16,10 +16,13 @@ use basemat::coupled::{Load, SimulationBuilder};
 use basemat::prelude::*;
 use basemat::{Complex, Result, unobserved};
 
+/// Width of the block, m.
 const BLOCK_WIDTH: f64 = 6.0;
+/// Height of the block, m.
 const BLOCK_HEIGHT: f64 = 2.0;
-/// Unbalance m e, kg m per metre.
+/// Unbalance m e per metre of thickness, kg·m/m.
 const UNBALANCE_MOMENT: f64 = 14.0;
+/// Time step, s.
 const TIME_STEP: f64 = 1.0e-3;
 
 fn foundation() -> Result<RigidBlock> {
@@ -37,7 +40,7 @@ struct Rotation {
     speed: f64,
 }
 
-/// The block under an unbalance with this rotation over time (s).
+/// Builder of a simulation of the block under an unbalance; `rotation` is a function of time (s).
 fn machine(
     rotation: impl Fn(f64) -> Rotation + Clone + Send + 'static,
 ) -> Result<SimulationBuilder> {
@@ -60,10 +63,10 @@ fn machine(
         .structure(block))
 }
 
-/// Amplitude of the top at a steady `frequency` (Hz) in the time domain, from the last ten turns of a run.
+/// Amplitude (m) of the top at a steady `frequency` (Hz), from the last ten turns of a run in the time domain.
 fn time_domain_amplitude(frequency: f64) -> Result<f64> {
     let omega = TAU * frequency;
-    // The force grows for ten turns, and the vibration becomes steady in thirty.
+    // The force grows during ten turns of the machine. During the next thirty turns the vibration becomes steady.
     let builder = machine(move |t| Rotation {
         angle: omega * t,
         speed: omega * (0.1 * frequency * t).min(1.0).sqrt(),
@@ -74,21 +77,21 @@ fn time_domain_amplitude(frequency: f64) -> Result<f64> {
     let mut series = Vec::with_capacity(steps);
     simulation.run(steps, |state| series.push((state.time, state.probes[0])))?;
     let mut mean = 0.0;
-    for (_, u) in &series {
-        mean += u / steps as f64;
+    for (_, displacement) in &series {
+        mean += displacement / steps as f64;
     }
     let mut cosine = 0.0;
     let mut sine = 0.0;
-    for (time, u) in &series {
-        cosine += 2.0 * (u - mean) * (omega * time).cos() / steps as f64;
-        sine += 2.0 * (u - mean) * (omega * time).sin() / steps as f64;
+    for (time, displacement) in &series {
+        cosine += 2.0 * (displacement - mean) * (omega * time).cos() / steps as f64;
+        sine += 2.0 * (displacement - mean) * (omega * time).sin() / steps as f64;
     }
     Ok(cosine.hypot(sine))
 }
 
-/// The same amplitude by (K(ω) − ω² M) u = F.
+/// Amplitude of the top by (K(ω) − ω² M) u = F, at the frequency of `impedance`.
 ///
-/// u contains the horizontal displacement of the base and its rotation to the right.
+/// The components of u are the horizontal displacement of the base and its rotation to the right.
 fn frequency_domain_amplitude(impedance: &StripImpedance) -> Result<f64> {
     let block = foundation()?;
     let omega_squared = (TAU * impedance.frequency).powi(2);
@@ -107,10 +110,10 @@ fn frequency_domain_amplitude(impedance: &StripImpedance) -> Result<f64> {
 /// Runs the machine up from 2 to 25 Hz in 12 s.
 fn run_up(law: impl InterfaceLaw + 'static) -> Result<Run> {
     let first_speed = TAU * 2.0;
-    let rate = TAU * 23.0 / 12.0;
+    let speed_rate = TAU * 23.0 / 12.0;
     let builder = machine(move |t| Rotation {
-        angle: first_speed * t + 0.5 * rate * t * t,
-        speed: first_speed + rate * t,
+        angle: first_speed * t + 0.5 * speed_rate * t * t,
+        speed: first_speed + speed_rate * t,
     })?;
     let mut simulation = builder.interface(law).build()?;
     simulation.run(simulation.steps_for(12.0), |_| {})
@@ -118,15 +121,16 @@ fn run_up(law: impl InterfaceLaw + 'static) -> Result<Run> {
 
 fn main() -> Result<()> {
     let frequencies = [4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0];
-    println!("Top of the block, mm, bonded\n\n  Hz   marched   frequency domain   difference");
+    println!("Top of the block, mm, bonded\n\n  Hz   time domain   frequency domain   difference");
+    // 2 % is the limit for errors of the time step and of the elements.
     for impedance in ground()?.impedances(&frequencies, StripContact::Bonded, &mut unobserved)? {
         let frequency = impedance.frequency;
         let reference = frequency_domain_amplitude(&impedance)?;
-        let computed = time_domain_amplitude(frequency)?;
-        let error = computed / reference - 1.0;
+        let time_domain = time_domain_amplitude(frequency)?;
+        let error = time_domain / reference - 1.0;
         println!(
-            "{frequency:4}{:10.4}{:19.4}{:11.2} %",
-            1e3 * computed,
+            "{frequency:4}{:14.4}{:19.4}{:11.2} %",
+            1e3 * time_domain,
             1e3 * reference,
             1e2 * error
         );

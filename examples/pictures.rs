@@ -4,7 +4,7 @@
 //! cargo run --release --features png --example pictures
 //! ```
 //!
-//! A flexible tower on soil under El Centro, with a bonded base and with a base that may uplift and slide.
+//! A flexible tower on soil is shaken by El Centro, with a bonded base and with a base that may uplift and slide.
 
 use std::path::Path;
 
@@ -20,14 +20,14 @@ const STEP_COUNT: usize = 2400;
 const FRICTION_COEFFICIENT: f64 = 0.3;
 const PICTURE_FOLDER: &str = "target/pictures";
 
-/// A run of the tower, its time series, and the mesh for pictures.
-struct Shaken {
+/// A run of the tower, its time series, and the shape of its mesh for pictures.
+struct PictureData {
     run: Run,
     series: TimeSeries,
     shape: DeformedShape,
 }
 
-fn shake(law: impl InterfaceLaw + 'static) -> Result<Shaken> {
+fn shake(law: impl InterfaceLaw + 'static) -> Result<PictureData> {
     let material = Material::new(1.0e9, 0.2, 800.0)?;
     let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
@@ -37,7 +37,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Shaken> {
     let shape = DeformedShape::of_model(&tower);
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
-        // Two equal contact elements under each element of the mesh.
+        // 16 contact elements of equal length: two under each element of the mesh.
         .ground(ElasticGround::new(soil, Strip::under(&tower, 16, Grading::Uniform)?)?)
         .structure(tower)
         .interface(law)
@@ -46,13 +46,13 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Shaken> {
         // A bonded base has no friction coefficient; its factor of safety uses this one.
         .safety_friction([FRICTION_COEFFICIENT])
         .build()?;
-    // Base and structure at every sixth step, for pictures in time.
+    // Contact and structure are kept at every sixth step, for pictures over time.
     let mut series = Recorder::new().contact(6).motion(6).start(&simulation)?;
     let run = simulation.run(STEP_COUNT, |state| series.record(state))?;
-    Ok(Shaken { run, series, shape })
+    Ok(PictureData { run, series, shape })
 }
 
-/// Saves SVG for the web and for paper, PNG for programs that do not read SVG.
+/// Saves a picture as SVG, and as PNG with twice the resolution for programs that do not read SVG.
 fn save(name: &str, picture: &Svg) -> Result<()> {
     let folder = Path::new(PICTURE_FOLDER);
     picture.save(folder.join(format!("{name}.svg")))?;
@@ -61,8 +61,8 @@ fn save(name: &str, picture: &Svg) -> Result<()> {
 
 fn main() -> Result<()> {
     let bonded = shake(Bonded)?;
-    let free = shake(Coulomb::new(FRICTION_COEFFICIENT)?)?;
-    let series = [("bonded", &bonded.series), ("uplift and slip", &free.series)];
+    let contact = shake(Coulomb::new(FRICTION_COEFFICIENT)?)?;
+    let series = [("bonded", &bonded.series), ("uplift and slip", &contact.series)];
 
     for (name, quantity) in [
         ("base_shear", Quantity::BaseShear),
@@ -76,39 +76,40 @@ fn main() -> Result<()> {
     }
     save("roof", &plot::probe_time_series("Roof acceleration", &series, "roof")?)?;
     let rocking =
-        [("bonded", bonded.series.rocking(0)?), ("uplift and slip", free.series.rocking(0)?)];
+        [("bonded", bonded.series.rocking(0)?), ("uplift and slip", contact.series.rocking(0)?)];
     save("moment_rotation", &plot::moment_rotation("Rocking of the base", &rocking, &[])?)?;
     save("settlement_rotation", &plot::settlement_rotation("Rocking of the base", &rocking, &[])?)?;
-    save("modes", &plot::mode_map("Contact modes", &free.series)?)?;
-    save("pressure", &plot::pressure_envelope("Pressure under the base", &free.run)?)?;
-    save("energy", &plot::energy("Energy", &free.series)?)?;
+    save("modes", &plot::mode_map("Contact modes", &contact.series)?)?;
+    save("pressure", &plot::pressure_envelope("Pressure under the base", &contact.run)?)?;
+    save("energy", &plot::energy("Energy", &contact.series)?)?;
 
     let periods = log_spaced(0.05, 2.0, 100)?;
     let free_field = el_centro_1940().response_spectrum(&periods, 0.05, &mut unobserved)?;
     let bonded_roof = bonded.series.floor_spectrum("roof", &periods, 0.05)?;
-    let free_roof = free.series.floor_spectrum("roof", &periods, 0.05)?;
+    let contact_roof = contact.series.floor_spectrum("roof", &periods, 0.05)?;
     let spectra = [
         ("free field", &free_field[..]),
         ("roof, bonded", &bonded_roof),
-        ("roof, uplift and slip", &free_roof),
+        ("roof, uplift and slip", &contact_roof),
     ];
     save("spectra", &plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
-    let rotation = free.run.whole.base_rotation;
-    let times = [rotation.lowest.time, rotation.highest.time];
+    let base_rotation = contact.run.whole.base_rotation;
+    let times = [base_rotation.lowest.time, base_rotation.highest.time];
     save(
         "shapes",
-        &plot::deformed_shapes("Largest rotations", &free.shape, &free.series, &times, 50.0)?,
+        &plot::deformed_shapes("Largest rotations", &contact.shape, &contact.series, &times, 50.0)?,
     )?;
     // Browsers play the animation.
-    let out = Path::new(PICTURE_FOLDER);
-    plot::animation("Tower", &free.shape, &free.series, 50.0, 2.0)?
-        .save(out.join("tower_moving.svg"))?;
-    let grids = paraview::write_series(out.join("vtk"), "tower", &free.shape, &free.series)?;
+    let folder = Path::new(PICTURE_FOLDER);
+    plot::animation("Tower", &contact.shape, &contact.series, 50.0, 2.0)?
+        .save(folder.join("tower_moving.svg"))?;
+    let grids =
+        paraview::write_series(folder.join("vtk"), "tower", &contact.shape, &contact.series)?;
 
-    println!("{}", free.run);
+    println!("{}", contact.run);
     let mut comparison = Comparison::default();
-    comparison.extend([("bonded", bonded.run), ("uplift and slip", free.run)]);
-    println!("\n{comparison}\n\npictures and {grids} grids in {}", out.display());
+    comparison.extend([("bonded", bonded.run), ("uplift and slip", contact.run)]);
+    println!("\n{comparison}\n\npictures and {grids} grids in {}", folder.display());
     Ok(())
 }

@@ -4,8 +4,8 @@
 //! cargo run --release --example portal_frame
 //! ```
 //!
-//! Each column stands on a rigid footing. Only friction resists sliding. The footings rotate on their edges,
-//! move towards each other, and stay there. A [`Sweep`] over widths and friction coefficients shows how far
+//! Each column stands on a rigid footing, and only friction resists the sliding of the footings. They rotate on their
+//! edges, move towards each other, and do not return. A [`Sweep`] over widths and friction coefficients shows how far
 //! they move.
 
 use basemat::Result;
@@ -14,19 +14,23 @@ use basemat::prelude::*;
 use basemat::structure::DofCombination;
 use basemat::sweep::CaseError;
 
-/// Height of the columns and distance between them, m.
+/// Height of the columns, m.
 const COLUMN_HEIGHT: f64 = 5.0;
+/// Distance between the columns, m.
 const BEAM_SPAN: f64 = 8.0;
-/// Area (m²/m) and second moment of area (m⁴/m): columns 0.6 × 0.6 m and a beam 0.4 × 0.8 m, every 5 m.
+/// Area (m²/m) and second moment of area (m⁴/m) of columns of 0.6 × 0.6 m in frames 5 m apart.
 const COLUMN_SECTION: [f64; 2] = [0.072, 2.16e-3];
+/// Area (m²/m) and second moment of area (m⁴/m) of beams 0.4 m wide and 0.8 m high in frames 5 m apart.
 const BEAM_SECTION: [f64; 2] = [0.064, 3.413e-3];
+/// Young's modulus of concrete, Pa.
 const YOUNG_MODULUS: f64 = 30.0e9;
 /// Mass of the roof, frame included, kg/m.
 const ROOF_MASS: f64 = 30.0e3;
-/// Frequency of lateral vibration on a fixed base, Hz.
+/// Frequency of lateral vibration on a fixed base, Hz; the stiffness damping refers to it.
 const LATERAL_FREQUENCY: f64 = 2.707;
-/// Thickness (m) and density (kg/m³) of the footings.
+/// Thickness of the footings, m.
 const FOOTING_THICKNESS: f64 = 0.6;
+/// Density of the footings, kg/m³.
 const FOOTING_DENSITY: f64 = 2400.0;
 
 /// A massless member of the frame.
@@ -67,7 +71,7 @@ fn portal(width: f64) -> Result<FemModel> {
     Ok(model)
 }
 
-/// Mean drift of the roof relative to the footings.
+/// Mean horizontal displacement of the columns' tops relative to the footings.
 fn roof_drift(model: &FemModel) -> Result<DofCombination> {
     let mut drift = DofCombination::default();
     for x in [-0.5 * BEAM_SPAN, 0.5 * BEAM_SPAN] {
@@ -82,7 +86,7 @@ fn shake(width: f64, law: impl InterfaceLaw + 'static) -> Result<Run> {
     let model = portal(width)?;
     let drift = roof_drift(&model)?;
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
-    // 5 % of critical damping for lateral vibration on a fixed base.
+    // Damping proportional to the stiffness: 5 % of critical for lateral vibration on a fixed base.
     let damping = RayleighDamping::new(0.0, 0.05 / (std::f64::consts::PI * LATERAL_FREQUENCY))?;
     let mut simulation = Simulation::builder(0.005)
         .ground(ElasticGround::under(soil, &model, 8)?)
@@ -119,6 +123,7 @@ fn main() -> Result<()> {
             );
         }
     }
+    // Footings end closer to each other by the difference of their residual slips.
     let widths = [1.6, 2.0, 2.4, 3.0];
     let frictions = [0.2, 0.3, 0.4, 0.5, 0.6];
     let sweep = Sweep::grid([

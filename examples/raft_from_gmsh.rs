@@ -1,12 +1,13 @@
-//! A building on a raft, from a mesh by Gmsh, that lifts and slides.
+//! A building on a raft that lifts and slides; its mesh was made by Gmsh.
 //!
 //! ```text
 //! cargo run --release --example raft_from_gmsh
 //! ```
 //!
-//! `examples/data/raft_building.py` writes the mesh with Gmsh's module for Python. The names of its groups say which
-//! elements are raft, floors, core and columns; thicknesses, sections and materials are defined here. The core stands
-//! at one end of the building, so an earthquake along y turns it, and the far corner of the roof moves most.
+//! `examples/data/raft_building.py` writes the mesh with Gmsh's module for Python. The elements of raft, floors, core
+//! and columns are groups with these names in the mesh; thicknesses, sections and materials are defined in this
+//! example. The core stands at one end of the building, so an earthquake along y turns the building, and the far corner
+//! of the roof moves most.
 
 use basemat::fem::{BeamSection, Direction, Material};
 use basemat::io::{GmshPart, GmshSpaceMesh};
@@ -14,19 +15,23 @@ use basemat::motion::Triaxial;
 use basemat::prelude::*;
 
 const GMSH_FILE: &[u8] = include_bytes!("data/raft_building.msh");
-/// Time step, s, and number of steps.
+/// Time step, s.
 const TIME_STEP: f64 = 0.01;
 const STEP_COUNT: usize = 1000;
 
 /// The building, and the node at the far corner of its roof.
 fn building() -> basemat::Result<(FemModel, usize)> {
     let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
-    // Floors 25 cm thick with 300 kg/m² of finishes and live load.
+    // Floors 25 cm thick; their density includes 300 kg/m² of finishes and live load.
     let floor = Material::new(30.0e9, 0.2, 2500.0 + 300.0 / 0.25)?;
-    // Columns of 50 cm × 50 cm.
-    let side = 0.5_f64;
-    let second_moment = side.powi(4) / 12.0;
-    let column = BeamSection::new(side * side, [second_moment; 2], 0.1406 * side.powi(4))?;
+    // Columns of 50 cm × 50 cm; the torsion constant of a square of side a is 0.1406 a⁴.
+    let column_side = 0.5_f64;
+    let second_moment = column_side.powi(4) / 12.0;
+    let column = BeamSection::new(
+        column_side * column_side,
+        [second_moment; 2],
+        0.1406 * column_side.powi(4),
+    )?;
 
     let gmsh = GmshSpaceMesh::from_reader("raft_building.msh", GMSH_FILE)?;
     let mesh = gmsh.mesh(&[
@@ -35,18 +40,22 @@ fn building() -> basemat::Result<(FemModel, usize)> {
         ("core", GmshPart::Shell(concrete, 0.3)),
         ("columns", GmshPart::Beam(concrete, column, [1.0, 0.0, 0.0])),
     ])?;
-    let corner = gmsh.cells(0, "roof corner")?[0][0];
+    let roof_corner = gmsh.cells(0, "roof corner")?[0][0];
     let model = FemModel::on_faces(mesh, &gmsh.cells(2, "raft")?)?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05, 0.05])?;
-    Ok((model.with_rayleigh(damping), corner))
+    Ok((model.with_rayleigh(damping), roof_corner))
 }
 
 fn main() -> basemat::Result<()> {
     let (model, roof_corner) = building()?;
     let mut mass = Triplets::new(model.dofs());
     model.mass(&mut mass)?;
-    let up = model.rigid_motion(Direction::Z, [0.0; 3]);
-    let total_mass: f64 = mass.entries().iter().map(|&(i, j, m)| up[i] * m * up[j]).sum();
+    let vertical_motion = model.rigid_motion(Direction::Z, [0.0; 3]);
+    let total_mass: f64 = mass
+        .entries()
+        .iter()
+        .map(|&(i, j, m)| vertical_motion[i] * m * vertical_motion[j])
+        .sum();
     println!("{} degrees of freedom, {:.0} t", model.dofs(), 1e-3 * total_mass);
 
     let soil = Soil::from_shear_wave_speed(250.0, 1.0 / 3.0, 1900.0)?;

@@ -1,12 +1,12 @@
-//! A slender rigid block under one sine pulse: limits of uplift, rocking angle, and overturning.
+//! A slender rigid block under one sine pulse: when it lifts off, how far it rocks, and when it overturns.
 //!
 //! ```text
 //! cargo run --release --example rocking_block
 //! ```
 //!
-//! On rigid ground the block lifts off at the ground acceleration g b/h (Housner 1963). Elastic soil deforms
-//! under the edge. The block therefore rocks on less than its whole base, and loses energy by radiation as
-//! well as by impacts.
+//! On rigid ground the block lifts off at the ground acceleration g b/h, with half the width b and half the height h
+//! (Housner 1963). Elastic soil deforms under the edges, so the block rocks on a part of its base instead of an edge,
+//! and loses energy by radiation as well as by impacts.
 
 use std::ops::ControlFlow::{Break, Continue};
 
@@ -14,8 +14,11 @@ use basemat::Result;
 use basemat::prelude::*;
 use basemat::reference::RockingBlock;
 
+/// Half the width of the block, m.
 const HALF_WIDTH: f64 = 0.5;
+/// Half the height of the block, m.
 const HALF_HEIGHT: f64 = 2.0;
+/// Time step, s.
 const TIME_STEP: f64 = 2.0e-3;
 const STEP_COUNT: usize = 2000;
 
@@ -26,10 +29,10 @@ fn pulse(peak: f64, period: f64) -> Result<Record> {
     })
 }
 
-/// Rocks the block on soil of this shear wave speed (m/s) until its rotation exceeds `tipping` (rad).
-fn rock(shear_wave_speed: f64, motion: Record, tipping: f64) -> Result<Run> {
+/// Runs the block on soil of this shear wave speed (m/s) until the rotation exceeds `tipping_angle` (rad).
+fn rock(shear_wave_speed: f64, motion: Record, tipping_angle: f64) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(shear_wave_speed, 0.33, 1900.0)?;
-    // With P–Δ the weight helps to overturn the block once it leans.
+    // With the P–Δ effect, the weight adds to the overturning moment of a tilted block.
     let block = RigidBlock::new(2.0 * HALF_WIDTH, 2.0 * HALF_HEIGHT, 2400.0)?
         .with_p_delta(STANDARD_GRAVITY)?;
     let mut simulation = Simulation::builder(TIME_STEP)
@@ -38,21 +41,21 @@ fn rock(shear_wave_speed: f64, motion: Record, tipping: f64) -> Result<Run> {
         .interface(Coulomb::uplift_only())
         .motion(motion)
         .build()?;
-    // The observer ends the run when the block is past its tipping point.
+    // The observer ends the run when the rotation exceeds the tipping angle.
     simulation.run(STEP_COUNT, |state| {
-        if state.base_rotation.abs() > tipping { Break(()) } else { Continue(()) }
+        if state.base_rotation.abs() > tipping_angle { Break(()) } else { Continue(()) }
     })
 }
 
 fn main() -> Result<()> {
     let rigid = RockingBlock::new(HALF_WIDTH, HALF_HEIGHT, STANDARD_GRAVITY)?;
-    let onset = rigid.uplift_acceleration();
-    let tipping = rigid.slenderness_angle();
+    let uplift_acceleration = rigid.uplift_acceleration();
+    let tipping_angle = rigid.slenderness_angle();
     println!(
-        "Block {} m × {} m: rocks on rigid ground from {onset:.2} m/s² on, tips at {:.0} mrad",
+        "Block {} m × {} m: rocks on rigid ground from {uplift_acceleration:.2} m/s² on, tips at {:.0} mrad",
         2.0 * HALF_WIDTH,
         2.0 * HALF_HEIGHT,
-        1e3 * tipping
+        1e3 * tipping_angle
     );
     println!("Sine pulse of 0.8 s; acceleration in units of g b/h\n");
     println!("{:<8}{:>24}{:>42}", "", "soil of 400 m/s", "soil of 120 m/s");
@@ -61,9 +64,9 @@ fn main() -> Result<()> {
     for strength in [0.5, 0.9, 1.2, 1.6, 2.0, 2.6, 3.2] {
         print!("{strength:<8.2}");
         for speed in [400.0, 120.0] {
-            let run = rock(speed, pulse(strength * onset, 0.8)?, tipping)?;
+            let run = rock(speed, pulse(strength * uplift_acceleration, 0.8)?, tipping_angle)?;
             let rotation = run.whole.base_rotation.magnitude();
-            let outcome = if rotation > tipping {
+            let outcome = if rotation > tipping_angle {
                 "falls"
             } else if run.whole.uplifted_fraction.largest().value >= 0.5 {
                 "rocks"
@@ -72,7 +75,7 @@ fn main() -> Result<()> {
             } else {
                 "stands"
             };
-            // The crate assumes small rotations, and warns when they become large.
+            // The crate assumes small rotations; a run with large rotations has a warning.
             let mark = if run.warnings.is_empty() { ' ' } else { '*' };
             warned |= mark == '*';
             print!(

@@ -4,10 +4,11 @@
 //! cargo run --release --example rocking_footing
 //! ```
 //!
-//! A wall stands on a footing of 5 × 2 m in sand. The bearing pressure of the sand follows from its friction angle. It bounds
-//! the pressure under each cell, which settles in every cycle of load. As the footing rocks, the force on the soil moves to an
-//! edge. Once the bearing pressure carries that force, the moment has reached its capacity: stronger shaking hardly raises
-//! it, and turns and sinks the footing instead.
+//! A wall stands on a footing of 5 × 2 m in sand. The bearing pressure of the sand follows from its friction angle, and
+//! is the upper limit of the pressure under each cell. The sand under a cell settles in every cycle of load. As the
+//! footing rocks, the force on the soil moves to an edge. When the pressure at the edge has reached the bearing
+//! pressure, the moment has reached its capacity. Stronger shaking then hardly increases the moment; instead the
+//! footing tilts more and settles more.
 
 use basemat::interface::CyclicYielding;
 use basemat::motion::Triaxial;
@@ -19,26 +20,28 @@ use basemat::structure::RigidBody;
 const FOOTING_SIDES: [f64; 2] = [5.0, 2.0];
 /// Depth of the footing, m.
 const FOOTING_DEPTH: f64 = 0.5;
-/// kg/m³.
+/// Density of the sand, kg/m³.
 const SAND_DENSITY: f64 = 1700.0;
-/// Settlement under half of the bearing pressure, m, and range of pressure in which the sand stays elastic, relative to it.
+/// Settlement under half of the bearing pressure, m.
 const REFERENCE_SETTLEMENT: f64 = 5.0e-3;
+/// Range of pressure in which the sand stays elastic, relative to the bearing pressure.
 const ELASTIC_RANGE: f64 = 0.1;
-/// Mass, kg, and height of its centre above the base, m.
+/// Mass of wall and footing, kg.
 const WALL_MASS: f64 = 150.0e3;
+/// Height of the centre of mass above the base, m.
 const WALL_CENTER_HEIGHT: f64 = 4.0;
 
-/// The wall with its footing.
+/// The wall with its footing, as one rigid body.
 fn wall() -> basemat::Result<RigidBody> {
     let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
     let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];
     // Moments of inertia of a wall twice as high as the centre, 4 m long and 0.5 m thick.
-    let about = |one: f64, other: f64| WALL_MASS * (one * one + other * other) / 12.0;
+    let cuboid_inertia = |a: f64, b: f64| WALL_MASS * (a * a + b * b) / 12.0;
     let height = 2.0 * WALL_CENTER_HEIGHT;
     let inertia = [
-        [about(0.5, height), 0.0, 0.0],
-        [0.0, about(4.0, height), 0.0],
-        [0.0, 0.0, about(4.0, 0.5)],
+        [cuboid_inertia(0.5, height), 0.0, 0.0],
+        [0.0, cuboid_inertia(4.0, height), 0.0],
+        [0.0, 0.0, cuboid_inertia(4.0, 0.5)],
     ];
     RigidBody::from_mass(outline, WALL_MASS, inertia, [0.0, 0.0, WALL_CENTER_HEIGHT])
 }
@@ -86,7 +89,7 @@ fn main() -> basemat::Result<()> {
             1e3 * run.whole.residual_settlement,
         );
         assert!(run.energy_error < 1e-9);
-        // Vertical accelerations of the rocking wall change the force on the soil, and the capacity with it.
+        // Vertical accelerations of the rocking wall change the force on the soil, and thereby the moment capacity.
         assert!(moment < 1.25 * capacity.moments[0]);
     }
     Ok(())

@@ -1,26 +1,26 @@
-//! Peaks of a free-standing pier, and how many of their digits are certain.
+//! Peaks of a free-standing pier, and how many of their digits are reliable.
 //!
 //! ```text
 //! cargo run --release --example rocking_pier
 //! ```
 //!
-//! A stone pier of 6 × 4 × 18 m on rock, its centre of gravity beside the middle, is shaken along both axes. It rocks on
-//! its edges and corners and twists on them. Some peaks then belong to one motion out of many: the same pier with a
-//! step that differs by 1 %, or on fewer cells, has others. The page names it, and `sensitivity` finds the peaks that
-//! can be quoted.
+//! A stone pier of 6 × 4 × 18 m on rock, with an eccentric centre of gravity, is shaken along both axes. It rocks on
+//! its edges and corners, and twists on them. Such a motion is sensitive to small changes: with a time step that
+//! differs by 1 %, or on fewer cells, some peaks have different values. The printed run warns of this, and
+//! `sensitivity` finds the reliable digits of each peak.
 
 use basemat::analyses::sensitivity;
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::structure::RigidBody;
 
-/// Length, width and height, m.
+// Sides of the pier along x, y and z, m.
 const PIER_LENGTH: f64 = 6.0;
 const PIER_WIDTH: f64 = 4.0;
 const PIER_HEIGHT: f64 = 18.0;
-/// kg/m³.
+/// Density of the masonry, kg/m³.
 const MASS_DENSITY: f64 = 1900.0;
-/// Centre of gravity from the middle of the base, m.
+/// Position of the centre of gravity relative to the middle of the base, m.
 const GRAVITY_CENTER: [f64; 3] = [0.4, 0.3, 9.0];
 
 fn pier() -> basemat::Result<RigidBody> {
@@ -69,7 +69,7 @@ fn main() -> basemat::Result<()> {
         ])
     })?;
     println!("{peaks}");
-    // All digits of the weight are certain, and at most the first one of the torque.
+    // All six digits of the weight are reliable, and at most the first digit of the torque.
     assert_eq!(peaks.peak("weight, kN")?.digits(), 6);
     assert!(peaks.peak("torque, kN·m")?.digits() <= 1);
     Ok(())

@@ -4,15 +4,15 @@
 //! cargo run --release --example shear_building
 //! ```
 //!
-//! Each storey gets two probes, one for the shear force in its columns and one for its drift. Probes are
-//! weighted sums of the structure's degrees of freedom; the building returns the weights.
+//! Each storey gets two probes, one for the shear force in its columns and one for its drift. Probes are weighted sums
+//! of the structure's degrees of freedom; `ShearBuilding` returns the weights.
 
 use basemat::Result;
 use basemat::prelude::*;
 
 const STOREY_COUNT: usize = 5;
 
-/// Runs twelve seconds of El Centro; `friction` is used for the factor of safety against sliding.
+/// Runs twelve seconds of El Centro; `friction` is the coefficient for the factor of safety against sliding.
 fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
     // Storeys of 3 m, 30 t/m and 60 MN/m² on a mat 8 m wide; soil with a shear wave speed of 250 m/s.
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); STOREY_COUNT];

@@ -2,26 +2,28 @@
 //!
 //! `cargo run --release --example site_amplification`
 //!
-//! Lines `layer` hold thickness (m), shear wave speed (m/s), density (kg/m³) and damping ratio from the
-//! surface down; the half-plane has no thickness. Lines `transfer` hold frequency (Hz) and the real and
-//! imaginary parts of two transfer functions: to the surface from the rock's outcrop, and from the rock
-//! within.
+//! Lines that begin with `layer` contain thickness (m), shear wave speed (m/s), density (kg/m³) and damping ratio from
+//! the surface down; the half-plane has no thickness. Lines that begin with `transfer` contain the frequency (Hz) and
+//! the real and imaginary parts of two transfer functions: from the motion of a rock outcrop to the surface, and from
+//! the motion of the rock below the layers to the surface.
 
 use basemat::Result;
 use basemat::prelude::*;
 use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{Hysteretic, SoilProfile};
 
-/// Thickness (m), shear wave speed (m/s), density (kg/m³) and damping ratio, from the surface down.
+/// Layers: thickness (m), shear wave speed (m/s), density (kg/m³) and damping ratio, from the surface down.
 const SOIL_LAYERS: [[f64; 4]; 4] = [
     [3.0, 140.0, 1700.0, 0.05],
     [7.5, 220.0, 1850.0, 0.03],
     [4.0, 160.0, 1750.0, 0.08],
     [12.0, 380.0, 2000.0, 0.02],
 ];
-/// Shear wave speed (m/s), density (kg/m³) and damping ratio.
+/// Shear wave speed of the rock, m/s.
 const ROCK_SPEED: f64 = 800.0;
+/// Density of the rock, kg/m³.
 const ROCK_DENSITY: f64 = 2300.0;
+/// Damping ratio of the rock.
 const ROCK_DAMPING: f64 = 0.01;
 
 fn main() -> Result<()> {

@@ -4,17 +4,18 @@
 //! cargo run --release --example snap_back
 //! ```
 //!
-//! The pull belongs to the static state, and is removed at the first step. The building then vibrates in its
-//! lowest mode on the soil. Its period is longer than on a fixed base, and its damping is radiation damping
-//! alone.
+//! The pull is part of the static state, and is removed at the first step. The building then vibrates in its lowest
+//! mode on the soil. The period is longer than on a fixed base, and the only damping is radiation damping.
 
 use basemat::Result;
 use basemat::coupled::Load;
 use basemat::prelude::*;
 
+/// Time step, s.
 const TIME_STEP: f64 = 0.002;
+const STEP_COUNT: usize = 2000;
 
-/// A peak of the free vibration: its step, and its height above the position at rest, m.
+/// A peak of the free vibration.
 struct Peak {
     step: usize,
     height: f64,
@@ -35,20 +36,26 @@ fn main() -> Result<()> {
             .probe(Probe::displacement("roof", roof))
             .build()?;
         let initial_displacement = simulation.static_displacement()[roof];
-        let mut sway = Vec::new();
-        let run = simulation.run(2000, |state| sway.push(state.probes[0]))?;
-        // Peaks on the side of the pull, relative to the position at rest.
-        let rest = sway[sway.len() - 1];
-        let peaks: Vec<Peak> = (1..sway.len() - 1)
-            .filter(|&k| sway[k] > sway[k - 1] && sway[k] >= sway[k + 1] && sway[k] > rest)
-            .map(|k| Peak { step: k, height: sway[k] - rest })
+        let mut roof_displacement = Vec::new();
+        let run = simulation.run(STEP_COUNT, |state| roof_displacement.push(state.probes[0]))?;
+        // Peaks on the side of the pull, relative to the displacement at the end of the run, when the roof is almost at
+        // rest.
+        let final_displacement = roof_displacement[roof_displacement.len() - 1];
+        let peaks: Vec<Peak> = (1..roof_displacement.len() - 1)
+            .filter(|&k| {
+                roof_displacement[k] > roof_displacement[k - 1]
+                    && roof_displacement[k] >= roof_displacement[k + 1]
+                    && roof_displacement[k] > final_displacement
+            })
+            .map(|k| Peak { step: k, height: roof_displacement[k] - final_displacement })
             .collect();
-        // The first peak still contains higher modes.
-        let last = peaks.len().min(5) - 1;
-        let cycles = (last - 1) as f64;
-        let period = (peaks[last].step - peaks[1].step) as f64 * TIME_STEP / cycles;
+        // The first peak is left out, since it still contains higher modes; five peaks are enough for period and
+        // damping.
+        let last_peak = peaks.len().min(5) - 1;
+        let cycles = (last_peak - 1) as f64;
+        let period = (peaks[last_peak].step - peaks[1].step) as f64 * TIME_STEP / cycles;
         let damping =
-            (peaks[1].height / peaks[last].height).ln() / (std::f64::consts::TAU * cycles);
+            (peaks[1].height / peaks[last_peak].height).ln() / (std::f64::consts::TAU * cycles);
         println!(
             "{speed:8.0}{:13.2}{period:12.3}{:13.2}{:9.0e}",
             1e3 * initial_displacement,

@@ -4,10 +4,11 @@
 //! cargo run --release --example square_block
 //! ```
 //!
-//! A block of 16 × 16 m, 20 m high, stands on soil of 250 m/s. Three records shake it at the same time,
-//! mostly along a diagonal. If the block may uplift and slide, its corner rises a quarter more than if it is
-//! bonded. If the block is turned by 45° under the same motion, it rocks about an edge, and that corner rises
-//! less. It is compared with a slice in plane strain: one metre of the block stands on an endless strip under one horizontal record.
+//! A block of 16 × 16 m, 20 m high, stands on soil with a shear wave speed of 250 m/s. Three components of motion shake
+//! it at the same time, mostly along a diagonal. If the block may uplift and slide, its corner rises a quarter more
+//! than if it is bonded. If the block is turned by 45° under the same motion, it rocks about an edge, and that corner
+//! rises less. The block is also compared with a slice in plane strain: one metre of the block on an endless strip,
+//! under one horizontal record.
 
 use std::f64::consts::PI;
 
@@ -16,16 +17,18 @@ use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::structure::RigidBody;
 
-/// Side and height of the block, m; mean density, kg/m³.
+/// Side of the square base, m.
 const BLOCK_SIDE: f64 = 16.0;
+/// Height of the block, m.
 const BLOCK_HEIGHT: f64 = 20.0;
+/// Mean density, kg/m³.
 const MASS_DENSITY: f64 = 400.0;
 /// Time step, s.
 const TIME_STEP: f64 = 0.005;
 
-/// Runs the record; the probe `corner` is the vertical motion of a corner due to rotations of the base.
+/// Runs El Centro; the probe "corner" is the vertical displacement of a corner due to rotations of the base.
 ///
-/// `corner` contains the weights of the rotations.
+/// `corner` contains the degrees of freedom of the rotations, and their weights in this displacement.
 fn shake(
     builder: basemat::coupled::SimulationBuilder,
     law: impl InterfaceLaw + 'static,
@@ -39,9 +42,9 @@ fn shake(
     simulation.run(simulation.steps_for(record.duration()), |_| {})
 }
 
-/// The block in three dimensions, turned by `angle` (rad) about the vertical axis.
+/// Builder of the simulation of the block in three dimensions, turned by `angle` (rad) about the vertical axis.
 ///
-/// In the code the motion is turned back.
+/// The block keeps its axes; instead, the motion is turned by −`angle`.
 fn block(soil: Soil, angle: f64) -> basemat::Result<basemat::coupled::SimulationBuilder> {
     let block = RigidBody::cuboid([BLOCK_SIDE, BLOCK_SIDE, BLOCK_HEIGHT], MASS_DENSITY)?;
     let record = el_centro_1940();
@@ -59,9 +62,8 @@ fn block(soil: Soil, angle: f64) -> basemat::Result<basemat::coupled::Simulation
 
 fn main() -> basemat::Result<()> {
     let soil = Soil::from_shear_wave_speed(250.0, 1.0 / 3.0, 1900.0)?;
-    // In three dimensions: 8 × 8 cells under the block's base; records act to the right, away and up. Degrees
-    // of freedom are u_x, u_y, u_z, r_x, r_y, r_z; the rotations about x and y lift the corner to the right
-    // and away.
+    // In three dimensions there are 8 × 8 cells under the block's base. The degrees of freedom are u_x, u_y, u_z, r_x,
+    // r_y and r_z; the rotations about x and y lift the corner at positive x and y.
     let corner = [(3, 0.5 * BLOCK_SIDE), (4, -0.5 * BLOCK_SIDE)];
     let bonded = shake(block(soil, 0.0)?, Bonded, &corner)?;
     let free = shake(block(soil, 0.0)?, Coulomb::new(0.5)?, &corner)?;

@@ -4,24 +4,31 @@
 //! cargo run --release --example tilted_block
 //! ```
 //!
-//! Housner's formulas (1963) give the time until the block is upright and its largest opposite tilt on rigid ground. Soil deforms under the edge, and less energy is lost
-//! at an impact.
+//! For rigid ground, Housner's formulas (1963) give the time until the block is upright and its largest tilt to the
+//! other side. Soil deforms under the edge, and less energy is lost at an impact.
 
 use basemat::Result;
 use basemat::coupled::GravityStage;
 use basemat::prelude::*;
 use basemat::reference::RockingBlock;
 
+/// Width of the block, m.
 const BLOCK_WIDTH: f64 = 1.0;
+/// Height of the block, m.
 const BLOCK_HEIGHT: f64 = 4.0;
+/// Time step, s.
 const TIME_STEP: f64 = 5.0e-4;
 
 fn main() -> Result<()> {
-    let rigid = RockingBlock::new(0.5 * BLOCK_WIDTH, 0.5 * BLOCK_HEIGHT, STANDARD_GRAVITY)?;
-    let tilt = 0.3 * rigid.slenderness_angle();
-    let quarter_period = 0.25 * rigid.period(tilt)?;
+    let rigid_ground_block =
+        RockingBlock::new(0.5 * BLOCK_WIDTH, 0.5 * BLOCK_HEIGHT, STANDARD_GRAVITY)?;
+    let tilt = 0.3 * rigid_ground_block.slenderness_angle();
+    let quarter_period = 0.25 * rigid_ground_block.period(tilt)?;
     println!("c_S, m/s   upright after, s   other side, % of the tilt   energy balance");
-    println!("   rigid{quarter_period:19.4}{:28.1}", 100.0 * rigid.next_peak(tilt)? / tilt);
+    println!(
+        "   rigid{quarter_period:19.4}{:28.1}",
+        100.0 * rigid_ground_block.next_peak(tilt)? / tilt
+    );
     for speed in [800.0, 400.0, 200.0, 100.0] {
         let block =
             RigidBlock::new(BLOCK_WIDTH, BLOCK_HEIGHT, 2500.0)?.with_p_delta(STANDARD_GRAVITY)?;
@@ -30,7 +37,7 @@ fn main() -> Result<()> {
             .ground(ElasticGround::under(soil, &block, 24)?)
             .structure(block)
             .interface(Coulomb::new(1.0)?)
-            // The contact pressure is zero at t = 0, when the block stands on its left edge.
+            // At t = 0 the block is held on its left edge, and the contact pressure is zero.
             .gravity_stage(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.5 * BLOCK_WIDTH * tilt, tilt])
             .build()?;

@@ -1,30 +1,31 @@
 //! A tower that may uplift and slide under four kinds of waves.
 //!
-//! One horizontal record is taken as a vertical S wave, an inclined SV wave, a Rayleigh wave, and a horizontal motion
-//! that travels along the surface.
+//! The same horizontal record is the motion of a vertical S wave, of an inclined SV wave, of a Rayleigh wave, and of a
+//! horizontal motion that travels along the surface.
 //!
 //! ```text
 //! cargo run --release --example travelling_wave
 //! ```
 //!
-//! In all four cases the left edge of the base has the same horizontal motion. Waves that travel along the surface
-//! arrive later at the right edge, and inclined SV and Rayleigh waves have a vertical component. Both rock the tower
-//! even before it deforms. A whole record as a Rayleigh wave is an extreme: its vertical motion exceeds the horizontal
-//! one.
+//! In all four cases the left edge of the base has the same horizontal motion. The last three waves arrive later at the
+//! right edge, and the SV wave and the Rayleigh wave have a vertical component. Both effects rock the tower. It is an
+//! extreme assumption that the whole record is a Rayleigh wave: the vertical motion then exceeds the horizontal motion.
 
 use basemat::Result;
 use basemat::motion::{Baseline, PlaneWave, TravellingWave};
 use basemat::prelude::*;
 
+/// Half the width of the base, m.
 const HALF_WIDTH: f64 = 5.0;
+/// Height of the tower, m.
 const TOWER_HEIGHT: f64 = 20.0;
 const FRICTION_COEFFICIENT: f64 = 0.4;
-/// Quiet time before the record, s: the vertical part of a Rayleigh wave precedes the horizontal part.
+/// Time at rest before the record, s: the vertical part of a Rayleigh wave begins before the horizontal part.
 const QUIET_LEAD_TIME: f64 = 10.0;
 
 /// Angle of the SV wave from the vertical, degrees.
 const SV_WAVE_ANGLE: f64 = 25.0;
-/// Apparent velocity of the wave of horizontal motion, m/s.
+/// Velocity of the horizontal motion that travels along the surface, m/s.
 const SURFACE_WAVE_VELOCITY: f64 = 300.0;
 
 fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
@@ -49,7 +50,7 @@ fn main() -> Result<()> {
     let record = el_centro_1940()
         .with_baseline(Baseline::RestToRest { degree: 4 })?
         .padded(QUIET_LEAD_TIME, 8.0)?;
-    // The left edge, which all these waves reach first.
+    // Position of the left edge, which all waves that travel along the surface reach first.
     let origin = -HALF_WIDTH;
     let inclined = PlaneWave::sv(soil, SV_WAVE_ANGLE.to_radians())?;
     let rayleigh = PlaneWave::rayleigh(soil);

@@ -1,7 +1,7 @@
 //! Two buildings side by side: structure–soil–structure interaction.
 //!
-//! A tall building stands next to a low one on soft soil. Each building is computed alone. Then both are
-//! computed together, coupled by the soil between them.
+//! A tall building stands next to a low building on soft soil. Each building is computed alone. Then both are computed
+//! together, coupled through the soil.
 //!
 //! ```text
 //! cargo run --release --example two_buildings
@@ -20,7 +20,7 @@ fn low() -> Result<ShearBuilding> {
     ShearBuilding::new(10.0, 100.0e3, 0.9e6, &storeys)?.with_stiffness_damping(0.05)
 }
 
-/// Runs 30 s of El Centro; the probes record roof accelerations, one for each building.
+/// Runs 30 s of El Centro; `roofs` has an acceleration probe for the roof of each building in `structure`.
 fn shake<const N: usize>(structure: impl Structure + 'static, roofs: [Probe; N]) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0)?;
     let mut simulation = Simulation::builder(0.005)
@@ -40,7 +40,8 @@ fn main() -> Result<()> {
     let low_roof = Probe::acceleration("low", low()?.roof());
     let alone = [shake(tall()?, [tall_roof.clone()])?, shake(low()?, [low_roof.clone()])?];
 
-    // The low building stands 13 m to the right, with 2 m between them. `probe` moves each roof's probe into the group.
+    // The low building stands 13 m to the right, with 2 m between the buildings.
+    // // `StructureGroup::probe` converts a probe to the group's degrees of freedom.
     let group = StructureGroup::new().with(tall()?, 0.0)?.with(low()?, 13.0)?;
     let probes = [group.probe(0, tall_roof)?, group.probe(1, low_roof)?];
     let together = shake(group, probes)?;

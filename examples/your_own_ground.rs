@@ -1,17 +1,18 @@
-//! A custom ground: independent elastic columns that radiate all waves straight down.
+//! A custom ground: independent elastic columns, in which all waves travel straight down.
 //!
 //! ```text
 //! cargo run --release --example your_own_ground
 //! ```
 //!
-//! Under each element stands an endless column of soil. A pressure p moves its top at the velocity p/(ρ c_P),
-//! a shear traction τ at τ/(ρ c_S), without end. The present displacement is the column's only state. It
-//! radiates as much as a ground can, and has no static stiffness. A spring of `spring_stiffness` Pa/m adds one, so that
-//! the structure can stand.
+//! Under each contact element is an infinitely deep column of soil. A pressure p moves its top down at the velocity
+//! p/(ρ c_P), and a shear traction τ moves it sideways at the velocity τ/(ρ c_S). The only state of a column is the
+//! displacement of its top. A column is a dashpot without static stiffness. A spring of `spring_stiffness` Pa/m
+//! therefore acts in parallel, so that the ground can carry the weight.
 //!
-//! The traction of a step is the traction in its middle, where the spring has the mean displacement of both ends. A spring
-//! alone therefore has the step compliance 2/k and the history −s₀; with s = τ/k it would damp at first order
-//! in the time step.
+//! The traction of a step is the traction at the middle of the step, where the spring has the mean of the displacements
+//! at both ends of the step. A spring without dashpot therefore has the step compliance 2/k and the history −s₀, where
+//! s₀ is the displacement at the start. With s = τ/k at the end of the step instead, it would have numerical damping of
+//! first order in the time step.
 
 use basemat::bem::{ContactElement, Ground, Strip};
 use basemat::interface::Coulomb;
@@ -19,6 +20,7 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Observer, Result, Simulation, Soil};
 
+/// Columns of soil under the contact elements, with parallel springs.
 struct Columns {
     elements: Vec<ContactElement>,
     /// ρ c_P and ρ c_S, Pa·s/m.
@@ -26,8 +28,7 @@ struct Columns {
     /// Stiffness of springs parallel to the dashpots, Pa/m.
     spring_stiffness: f64,
     time_step: f64,
-    /// Displacements at the end of the last accepted step: normal components (down), then tangential
-    /// components.
+    /// Displacements at the end of the last accepted step, m: normal components (down), then tangential components.
     displacement: Vec<f64>,
 }
 
@@ -56,8 +57,8 @@ impl Columns {
 
     /// Factors of the next step for a component of the displacement.
     ///
-    /// They follow from the midpoint rule for `z ds/dt + k s = traction`. `SpringGround::of_elements` is a bed of
-    /// such pairs that can be a part of another ground.
+    /// They follow from the midpoint rule for `z ds/dt + k s = traction`. `SpringGround::of_elements` in this crate is
+    /// a ready ground of such springs and dashpots.
     fn step_factors(&self, component: usize) -> StepFactors {
         let z = self.impedance[usize::from(component >= self.elements.len())] / self.time_step;
         let k = 0.5 * self.spring_stiffness;
@@ -82,17 +83,17 @@ impl Ground for Columns {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let size = self.displacement.len();
+        let component_count = self.displacement.len();
         matrix.fill(0.0);
-        for i in 0..size {
-            matrix[i * size + i] = self.step_factors(i).traction;
+        for i in 0..component_count {
+            matrix[i * component_count + i] = self.step_factors(i).traction;
         }
         Ok(())
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        for (i, out) in displacement.iter_mut().enumerate() {
-            *out = self.step_factors(i).previous * self.displacement[i];
+        for (i, history) in displacement.iter_mut().enumerate() {
+            *history = self.step_factors(i).previous * self.displacement[i];
         }
         Ok(())
     }
@@ -106,10 +107,10 @@ impl Ground for Columns {
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let size = self.displacement.len();
+        let component_count = self.displacement.len();
         matrix.fill(0.0);
-        for i in 0..size {
-            matrix[i * size + i] = 1.0 / self.spring_stiffness;
+        for i in 0..component_count {
+            matrix[i * component_count + i] = 1.0 / self.spring_stiffness;
         }
         Ok(())
     }

@@ -4,31 +4,34 @@
 //! cargo run --release --example your_own_law
 //! ```
 //!
-//! A law handles one contact element at a time. It needs one method: the limits of the element's tractions in a
-//! step ([`InterfaceLaw::limits`]). Sticking, sliding and opening follow from them, in the plane and in plan. A
-//! law of the plane that no limits describe states its modes and conditions instead
+//! A law describes one contact element at a time. It has one required method, which returns the limits of the element's
+//! tractions in a step ([`InterfaceLaw::limits`]). The limits determine sticking, sliding and opening, in the plane and
+//! in plan. A law of the plane that limits cannot describe defines its own modes and conditions instead
 //! ([`PlaneLaw`](basemat::interface::PlaneLaw)).
 //!
-//! The end of the previous step is in [`PreviousContact`]; here the law uses the speed at which the element
-//! slid. Values that a law needs for longer are its state variables ([`InterfaceLaw::state_variables`]).
+//! The contact at the end of the previous step is in [`PreviousContact`]; the law of this example uses the slip rate.
+//! Values that a law keeps over several steps are its state variables ([`InterfaceLaw::state_variables`]).
 //!
-//! If only the coefficient changes, a closure in [`VariableFriction`] is enough, as in the last but one row.
+//! If only the friction coefficient changes, a closure in [`VariableFriction`] is enough, as in the third row of the
+//! table.
 
 use basemat::interface::{Limits, PreviousContact, VariableFriction};
 use basemat::prelude::*;
 
-/// Friction that decreases with the speed of sliding (m/s): fast + (slow − fast) e^(−|v|/speed).
+/// Friction coefficient that decreases from μ₀ to μ₁ with the speed of sliding v: μ₁ + (μ₀ − μ₁) e^(−|v|/v₀).
 struct VelocityWeakening {
-    slow: f64,
-    fast: f64,
-    speed: f64,
+    slow_friction: f64,
+    fast_friction: f64,
+    speed_scale: f64,
 }
 
 impl VelocityWeakening {
-    /// Coefficient of this step. It depends on the start of the step alone, so it is constant in the search of
-    /// modes.
+    /// Friction coefficient of the next step. It depends only on the start of the step, so it is constant while the
+    /// contact modes of the step are determined.
     fn friction(&self, start: &PreviousContact) -> f64 {
-        self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
+        self.fast_friction
+            + (self.slow_friction - self.fast_friction)
+                * (-start.slip_rate.abs() / self.speed_scale).exp()
     }
 }
 
@@ -38,7 +41,7 @@ impl InterfaceLaw for VelocityWeakening {
     }
 }
 
-/// Runs a squat block, which slides before it rocks, under 10 s of El Centro scaled by 1.5.
+/// Runs 10 s of a squat block, which slides before it rocks, under El Centro scaled by 1.5.
 fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let block = RigidBlock::new(8.0, 4.0, 2000.0)?;
@@ -52,7 +55,7 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
 }
 
 fn main() -> basemat::Result<()> {
-    let weakening = VelocityWeakening { slow: 0.3, fast: 0.25, speed: 0.1 };
+    let weakening = VelocityWeakening { slow_friction: 0.3, fast_friction: 0.25, speed_scale: 0.1 };
     let closure = VariableFriction::new(|start| 0.25 + 0.05 * (-start.slip_rate.abs() / 0.1).exp());
     let cases = [
         ("Coulomb, 0.30", slide(Coulomb::new(0.3)?)?),

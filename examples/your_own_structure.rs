@@ -4,26 +4,32 @@
 //! cargo run --release --example your_own_structure
 //! ```
 //!
-//! `basemat` contains no storeys and columns in this example. It takes from a [`Structure`] its degrees of
-//! freedom, the points of its base, and its matrices. The crate provides ground, contact, time steps and
-//! energy balance. Four methods are needed; `damping` is the fifth below.
+//! The example does not use the crate's `ShearBuilding`. A [`Structure`] returns the number of its degrees of freedom,
+//! the points of its base, and its matrices; the crate adds ground, contact, time steps and energy balance. Four
+//! methods are required; the fifth, `damping`, is optional.
 
 use basemat::prelude::*;
 
 const FLOOR_COUNT: usize = 5;
 
 /// Degrees of freedom: `[u_x, u_y, θ]` of the rigid base, then the absolute horizontal displacement of each floor.
-/// All per metre of thickness, in kg, N and m.
+/// Masses, stiffness and dashpot are per metre of thickness.
 struct Building {
+    /// Width of the base, m.
     width: f64,
+    /// kg/m.
     base_mass: f64,
+    /// kg/m.
     floor_mass: f64,
+    /// m.
     storey_height: f64,
+    /// N/m².
     storey_stiffness: f64,
+    /// N·s/m².
     storey_dashpot: f64,
 }
 
-/// Degrees of freedom of the base.
+// Degrees of freedom of the base.
 const BASE_SWAY: usize = 0;
 const BASE_HEAVE: usize = 1;
 const BASE_ROTATION: usize = 2;
@@ -31,7 +37,7 @@ const BASE_ROTATION: usize = 2;
 impl Building {
     /// Drift of a storey as (degree of freedom, weight) pairs: `u_j − u_(j−1) + h θ`.
     ///
-    /// A base that rotates counter-clockwise moves the points above it to the left.
+    /// The sign of h θ is positive, since a base that rotates counter-clockwise moves the points above it to the left.
     fn drift(&self, storey: usize) -> [(usize, f64); 3] {
         let below = if storey == 0 { BASE_SWAY } else { storey + 2 };
         [(storey + 3, 1.0), (below, -1.0), (BASE_ROTATION, self.storey_height)]
@@ -49,7 +55,7 @@ impl Structure for Building {
         BaseNode::rigid_base(-0.5 * self.width, 0.5 * self.width, dofs).into()
     }
 
-    // Entries at the same place are summed.
+    // `Triplets` sums entries with the same row and column.
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let total = self.base_mass + FLOOR_COUNT as f64 * self.floor_mass;
         matrix.add(BASE_SWAY, BASE_SWAY, self.base_mass);
@@ -61,8 +67,8 @@ impl Structure for Building {
         Ok(())
     }
 
-    // A spring of stiffness k with the deformation l·u has the matrix k lᵀl. There is no support: the ground holds the
-    // building up, and rigid motions must give no force.
+    // A spring of stiffness k with the deformation l·u has the matrix k lᵀl. The matrix contains no supports, since the
+    // ground supports the building: rigid motions must cause no forces.
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for storey in 0..FLOOR_COUNT {
             matrix.add_outer(self.drift(storey), self.storey_stiffness);

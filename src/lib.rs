@@ -32,7 +32,7 @@
 //!     .probe(Probe::displacement("roof", roof))
 //!     .build()?;
 //!
-//! // Before it shakes, the ground carries the weight and nothing else.
+//! // Before the shaking, the ground carries the weight and nothing else.
 //! let start = simulation.state();
 //! assert!((start.normal_force / weight - 1.0).abs() < 1e-9);
 //! assert!(start.base_shear.abs() < 1e-9 * weight && start.base_moment.abs() < 1e-9 * weight);
@@ -47,7 +47,7 @@
 //! })?;
 //! assert_eq!(run.steps, 300);
 //! assert!(run.whole.base_shear.magnitude() > 0.0);
-//! // Every joule is accounted for.
+//! // The energy balance closes.
 //! assert!(run.energy_error < 1e-9);
 //! println!("{run}");
 //! # Ok::<(), basemat::Error>(())
@@ -75,7 +75,7 @@
 //!
 //! ```math
 //! g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
-//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w ,
+//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w .
 //! ```
 //!
 //! Another [`interface::InterfaceLaw`] has other conditions. The discrete equations satisfy an energy balance exactly,
@@ -87,8 +87,9 @@
 //! ```
 //!
 //! The soil's term is the work of the tractions on a passive ground, so it is never negative. Contact without tensile
-//! strength can only dissipate energy. So a run cannot become unstable. [`coupled::EnergyBalance`] computes each term
-//! from its own definition, and its residual comes with every run. The [theory] has derivations and sources.
+//! strength can only dissipate energy. With the midpoint rule a run therefore cannot become unstable.
+//! [`coupled::EnergyBalance`] computes each term from its own definition, and its residual comes with every run. The
+//! [theory] has derivations and sources.
 //!
 //! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
 //!
@@ -97,14 +98,14 @@
 //! | what | how |
 //! |---|---|
 //! | units | SI, per metre of thickness: N/m, N·m/m, kg/m; in plan of the whole body: N, N·m, kg; tractions in Pa |
-//! | axes | x to the right, y up, the soil at y ≤ 0; in plan x to the right, y away, z up; kernels alone use z down |
-//! | rotations, moments | positive counter-clockwise; in plan vectors by the right-hand rule: `base_moment` and `base_rotation` about y, `moment_across` and `rotation_across` about x, `torque` and `twist` about z ([`coupled::State::moment_vector`]) |
+//! | axes | x to the right, y up, the soil at y ≤ 0; in plan x to the right, y away, z up; fundamental solutions and waves in the soil use z down |
+//! | rotations, moments | positive counter-clockwise; in plan they are vectors by the right-hand rule: `base_moment` and `base_rotation` about y, `moment_across` and `rotation_across` about x, `torque` and `twist` about z ([`coupled::State::moment_vector`]) |
 //! | settlement | positive downwards, of a foundation's centre since the static state |
 //! | pressure | positive in compression |
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
 //! | gap, slip | positive when open; positive when the structure moved to the right over the soil |
 //! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right); in plan Q more (along y) |
-//! | degrees of freedom | matrices are written for absolute displacements; [`coupled::State`] and probes give changes against the static state, relative to the free field's translation unless they say absolute |
+//! | degrees of freedom | matrices are written for absolute displacements; [`coupled::State`] and probes contain changes since the static state, relative to the free field's translation, except where they are called absolute |
 //! | velocities, accelerations | total |
 //! | time | step n ends at t = nΔt; tractions belong to the whole step |
 //!
@@ -113,11 +114,11 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
-//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
+//! | [`coupled`] | [`Simulation`], its builder, joints between bodies, time schemes, results, energy balance |
 //! | [`analyses`] | errors of mesh and step, digits of peaks, comparison with a fixed base, static push-over |
 //! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
-//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, given matrices, reduction, hysteretic springs, and the trait for your own |
+//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, matrices of other programs, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
@@ -126,7 +127,7 @@
 //! | [`bem::layered`] | convolution weights of layered ground, impedances of strips on it |
 //! | [`bem::plan`] | mats in three dimensions: cells of a ground, impedances |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::SoilColumn`], [`site::InclinedWave`] |
-//! | [`history`] | the convolution with all past tractions, its kinds and their choice |
+//! | [`history`] | the convolution with all past tractions, its methods and the choice among them |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
 //!
@@ -137,12 +138,12 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `embedded` | `bem::embedded`: the ground of structures with walls below the surface, in the plane; impedances |
-//! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
+//! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the scheme of Patel & Spyrakos and its stability; `fundamental::FullPlane` |
 //! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape`; `sweep`: files |
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of time series, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |
-//! | `rayon` | [`sweep::Sweep`], and coefficients of layered ground and in plan, on all processors |
+//! | `rayon` | [`sweep::Sweep`], and convolution weights of layered ground and of ground in plan, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
 //! | `npz` | [`results::TimeSeries`] as an archive of NumPy's arrays |
 //!
@@ -161,9 +162,10 @@
 //! | for a … of your own | implement | methods needed |
 //! |---|---|---|
 //! | structure | [`structure::Structure`] | 4 |
-//! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with a memory |
+//! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with internal variables |
 //! | finite element | [`fem::Element`] | 4 |
-//! | spring with a memory | [`structure::Hysteresis`] | 6 |
+//! | material of solids that yield | [`fem::SolidMaterial`] | 7 |
+//! | spring with internal variables | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
@@ -182,8 +184,8 @@
 //! # Examples
 //!
 //! `containment` is the problem of Patel & Spyrakos; `shear_building`, `square_block` (in three dimensions) and some
-//! 25 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
-//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) says what each prints.
+//! 30 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
+//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) states what each prints.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

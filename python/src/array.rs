@@ -9,9 +9,9 @@ use pyo3::types::{IntoPyDict, PyDict, PyFloat};
 
 use crate::error::input_error;
 
-/// Array of real numbers by numpy from an object, with the number of axes of `shape`.
+/// Array of real numbers that numpy makes from an object; an error unless it has as many axes as `shape`.
 ///
-/// An error for complex numbers, texts and None, which numpy would convert.
+/// Complex numbers, texts and None, which numpy would convert, are errors.
 fn real_array<'py, D: numpy::ndarray::Dimension>(
     object: &Bound<'py, PyAny>,
     shape: &str,
@@ -67,7 +67,7 @@ pub(crate) fn real_number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64>
     }
 }
 
-/// Extracts whole numbers of 0 or more: a count, an index, or a list of them.
+/// Extracts whole numbers of 0 or more: one number, or a list of numbers.
 pub(crate) fn whole_numbers<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
@@ -213,7 +213,7 @@ extracts!(Points, object => {
 
 impl Points {
     /// Coordinates [x, y, z], with z = 0 for points in the plane.
-    pub(crate) fn in_plane(self) -> Vec<[f64; 3]> {
+    pub(crate) fn coordinates(self) -> Vec<[f64; 3]> {
         let rows = self.rows.iter();
         rows.map(|row| [row[0], row[1], row.get(2).copied().unwrap_or_default()]).collect()
     }
@@ -226,7 +226,7 @@ impl Points {
     /// Coordinates [x, y, z]; an error for points of two coordinates.
     pub(crate) fn in_space(self) -> PyResult<Vec<[f64; 3]>> {
         if self.axis_count == 3 {
-            return Ok(self.in_plane());
+            return Ok(self.coordinates());
         }
         Err(input_error("an array of 2 columns, but must have 3 in space: x, y and z"))
     }
@@ -268,7 +268,7 @@ impl Table {
     }
 }
 
-/// A square matrix: dense, or any of `scipy.sparse`. Entries of zero are dropped.
+/// A square matrix: dense, or any of `scipy.sparse`. Zeros of a dense matrix are dropped.
 pub(crate) struct Matrix(pub(crate) Triplets);
 
 extracts!(Matrix, object => {

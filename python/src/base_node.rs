@@ -75,8 +75,8 @@ impl PyBaseNode {
     }
 
     /// The face, a list of its corners, of a rigid flat base in plan: ``corners`` (list of x and y, m) from ``center``
-    /// (x and y, m), whose displacements along x, along y and up and rotations about these have the numbers ``dofs``
-    /// (six).
+    /// (x and y, m), whose displacements along x, along y and up and rotations about these axes have the numbers
+    /// ``dofs`` (six).
     #[staticmethod]
     fn rigid_face(
         corners: Vec<[f64; 2]>,
@@ -165,7 +165,7 @@ impl PyBaseFaces {
     }
 }
 
-/// Lists of the nodes of lines or faces; a single one needs no list around it.
+/// Lists of the nodes of lines or faces; a single line or face needs no list around it.
 struct NodeLists(Vec<Vec<PyBaseNode>>);
 
 extracts!(NodeLists, object => {

@@ -48,7 +48,7 @@ impl PyBearingFactors {
 /// load along x and y (m; (0, 0) by default). ``vertical_force`` and ``horizontal_force`` (along x and y) of a load whose
 /// inclination reduces the capacity (N; 0 by default). ``base_tilt`` of the base against the horizontal (rad; 0 by default).
 ///
-/// The drained pressure is the bearing pressure of `Yielding`.
+/// The result of `drained_pressure` is the ``bearing_pressure`` for `Yielding`.
 #[pyclass(name = "ShallowFooting", module = "basemat", frozen, dict, eq)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PyShallowFooting(ShallowFooting);
@@ -137,8 +137,8 @@ impl PyShallowFooting {
     }
 
     /// Ratio of the critical contact area to the area of the base, and the moments (N·m) at which the footing rocks
-    /// along x and along y, under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2
-    /// (1 − A_c/A) (Gajan and Kutter 2008).
+    /// along x and along y, under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa). The moment of a
+    /// rectangle is V L/2 (1 − A_c/A) (Gajan and Kutter 2008).
     fn rocking_capacity(
         &self,
         vertical_force: f64,

@@ -30,7 +30,7 @@ fn sweep_cases(grid: ParameterGrid<'_>, shard: Option<(usize, usize)>) -> PyResu
     }
 }
 
-/// Numbers of the cases of a grid, a list of pairs (name, values), or of its ``shard`` (index, of).
+/// Numbers of the cases of a grid, a list of pairs (name, values), or of its ``shard`` (its index, number of shards).
 #[pyfunction(name = "_case_numbers")]
 #[pyo3(signature = (grid, shard=None))]
 pub(crate) fn case_numbers(
@@ -40,7 +40,7 @@ pub(crate) fn case_numbers(
     Ok(sweep_cases(grid, shard)?.cases().collect())
 }
 
-/// Cases of a sweep's file: the columns of results, and the rows.
+/// Columns of results and rows of the cases in the file of a sweep.
 fn case_outcomes(table: &CaseTable) -> CaseOutcomes {
     let rows = table.rows().map(|row| {
         let results = row.results.ok().map(<[f64]>::to_vec);
@@ -51,7 +51,8 @@ fn case_outcomes(table: &CaseTable) -> CaseOutcomes {
     (table.columns().to_vec(), rows.collect())
 }
 
-/// The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run.
+/// The file at ``path`` of the cases of a grid, or of its ``shard`` (its index, number of shards): rows are appended
+/// while cases run.
 #[pyclass(name = "_CaseFile", module = "basemat._core", frozen)]
 pub(crate) struct PyCaseFile(Mutex<Option<CaseFile>>);
 

@@ -25,7 +25,7 @@ thread_local! {
     static STORED_EXCEPTION: RefCell<Option<PyErr>> = const { RefCell::new(None) };
 }
 
-/// Stores an exception of user code until the core returns; an earlier one is kept.
+/// Stores an exception of user code until the core returns; an earlier exception stays stored instead.
 pub(crate) fn store_exception(error: PyErr) {
     STORED_EXCEPTION.with_borrow_mut(|stored| {
         stored.get_or_insert(error);
@@ -37,7 +37,7 @@ pub(crate) fn has_stored_exception() -> bool {
     STORED_EXCEPTION.with_borrow(Option::is_some)
 }
 
-/// Result of user code, or `fallback`, which ends the step, if it raises.
+/// Result of user code, or `fallback`, which ends the step, if the code raises an exception.
 ///
 /// The exception is stored until the core returns.
 pub(crate) fn call_user_code<T>(fallback: T, call: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
@@ -96,7 +96,8 @@ where
     })
 }
 
-/// A warning of the package, at the line of Python that is being run; in a case of a sweep, for its table.
+/// Issues a warning of the package; while a case of a sweep runs, the warning is collected for the table of the sweep
+/// instead.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     let mut text = Some(text);
     COLLECTED_WARNINGS.with_borrow_mut(|texts| {

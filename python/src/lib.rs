@@ -1,5 +1,5 @@
-//! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
-//! motions, the simulation made of them, and its results.
+//! The compiled part of the Python package `basemat`: descriptions of soils, structures, laws and motions, the
+//! simulation made of them, and its results.
 
 /// Converts a `$class` to Python: `$base` is the superclass object for the value `$value`.
 macro_rules! extends {

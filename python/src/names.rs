@@ -13,7 +13,7 @@ use crate::error::{OrRaise, extract_returned, input_error};
 pub(crate) static MODES: LazyLock<Vec<String>> =
     LazyLock::new(|| Mode::ALL.iter().map(ToString::to_string).collect());
 
-/// Faces of a structure in the ground.
+/// Faces of a structure in the ground by their names.
 pub(crate) const TRENCH_FACES: [(&str, Face); 3] =
     [("left_wall", Face::LeftWall), ("base", Face::Base), ("right_wall", Face::RightWall)];
 
@@ -22,7 +22,7 @@ pub(crate) fn mode_name(mode: Mode) -> &'static str {
     &MODES[mode as usize]
 }
 
-/// The mode of a name.
+/// The mode with this name.
 pub(crate) fn parse_mode(name: &str) -> PyResult<Mode> {
     name.parse().or_raise()
 }
@@ -92,7 +92,8 @@ impl DofNames {
         })
     }
 
-    /// Text with the names of these degrees of freedom, the first eight of many.
+    /// Text with the names of these degrees of freedom; of more than eight the first eight, and how many more there
+    /// are.
     pub(crate) fn describe(&self, dofs: &[usize]) -> Option<String> {
         let names = dofs
             .iter()

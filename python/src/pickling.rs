@@ -25,7 +25,7 @@ use crate::user::{PyCondition, PyLimits, PyTolerance};
 /// The function that restores an object, the name of its class, and its bytes.
 type ReducedObject<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
 
-/// What a pickle stores of an object.
+/// The data of an object that a pickle stores.
 fn reduced_object<'py, T>(object: &Bound<'py, T>) -> PyResult<ReducedObject<'py>>
 where
     T: PyClass<Frozen = True> + Serialize + Sync,
@@ -43,7 +43,7 @@ fn decode<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
     decoded.map_err(|error| input_error(format!("these bytes are not a {}: {error}", T::NAME)))
 }
 
-/// Classes that pickle.
+/// Implements pickling for these classes.
 macro_rules! pickled_classes {
     ($($class:ident)+) => {
         $(#[pymethods]

@@ -17,17 +17,17 @@ pub(crate) struct PyRefinement(Refinement);
 
 /// Runs a scene at six settings and estimates the error of each.
 ///
-/// The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
-/// an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
-/// are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
-/// the elements with half the step.
+/// The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs a simulation, and returns
+/// a number or an array: a peak, some peaks, or a time series at times that all settings have (the times of the
+/// coarsest setting). The settings are: ``elements`` and ``time_step`` (s); half and a quarter of the step; two and
+/// four times the elements; twice the elements with half the step.
 ///
-/// If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
+/// If the scene returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
 /// extrapolated separately, so that units may differ.
 ///
-/// A regular estimate may still be too low where the base slides or opens: by a factor of 2.4 at one of six settings of
-/// a sliding block. On layers the number of stages of the convolution quadrature depends on the error at 15 Hz and may
-/// change between the settings; ``stages`` of `ElasticGround` fixes it.
+/// Even a regular estimate may be too low if the base slides or opens: for a sliding block it was too low by a factor
+/// of 2.4 at one of the six settings. On layers the number of stages of the convolution quadrature depends on the error
+/// at 15 Hz and may change between the settings; ``stages`` of `ElasticGround` fixes it.
 #[pyfunction]
 pub(crate) fn refine(
     py: Python<'_>,
@@ -52,7 +52,7 @@ pub(crate) fn refine(
     }
 }
 
-/// Form of the results of a scene: that of its first result.
+/// Form of the results of a scene, which its first result determines.
 enum ResultForm {
     Unknown,
     /// A number or an array.
@@ -102,10 +102,10 @@ fn named_values(result: &Bound<'_, PyAny>) -> PyResult<Vec<(String, f64)>> {
 /// Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
 /// and half of the elements.
 ///
-/// ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. The
-/// motion of a body that rocks on its corners may be chaotic: its peaks then belong to one motion out of many, and no
-/// finer setting makes them converge. The twins show how many digits of a peak can be quoted, and cost less than two
-/// further runs.
+/// ``scene(elements, time_step)`` builds a simulation and runs it for a duration, and returns a dict of peaks by their
+/// names. The motion of a body that rocks on its corners may be chaotic: its peaks then belong to one motion out of
+/// many, and no finer setting makes them converge. The twins show how many digits of a peak can be quoted, and take
+/// less time than two further runs.
 #[pyfunction]
 pub(crate) fn sensitivity(
     py: Python<'_>,
@@ -182,7 +182,7 @@ impl PyRefinement {
         self.0.mismatch
     }
 
-    /// Whether the estimate can be trusted: regular orders, and the coarsest error above the
+    /// Whether the estimate can be trusted: the orders are regular, and the error of the coarsest setting is above the
     /// mismatch.
     #[getter]
     fn is_regular(&self) -> bool {

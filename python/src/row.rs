@@ -109,8 +109,8 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
     }
 }
 
-/// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
-/// force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For `Probe.section`.
+/// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a force or a moment.
+/// ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". `Probe.section` records the sum.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
 pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) WeightCount);
 
@@ -132,7 +132,7 @@ pub(crate) fn space_sections(section: SpaceSection) -> [PySectionRows; 6] {
     [shear_x, shear_y, compression, moment_x, moment_y, torque].map(PySectionRows::from)
 }
 
-/// Units of a resultant: of a force and a moment per metre of thickness, and of the whole body.
+/// Units of a resultant: a force and a moment per metre of thickness, then a force and a moment of the whole body.
 const RESULTANT_UNITS: [&str; 4] = ["N/m", "N·m/m", "N", "N·m"];
 
 #[pymethods]

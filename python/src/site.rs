@@ -57,8 +57,9 @@ impl PyStrainCurves {
         checked_curves(StrainCurves::Epri { depth })
     }
 
-    /// Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
-    /// ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
+    /// Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), overconsolidation ratio
+    /// ``overconsolidation``, effective ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of
+    /// ``cycles`` (10 by default).
     #[pyo3(signature = (plasticity_index, overconsolidation, mean_stress, *, frequency=1.0, cycles=10.0))]
     #[staticmethod]
     fn darendeli(
@@ -96,10 +97,11 @@ impl PyStrainCurves {
 
     /// Soil whose stress–strain loops follow Masing's rules on a backbone: the equivalent-linear approximation of `Iwan`.
     ///
-    /// ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``. The
-    /// backbone is straight from the origin and between points, and constant beyond the last one. With the area A under it
-    /// up to the strain γ and its stress τ, the damping ratio is ``small_strain_damping`` + (2/π)(2A/(γτ) − 1).
-    /// ``small_strain_damping``: what soils have besides Masing's loops, often 0.005 to 0.02; 0 by default.
+    /// ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``.
+    /// The backbone is straight from the origin and between points, and constant beyond the last one. With the area A
+    /// under it up to the strain γ and its stress τ, the damping ratio is ``small_strain_damping`` + (2/π)(2A/(γτ) −
+    /// 1). ``small_strain_damping``: damping ratio in addition to that of Masing's loops, often 0.005 to 0.02; 0 by
+    /// default.
     #[staticmethod]
     #[pyo3(signature = (points, *, small_strain_damping=0.0))]
     fn masing(points: Pairs, small_strain_damping: f64) -> PyResult<Self> {
@@ -109,9 +111,9 @@ impl PyStrainCurves {
     /// The `Iwan` soil that yields along these curves up to a ``strength`` (Pa), with the ``shear_modulus`` G_max (Pa);
     /// ``poisson`` and ``density`` (kg/m³) are those of `Iwan`.
     ///
-    /// The backbone G_max (G/G_max) γ is straight between the points of the curves, and ends where it reaches the strength;
-    /// curves that end below the strength go on with their last slope. Damping follows from Masing's rules, not from the
-    /// curves of damping.
+    /// The backbone G_max (G/G_max) γ is straight between the points of the curves, and ends where it reaches the
+    /// strength; curves that end below the strength are continued with their last slope. Damping follows from Masing's
+    /// rules, not from the curves of damping.
     fn iwan(
         &self,
         shear_modulus: f64,
@@ -141,10 +143,11 @@ impl PyColumn {
     /// Response with strain-compatible properties, an `EquivalentLinear`, to the ``record`` of the ``control``
     /// point, "outcrop" (the default) or "within"; ``curves``: a list of `StrainCurves`, one per layer.
     ///
-    /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
-    /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
-    /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
-    /// layers: "real_part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
+    /// ``strain_ratio``: ratio of the effective to the largest strain, often (M − 1)/10 for the magnitude M; 0.65
+    /// unless given. ``tolerance``: relative tolerance of moduli and damping ratios; 1e-3 unless given.
+    /// ``most_iterations``: largest number of iterations; 50 unless given. ``band``: frequencies (Hz) between which
+    /// damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the layers: "real_part", G(1 + 2iξ) (the
+    /// default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
     #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None, complex_modulus="real_part"))]
     fn equivalent_linear(
         &self,
@@ -177,8 +180,8 @@ impl PyColumn {
     }
 }
 
-/// Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
-/// accelerations also one of the base within. Printed, a table.
+/// Response of a site with strain-compatible properties: arrays have one value per layer from the surface down; arrays
+/// of accelerations end with one more value, of the base under the layers. Printed, it is a table.
 #[pyclass(name = "EquivalentLinear", module = "basemat", frozen, dict)]
 pub(crate) struct PyEquivalentLinear(EquivalentLinear);
 
@@ -232,7 +235,7 @@ impl PyEquivalentLinear {
         self.0.iterations
     }
 
-    /// Estimated largest relative change of a modulus or damping ratio by all further iterations.
+    /// Estimate of the largest relative change of a modulus or damping ratio that all further iterations would cause.
     #[getter]
     fn last_change(&self) -> f64 {
         self.0.last_change

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, issue_warning, take_exception};
 
-/// Time between two calls of Python: short for a reader, long against the cost of the call.
+/// Time between two calls of Python: short for a reader, and long compared with the duration of a call.
 const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 
 thread_local! {
@@ -31,8 +31,8 @@ fn warn_of_ignored_interrupt(py: Python<'_>) -> PyResult<()> {
     let signal = py.import("signal")?;
     let handler = signal.call_method1("getsignal", (signal.getattr("SIGINT")?,))?;
     if handler.eq(signal.getattr("SIG_IGN")?)? {
-        let text = "Ctrl-C does not end this run: the process ignores SIGINT, as processes do that a script \
-                    starts in the background. To enable Ctrl-C, call signal.signal(signal.SIGINT, \
+        let text = "Ctrl-C does not end this run: the process ignores SIGINT, as processes that a script \
+                    starts in the background do. To enable Ctrl-C, call signal.signal(signal.SIGINT, \
                     signal.default_int_handler) before the run";
         issue_warning(py, text.into())?;
     }

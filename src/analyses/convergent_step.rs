@@ -24,8 +24,8 @@ const MAX_STEP_HALVINGS: usize = 10;
 /// use basemat::structure::RigidBlock;
 /// use basemat::{Simulation, Soil};
 ///
-/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper. Waves
-/// // cross five elements in one step.
+/// // An interface that keeps 1/1000 of its stiffness when open, as in the paper of Patel & Spyrakos.
+/// // Waves cross five elements in one step.
 /// let scene = |step: f64| {
 ///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 ///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;

@@ -1,6 +1,6 @@
 //! Search for the force of a target displacement in a push-over.
 
-/// Relative width of the bracket of the largest force at which the search ends.
+/// Width of the bracket of the largest force, relative to this force, at which the search ends.
 pub(super) const LIMIT_TOLERANCE: f64 = 1e-4;
 /// Largest growth of the force in one extrapolation, so that a soft start does not overshoot the limit.
 const MAX_FORCE_GROWTH: f64 = 4.0;
@@ -14,8 +14,8 @@ pub(super) struct ForceDisplacement {
 
 /// Search for the force of a target displacement.
 ///
-/// Between two states it is the regula falsi with halved weights (Illinois method). Beyond all states the force grows
-/// with the last secant stiffness.
+/// Between two states the search is the regula falsi with halved weights (Illinois method). Beyond all states the force
+/// grows with the last secant stiffness.
 pub(super) struct DisplacementSearch {
     target: f64,
     first_force: f64,

@@ -17,7 +17,8 @@ use crate::linalg::{Complex, Eigenpairs, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::Probe;
 use crate::structure::{
-    DofCombination, HeldBase, MassAndStiffness, Structure, Triplets, mass_and_stiffness, stiffest,
+    DofCombination, MassAndStiffness, SpringSupportedBase, Structure, Triplets, mass_and_stiffness,
+    max_diagonal_stiffness,
 };
 
 /// Stiffness of the springs that fix the base, relative to the largest stiffness: their displacement is negligible.
@@ -32,7 +33,7 @@ const MIN_MASS_FRACTION: f64 = 1e-3;
 const BASE_SHEAR_RATIO: f64 = 1e-3;
 /// Smallest number of steps of the free vibration in a period T.
 const STEPS_PER_PERIOD: f64 = 40.0;
-/// Number of moving-average windows in a period T.
+/// Number of moving-average windows in a period T: the averages keep the mode and remove faster vibrations.
 const WINDOWS_PER_PERIOD: f64 = 6.0;
 /// Number of half periods that are evaluated.
 const EVALUATED_HALF_PERIODS: usize = 10;
@@ -68,10 +69,15 @@ impl FixedBaseMode {
         let base = structure.base();
         base.check(dofs)?;
         let nodes = base.into_nodes();
-        let springs = HeldBase::new(&nodes, &stiffness, BASE_SPRING_FACTOR * stiffest(&stiffness));
+        let springs = SpringSupportedBase::new(
+            &nodes,
+            &stiffness,
+            BASE_SPRING_FACTOR * max_diagonal_stiffness(&stiffness),
+        );
         let mut factor = springs.factor()?;
-        // Pulls of the springs by a unit translation: to the right, upwards, in plan away.
-        let Some(mut translation) = springs.pulls().into_iter().nth([0, 2][axis]) else {
+        // Forces of the springs for a unit translation: to the right, upwards, and in plan away.
+        let Some(mut translation) = springs.translation_forces().into_iter().nth([0, 2][axis])
+        else {
             return Ok(None);
         };
         factor.solve(&mut translation);
@@ -101,13 +107,13 @@ impl FixedBaseMode {
         let modal_stiffness = dot(mode, &mode_forces);
         let circular_frequency = squared_frequency.sqrt();
         // A unit amplitude has the base shear ω² φᵀM r.
-        let amplitude = BASE_SHEAR_RATIO * STANDARD_GRAVITY * total_mass
+        let deflection_amplitude = BASE_SHEAR_RATIO * STANDARD_GRAVITY * total_mass
             / (squared_frequency * participation.abs());
         Ok(Some(Self {
             period: TAU / circular_frequency,
             damping: damping.form(mode, mode) / (2.0 * circular_frequency),
-            amplitude: scaled(&mode_forces, 1.0 / (modal_stiffness * amplitude)),
-            forces: scaled(&mode_forces, amplitude),
+            amplitude: scaled(&mode_forces, 1.0 / (modal_stiffness * deflection_amplitude)),
+            forces: scaled(&mode_forces, deflection_amplitude),
         }))
     }
 }
@@ -158,7 +164,7 @@ pub(crate) fn free_vibration(
     let mut averaged_once = Vec::new();
     let mut averaged_twice = Vec::new();
     let mut sign_changes = Vec::new();
-    // Since the last change of sign.
+    // Largest amplitude since the last change of sign.
     let mut max_amplitude = 0.0_f64;
     while amplitudes.len() <= max_steps && sign_changes.len() < EVALUATED_HALF_PERIODS {
         amplitudes.push(1.0 + simulation.step()?.probes[0]);
@@ -254,28 +260,28 @@ mod tests {
     /// The fit returns the pole of a midpoint solution, also beside a second mode that decays faster.
     #[test]
     fn a_decaying_vibration_is_read_back() {
-        let step = 0.01;
-        let steps = 2000;
-        for (period, ratio) in [(0.7_f64, 0.0_f64), (0.7, 0.05), (1.3, 0.2)] {
-            let circular = TAU / period;
-            let march = |circular: f64, ratio: f64| {
+        let time_step = 0.01;
+        let step_count = 2000;
+        for (period, damping_ratio) in [(0.7_f64, 0.0_f64), (0.7, 0.05), (1.3, 0.2)] {
+            let slow_frequency = TAU / period;
+            let march = |circular_frequency: f64, ratio: f64| {
                 let mut u = 1.0;
                 let mut v = 0.0;
                 let mut values = vec![1.0];
-                for _ in 0..steps {
+                for _ in 0..step_count {
                     // Δu of the midpoint rule.
-                    let stiffness = 2.0 / (step * step)
-                        + ratio * 2.0 * circular / step
-                        + 0.5 * circular.powi(2);
-                    let du = (2.0 * v / step - circular.powi(2) * u) / stiffness;
-                    v = 2.0 * du / step - v;
+                    let stiffness = 2.0 / (time_step * time_step)
+                        + ratio * 2.0 * circular_frequency / time_step
+                        + 0.5 * circular_frequency.powi(2);
+                    let du = (2.0 * v / time_step - circular_frequency.powi(2) * u) / stiffness;
+                    v = 2.0 * du / time_step - v;
                     u += du;
                     values.push(u);
                 }
                 values
             };
-            let slow_mode = march(circular, ratio);
-            let fast_mode = march(3.3 * circular, 0.6);
+            let slow_mode = march(slow_frequency, damping_ratio);
+            let fast_mode = march(3.3 * slow_frequency, 0.6);
             for (fast_amplitude, tolerance) in [(0.0, 1e-9), (0.2, 3e-3)] {
                 let values: Vec<f64> =
                     slow_mode.iter().zip(&fast_mode).map(|(x, y)| x + fast_amplitude * y).collect();
@@ -284,11 +290,14 @@ mod tests {
                     .take(EVALUATED_HALF_PERIODS)
                     .collect();
                 let end = sign_changes[sign_changes.len() - 1];
-                let fit = fit_decay(&values[..=end], &sign_changes, 0, step).unwrap();
+                let fit = fit_decay(&values[..=end], &sign_changes, 0, time_step).unwrap();
                 assert!((fit.period / period - 1.0).abs() < tolerance, "{fit:?} for {period}");
-                assert!((fit.damping - ratio).abs() < tolerance, "{fit:?} for {ratio}");
+                assert!(
+                    (fit.damping - damping_ratio).abs() < tolerance,
+                    "{fit:?} for {damping_ratio}"
+                );
             }
         }
-        assert_eq!(fit_decay(&[1.0; 50], &[], 0, step), None);
+        assert_eq!(fit_decay(&[1.0; 50], &[], 0, time_step), None);
     }
 }

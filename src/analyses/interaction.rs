@@ -8,7 +8,7 @@ use crate::coupled::run::quantity_row::ShownIn;
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
 use crate::results::{Extremes, Quantity, Run};
-use crate::text::readable_number::{PrintedUnit, number, of_body, printed};
+use crate::text::readable_number::{PrintedUnit, number, printed_unit, whole_body_unit};
 use crate::text::table::Table;
 
 /// Vibration mode of a structure on a fixed base and on its ground.
@@ -19,7 +19,7 @@ use crate::text::table::Table;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SystemMode {
-    /// In plan: axis along which the mode moves the most mass, `x` or `y`.
+    /// In plan: axis along which the mode has the largest participating mass, `x` or `y`.
     #[cfg_attr(feature = "serde", serde(default))]
     pub axis: Option<char>,
     /// Period T on a fixed base, s.
@@ -56,7 +56,7 @@ pub struct Interaction {
     pub on_ground: Run,
     /// The run of the same structure, loads and motion on a fixed base.
     pub on_fixed_base: Run,
-    /// The mode with the most mass along x, in plan also along y; empty for a rigid structure.
+    /// The mode with the largest participating mass along x, in plan also along y; empty for a rigid structure.
     pub modes: Vec<SystemMode>,
 }
 
@@ -64,14 +64,15 @@ pub struct Interaction {
 ///
 /// The function also computes T̃/T and the system's damping.
 ///
-/// `scene` must make a builder of the same scene at each call; both runs last `duration` (s). The second run uses
+/// `scene` must return a builder of the same scene at each call; both runs last `duration` (s). The second run uses
 /// [`SimulationBuilder::on_fixed_base`], with the same model, loads and motion.
 ///
-/// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes. A nonlinear
-/// structure has its initial tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
-/// released. T̃ and β₀ are the period and the damping ratio of the free vibration that follows, computed with Midpoint
-/// steps of T/40 or shorter. The soil is linear: use its moduli at the strains of the design motion (ASCE 7,
-/// table 19.3-2). Springs in series give a period for comparison: T̃/T = √(1 + k/k_x + k h²/k_θ).
+/// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes. For a
+/// nonlinear structure they follow from its initial tangent. For T̃ and β₀ the structure is bonded to its ground,
+/// deflected in this mode and released. T̃ and β₀ are the period and the damping ratio of the free vibration that
+/// follows, computed with Midpoint steps of T/40 or shorter. The soil is linear: use its moduli at the strains of the
+/// design motion (ASCE 7, table 19.3-2). Springs in series give a period for comparison: T̃/T = √(1 + k/k_x + k
+/// h²/k_θ).
 ///
 /// ```
 /// use basemat::analyses::interaction;
@@ -189,10 +190,15 @@ impl Interaction {
         for quantity in Quantity::shown(ShownIn::ComparisonTime, in_plan) {
             let ground = on_ground.whole.extremes(quantity);
             let fixed = on_fixed_base.whole.extremes(quantity);
-            rows.push(comparison_row(quantity.name(), quantity.printed(in_plan), &ground, &fixed));
+            rows.push(comparison_row(
+                quantity.name(),
+                quantity.printed_unit(in_plan),
+                &ground,
+                &fixed,
+            ));
         }
         for (ground, fixed) in on_ground.probes.iter().zip(&on_fixed_base.probes) {
-            let unit = printed(of_body(&ground.unit, in_plan));
+            let unit = printed_unit(whole_body_unit(&ground.unit, in_plan));
             rows.push(comparison_row(&ground.name, unit, &ground.extremes, &fixed.extremes));
         }
         let heading = ["Largest", "unit", "on the ground", "fixed base", "ratio"];

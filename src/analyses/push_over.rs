@@ -13,7 +13,7 @@ use crate::structure::DofCombination;
 const DISPLACEMENT_TOLERANCE: f64 = 1e-4;
 /// Shear traction that counts as rounding, relative to the largest traction.
 const SHEAR_ROUNDING_TOLERANCE: f64 = 1e-9;
-/// Largest number of static states for one target displacement; the secant search needs about ten.
+/// Largest number of static states for one target displacement; the regula falsi needs about ten.
 const MAX_STATES_PER_TARGET: usize = 60;
 
 /// Loading path of a [`push_over`]: forces or displacements.
@@ -184,11 +184,11 @@ struct ReportedMotion {
     base_rotations: [f64; 2],
 }
 
-/// State of a push-over: its curve so far, and what it needs to continue.
+/// State of a push-over: its curve so far, and the data for further points.
 struct PushOverAnalysis<'a, S> {
     control: &'a DofCombination,
     scene: S,
-    /// Motion without force, from which all reported motions count.
+    /// Motion without force, which is subtracted from all reported motions.
     datum: ReportedMotion,
     curve: PushOver,
     last_state: ForceDisplacement,
@@ -270,9 +270,14 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
     }
 
     /// Ends the curve at its limit: with the last point below it, if that point is new.
-    fn end_at_limit(&mut self, last_point: Option<PushPoint>, carried: f64, failed: f64) {
+    fn end_at_limit(
+        &mut self,
+        last_point: Option<PushPoint>,
+        carried_force: f64,
+        failed_force: f64,
+    ) {
         self.curve.points.extend(last_point);
-        self.curve.limit = Some([carried, failed]);
+        self.curve.limit = Some([carried_force, failed_force]);
     }
 
     /// Adds the state under a force to the curve.
@@ -300,7 +305,7 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
         Ok(false)
     }
 
-    /// Adds the state with a displacement to the curve; `false` if the curve ends at its limit before.
+    /// Adds the state with a displacement to the curve; returns `false` if the limit is below this displacement.
     fn add_displacement(&mut self, target: f64, first_force: f64) -> Result<bool> {
         let mut search = DisplacementSearch::new(target, first_force, self.last_state);
         let mut lower_point = None;

@@ -7,7 +7,7 @@ use crate::coupled::run::clock;
 use crate::error::{Result, all_finite, at_least, positive, same_length};
 use crate::text::table::Table;
 
-/// Plausible orders of convergence of the methods in use, also for results with a kink.
+/// Plausible orders of convergence: the methods in use have two, and results with a kink have less.
 const CONVERGENCE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
 /// Refinement of a setting relative to the coarsest one.
@@ -60,8 +60,8 @@ pub struct Setting {
 pub struct Refinement {
     /// The six settings, coarsest first.
     ///
-    /// The coarsest, half and a quarter of its step, two and four times its elements, and twice the elements with
-    /// half the step.
+    /// They are the coarsest setting, a half and a quarter of its step, two and four times its elements, and twice its
+    /// elements with half its step.
     pub settings: Vec<Setting>,
     /// Results extrapolated to infinitely many elements and steps.
     pub extrapolated: Vec<f64>,
@@ -83,13 +83,13 @@ pub struct Refinement {
 /// L. F. Richardson, 1911; orders observed from three settings as in P. J. Roache, *Verification and Validation in
 /// Computational Science and Engineering*, 1998, § 5.
 ///
-/// `scene` builds and runs with a number of elements and a time step (s), and returns results: a peak, some peaks,
-/// or a time series at the times of the coarsest setting. Twice the number of elements must halve their
+/// `scene` builds and runs a simulation with a number of elements and a time step (s), and returns results: a peak,
+/// some peaks, or a time series at the times of the coarsest setting. Twice the number of elements must halve their
 /// length: in plan, use the number of cells along the shorter side, as in
-/// [`ElasticGround::under`](crate::bem::ElasticGround::under). With few cells and
-/// long steps the errors of mesh and step may compensate each other: refine both. The error is the root of the sum of
-/// squares relative to the extrapolated results, so use separate calls for results of different units. Time series
-/// converge evenly; peaks, and quantities that depend on the instant of an impact, less so.
+/// [`ElasticGround::under`](crate::bem::ElasticGround::under). With few cells and long steps the errors of mesh and
+/// step may compensate each other: refine both. The error is the root of the sum of squares relative to the
+/// extrapolated results, so use separate calls for results of different units. Time series converge evenly; peaks, and
+/// quantities that depend on the instant of an impact, less evenly.
 ///
 /// The last run, twice the elements with half the step, checks the estimate ([`Refinement::mismatch`]). An
 /// estimate that passes the check may still be too low if the base slides or opens: by a factor of 2.4 for one of
@@ -154,17 +154,23 @@ pub(crate) fn run_settings(
     positive("time step", time_step)?;
     let mut settings: Vec<Setting> = Vec::with_capacity(SETTING_HALVINGS.len());
     for Halvings { mesh, step } in SETTING_HALVINGS {
-        let elements = elements.saturating_mul(1 << mesh);
-        let time_step = time_step / f64::from(1 << step);
+        let setting_elements = elements.saturating_mul(1 << mesh);
+        let setting_step = time_step / f64::from(1 << step);
         let start = clock();
-        let results = scene(elements, time_step)?;
+        let results = scene(setting_elements, setting_step)?;
         let wall = start.map_or(Duration::ZERO, |start| start.elapsed());
         at_least(RESULTS_NAME, results.len(), 1)?;
         if let Some(first) = settings.first() {
             same_length(RESULTS_NAME, results.len(), first.results.len())?;
         }
         all_finite(RESULTS_NAME, &results)?;
-        settings.push(Setting { elements, time_step, error: f64::NAN, wall, results });
+        settings.push(Setting {
+            elements: setting_elements,
+            time_step: setting_step,
+            error: f64::NAN,
+            wall,
+            results,
+        });
     }
     Ok(settings)
 }
@@ -190,12 +196,12 @@ impl SeriesErrors {
         };
         let extrapolation_factor = (clamped_order.exp2() - 1.0).recip();
         let errors = results.map(|values| {
-            let mut errors = Vec::with_capacity(values.len());
+            let mut setting_errors = Vec::with_capacity(values.len());
             for (k, value) in values.iter().enumerate() {
                 let last_change = results[1][k] - results[2][k];
-                errors.push(value - results[2][k] + extrapolation_factor * last_change);
+                setting_errors.push(value - results[2][k] + extrapolation_factor * last_change);
             }
-            errors
+            setting_errors
         });
         Self { errors, order }
     }
@@ -211,7 +217,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::hypot)
 }
 
-/// Distance of results relative to their norm; zero for equal results of any norm.
+/// Distance of two results relative to their norm; zero for equal results, also of norm zero.
 fn relative(distance: f64, results_norm: f64) -> f64 {
     if distance == 0.0 { 0.0 } else { distance / results_norm }
 }

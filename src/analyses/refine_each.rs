@@ -57,8 +57,9 @@ impl PeakNames {
 /// The estimates follow from six runs with different meshes and time steps. [`refine`](super::refine()) does this for
 /// one result.
 ///
-/// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each peak is
-/// extrapolated separately. Their units may differ, and a peak that does not converge does not affect the others.
+/// `scene` builds and runs a simulation with a number of elements and a time step (s), and returns peaks by name. Each
+/// peak is extrapolated separately. Their units may differ, and a peak that does not converge does not affect the
+/// others.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;

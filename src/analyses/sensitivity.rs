@@ -6,9 +6,9 @@ use crate::analyses::refine_each::{PEAK_LIST_LABEL, PeakNames};
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
-/// Time step of the first twin, relative to the run's time step: so close that results should agree.
+/// Time step of the first twin, relative to the run's time step: so near to 1 that peaks should agree.
 const TWIN_STEP_FACTOR: f64 = 0.99;
-/// Largest number of confirmed digits; more would be a coincidence of three twins.
+/// Largest number of confirmed digits: agreement of three twins in more digits may be a coincidence.
 const MAX_CONFIRMED_DIGITS: u32 = 6;
 
 /// Value of a peak in a run and in its twins.
@@ -47,7 +47,7 @@ impl PeakTwins {
         if spread == 0.0 {
             return MAX_CONFIRMED_DIGITS;
         }
-        // Power of ten of the first digit.
+        // Power of ten of the first significant digit.
         let exponent = self.value.abs().log10().floor();
         let digits = (exponent + 1.0 - (2.0 * spread).log10()).floor();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -76,9 +76,9 @@ pub struct Sensitivity {
 
 /// Compares a scene's peaks with the peaks of three similar runs, its twins.
 ///
-/// The twins have a time step shorter by 1 %, three quarters of the elements, and half of the elements. `scene`
-/// builds and runs for a duration with a number of elements (in plan: of cells along the shorter side) and a time
-/// step (s), and returns peaks by name, as for [`refine_each`](super::refine_each).
+/// The twins have a time step shorter by 1 %, three quarters of the elements, and half of the elements. `scene` builds
+/// a simulation and runs it for a duration, with a number of elements (in plan: of cells along the shorter side) and a
+/// time step (s), and returns peaks by name, as for [`refine_each`](super::refine_each).
 ///
 /// If a peak converges, its twins differ from it by about its error. A body that rocks and twists on its corners
 /// may move chaotically: a negligible change decides on which corner it lands. Its peaks then belong to one motion out
@@ -110,8 +110,8 @@ pub struct Sensitivity {
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`] unless there are two elements or more and the time step is above zero, [`Error::Size`] unless
-/// every run returns the same number of peaks, at least one, [`Error::NotFinite`] if one of them is not finite,
+/// [`Error::Size`] unless there are two elements or more and every run returns the same number of peaks, at least
+/// one, [`Error::Input`] unless the time step is above zero, [`Error::NotFinite`] if a peak is not finite,
 /// [`Error::DuplicateName`] for a name that occurs twice, [`Error::Name`] for a name that only a twin returns, and
 /// any error of `scene`.
 pub fn sensitivity<N: Into<String>>(

@@ -17,17 +17,17 @@ use crate::structure::Structure;
 
 /// Elastic half-plane or damped layers under strips or mats.
 ///
-/// A [`Soil`](crate::Soil) makes a homogeneous half-plane. Its operator follows the energetic space–time Galerkin
-/// method: element means of the displacement at step ends due to tractions constant over element and step, from the
-/// closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
+/// For a [`Soil`](crate::Soil) the ground is a homogeneous half-plane. Its weights follow from the energetic space–time
+/// Galerkin method and the closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)): they are element means of
+/// the displacement at step ends, due to tractions that are constant over element and step. Radiation is exact.
 ///
 /// The weights of a [`SoilProfile`] with layers or damping come from Runge–Kutta convolution quadrature of its mobility
 /// (Radau IIA), with the same tractions. [`Stages::for_profile`] chooses the number of stages, and
 /// [`Ground::description`] reports it.
 ///
-/// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The free field is the
-/// motion of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion at depth in the same
-/// profile.
+/// Both kinds of weights are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
+/// free field is the motion of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion at
+/// depth in the same profile.
 ///
 /// ```
 /// use basemat::Soil;
@@ -38,7 +38,7 @@ use crate::structure::Structure;
 /// let mut matrix = vec![0.0; 40 * 40];
 /// ground.step_compliance(&mut matrix)?;
 /// // Before waves reach the edges of an element, a pressure displaces its surface by p·t/(ρ c₁). After a step of
-/// // 0.1 ms this still holds for all but the outer few percent of an element of 0.8 m.
+/// // 0.1 ms waves have reached only the outer few per cent of an element of 0.8 m.
 /// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
 /// assert!((matrix[10 * 40 + 10] / plane_wave - 1.0).abs() < 0.05);
 /// # Ok::<(), basemat::Error>(())
@@ -71,21 +71,26 @@ use crate::structure::Structure;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct ElasticGround {
+    /// Profile, plan and accuracy, from which the weights are computed.
     source: ElasticSource,
     /// Runge–Kutta stages since the last [`Ground::prepare`]; `None` for the closed form.
     prepared_stages: Option<Stages>,
+    /// Ground of the weights of `source`.
     ground: WeightsGround,
 }
 
 short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
+
+/// Relative tolerances of element compliances: below the range rounding errors are larger, above it passivity is lost.
+const TOLERANCE_RANGE: std::ops::RangeInclusive<f64> = 1e-13..=1e-4;
 
 impl ElasticGround {
     /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] under one [`Strip`], or several from left to right.
     ///
     /// Strips are coupled through the soil.
     ///
-    /// Damping that is not causal serves [`impedances`](ElasticGround::impedances) only: a simulation
-    /// returns [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal).
+    /// With damping that is not causal the ground can only compute [`impedances`](ElasticGround::impedances): a
+    /// simulation returns [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no strips or rigid bedrock without layers,
@@ -136,17 +141,17 @@ impl ElasticGround {
     /// Ground with `count` elements under each foundation of `structure`.
     ///
     /// A strip is as wide as its foundation, and its elements are graded towards the edges, where tractions are
-    /// singular: [`Strip::under`] with [`Grading::Cosine`]. Under a structure with [faces](crate::structure::Base::Faces) it
-    /// is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces together:
-    /// [`Plan::on_faces`].
+    /// singular: [`Strip::under`] with [`Grading::Cosine`]. Under a structure with [faces](crate::structure::Base::Faces)
+    /// the result is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces
+    /// together: [`Plan::on_faces`].
     ///
-    /// Cells under a flexible base in plan extend beyond its outline by a fraction of the overhang under a rigid base:
-    /// all of it under a stiff base, nothing under a soft base, which settles with the soil beyond its edge. The
-    /// fraction is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h. D is the bending stiffness (N·m) in the
-    /// structure's stiffness matrix, G the shear modulus at the surface, and h the side of a cell. The fraction is zero
-    /// below x = 0.28 and half at x = 1. Edges oblique to the cells extend by twice as much, at most by 0.12 of a cell,
-    /// and at most by 0.03 + 0.15/√n + 0.06/(1 + d/0.15) with n cells along the shorter side and d = D/(G R³) on a base of
-    /// the area π R².
+    /// Cells under a flexible base in plan extend beyond its outline by a fraction of the overhang under a rigid base.
+    /// The fraction is one under a stiff base, and zero under a soft base, which settles with the soil beyond its edge. It
+    /// is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h. D is the bending stiffness (N·m) in the structure's
+    /// stiffness matrix, G the shear modulus at the surface, and h the side of a cell. The fraction is zero below x = 0.28
+    /// and half at x = 1. At edges oblique to the cells the overhang is twice as large, at most 0.12 of a cell, and at most
+    /// 0.03 + 0.15/√n + 0.06/(1 + d/0.15) of a cell with n cells along the shorter side and d = D/(G R³) on a base of the
+    /// area π R².
     ///
     /// Under loads on the edge, moments of round bases need more cells than moments of square bases. In a circular plate
     /// with D/(G R³) = 0.02 their errors are 38, 16 and 7 % of the largest moment with 8, 13 and 21 cells along the
@@ -154,8 +159,8 @@ impl ElasticGround {
     ///
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
     /// triangles count as one). The soil acts on means of the displacement over elements, so that only the structure
-    /// resists shapes within an element. Strips or a plan of your own may have fewer elements; `build` then checks that
-    /// they are enough.
+    /// resists deformation within an element. A user's strips or plan may have fewer elements; `build` then checks that
+    /// their number is sufficient.
     ///
     /// # Errors
     /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`]; for a
@@ -193,15 +198,15 @@ impl ElasticGround {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
-        let is_in_range = (1e-13..=1e-4).contains(&tolerance);
+        let is_in_range = TOLERANCE_RANGE.contains(&tolerance);
         require("tolerance of a layered ground", tolerance, is_in_range, "from 1e-13 to 1e-4")?;
         Ok(self.with_changed_source(|source| source.tolerance = tolerance))
     }
 
     /// Reads convolution weights from the file `path`, and adds missing weights to it.
     ///
-    /// The closed form of the half-plane needs no file; a half-space in plan has weights as layers have. In plan the table
-    /// of form factors and the passivity check are computed again.
+    /// The closed form of the half-plane needs no file. The weights of a half-space in plan are stored as those of
+    /// layers are. In plan the table of form factors and the passivity check are computed again.
     ///
     /// Weights from a file equal computed weights to the last bit. A file of another profile, mesh, step, accuracy,
     /// machine or format is replaced. A damaged file, or a file with other content, stays unchanged and causes an
@@ -216,13 +221,13 @@ impl ElasticGround {
     /// let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 6.0)?;
     /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
     /// ground.with_kernel_file(&path).weights(0.01)?.prepare(100, &mut basemat::unobserved)?;
-    /// // Four distances, three components, 128 lags, and six words around them.
+    /// // Four distances, three components and 128 lags, with six further words of eight bytes.
     /// assert_eq!(std::fs::metadata(&path).unwrap().len(), 8 * (4 * 3 * 128 + 6));
     /// # std::fs::remove_file(path).unwrap();
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// The weights' methods then also return [`Error::File`](crate::Error::File).
+    /// The methods of the weights can then also return [`Error::File`](crate::Error::File).
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         self.with_changed_source(|source| source.file = Some(path.into()))
@@ -238,7 +243,7 @@ impl ElasticGround {
         Ok(Self { ground: self.ground.with_history(options)?, ..self })
     }
 
-    /// Sets a history of your own: see [`WeightsGround::with_own_history`].
+    /// Sets a user's history: see [`WeightsGround::with_own_history`].
     #[must_use]
     pub fn with_own_history(
         self,
@@ -279,7 +284,7 @@ impl ElasticGround {
     /// samples of the mobility, with their expected number as the total.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`Error::Input`](crate::Error::Input) for a time step that is not positive,
     /// [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for damping that exists in the frequency domain
     /// only. `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
     /// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed;

@@ -8,7 +8,8 @@
 //!
 //! with l the length of the receiver, f the self-similar surface kernel (Cagniard–de Hoop; Achenbach 1973, ch. 7;
 //! Kausel 2006) and w the overlap length of the two elements shifted by x. For separate elements every term of A is
-//! positive, so no digits are lost. Differences of the closed-form double primitive would lose up to fourteen digits.
+//! positive, so that no digits are lost. Differences of the closed-form double primitive would lose up to fourteen
+//! digits.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -27,7 +28,7 @@ use crate::history::STRIP_KINDS;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
-/// Step influence coefficients for one soil and one time step.
+/// Influence coefficients of element pairs for one soil and one time step.
 ///
 /// ```
 /// use basemat::bem::{ContactElement, InfluenceKernel};
@@ -42,15 +43,15 @@ use crate::soil::Soil;
 #[derive(Debug, Clone)]
 pub struct InfluenceKernel {
     pub(super) branches: Branches,
-    /// `c_k` of zz and xx: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt behind the Rayleigh wave.
+    /// Coefficients `c_k` of zz and xx: the response is 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt behind the Rayleigh wave.
     pub(super) late_series: [[f64; LATE_SERIES_TERMS]; 2],
     /// Distance that a shear wave travels in a step, `c_S` Δt, m.
     pub(super) travel_per_step: f64,
-    /// μ, Pa.
+    /// Shear modulus μ, Pa.
     shear_modulus: f64,
 }
 
-/// Smallest t₀/x, relative to the Rayleigh wave's arrival, for the late-time series: it converges fast from there on.
+/// Smallest t₀/x, relative to the Rayleigh wave's arrival, for the late-time series, which then converges fast.
 const LATE_SERIES_ARRIVALS: f64 = 3.0;
 /// Terms of the late-time series below this fraction of the first term do not change a sum in double precision.
 const NEGLIGIBLE_TERM_FRACTION: f64 = 1e-17;
@@ -117,7 +118,7 @@ impl InfluenceKernel {
     /// At lag n ≥ 1 they are the displacements at the end of the n-th step, with the traction during the first step.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad element or lag 0.
+    /// [`Error::Input`](crate::Error::Input) for an element without finite ends in order, or lag 0.
     pub fn coefficients(
         &self,
         receiver: ContactElement,

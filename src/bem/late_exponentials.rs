@@ -81,7 +81,9 @@ fn exponential_sum(
     let compliance_factor = kernel.compliance_factor();
     let half_span = 0.5 * classes.span();
     let window_length = window as f64 * travel_per_step;
+    // At the largest rate, the exponential at the end of the window is far below the tolerance: (tolerance/e⁵)^1.5.
     let max_log_rate = (1.5 * (5.0 - tolerance.ln()) / window_length).ln();
+    // At the smallest rate, the exponential changes over the horizon by a fraction of the tolerance.
     let min_log_rate =
         (NEGLECTED_TOLERANCE_FRACTION * tolerance / (horizon as f64 * travel_per_step)).ln();
     let pole_count = ((max_log_rate - min_log_rate) / h).ceil();
@@ -147,6 +149,7 @@ struct Pole {
     s: f64,
     /// Weight in the trapezoidal rule, 1/Pa.
     weight: f64,
+    /// Number of Legendre polynomials of this pole.
     polynomial_count: usize,
     /// `β_ij` of zz and xx, `MAX_POLYNOMIAL_COUNT` × `MAX_POLYNOMIAL_COUNT`.
     legendre: [Vec<f64>; 2],
@@ -166,7 +169,9 @@ impl Pole {
         Self { s, weight, polynomial_count: MAX_POLYNOMIAL_COUNT, legendre }
     }
 
-    /// Drops polynomials while the sum of all neglected terms, relative to the term t⁻¹, is at most `max_error`.
+    /// Reduces the number of polynomials while the neglected terms are at most `max_error`.
+    ///
+    /// `max_error`: bound of the sum of all neglected terms, relative to the term t⁻¹.
     fn reduce_polynomials(&mut self, late_series: &[[f64; LATE_SERIES_TERMS]; 2], max_error: f64) {
         let mut neglected_sums = [0.0; 2];
         while self.polynomial_count > 1 {

@@ -1,4 +1,4 @@
-//! The soil under the base: boundary elements, and the trait through which the integrator uses them.
+//! Ground under the base: boundary elements, and the trait through which the integrator uses them.
 //!
 //! # Contact vectors
 //!
@@ -75,7 +75,7 @@ use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// Soil under the base; implement this trait for a ground of your own.
+/// Ground under the base; implement this trait for your ground.
 ///
 /// A ground returns the mean displacement of every element at the end of a step. It is the sum of the step compliance
 /// (a matrix) times the tractions of this step, which are constant over the step, and of the history, the effect of all
@@ -93,19 +93,19 @@ use crate::soil::Soil;
 /// its step compliance is 2/k, twice the static one, and its history −s₀. With s₁ = τ/k and no history each step would
 /// dissipate (Δτ)²/2k without any damping: the response would converge at first order, and the loss would count as
 /// radiated by the soil. A spring with a dashpot c in parallel has the step compliance 1/(k/2 + c/Δt) and the history
-/// (c/Δt − k/2)/(c/Δt + k/2) s₀. [`SpringGround::of_elements`] makes a bed of them, which can be a part of your ground.
-/// Parts without stiffness (dashpots, waves, creep) use the exact displacement under a constant traction.
+/// (c/Δt − k/2)/(c/Δt + k/2) s₀. [`SpringGround::of_elements`] creates a bed of such springs, which can be a part of your
+/// ground. For parts without stiffness (dashpots, waves, creep), use the exact displacement under a constant traction.
 ///
 /// A run warns of an elastic part with s₁ = τ/k:
-/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). For this check `build` prepares a ground of
-/// your own without waves for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
+/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). For this check `build` prepares a user's
+/// ground without waves for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
 ///
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
 #[auto_impl::auto_impl(Box)]
 pub trait Ground: Any + Send {
-    /// The elements, not overlapping: from left to right in the plane, in any order in plan.
+    /// The elements, which do not overlap: from left to right in the plane, in any order in plan.
     ///
-    /// With walls, along the outline: down the left wall, along the base, up the right wall.
+    /// Elements with walls are in the order of the outline: down the left wall, along the base, up the right wall.
     ///
     /// All elements are in the plane, or all are [in plan](ContactElement::in_plan). Elements in plan have displacements
     /// in three directions, and forces, moments and energies refer to the whole body, in N, N m and J.
@@ -113,14 +113,14 @@ pub trait Ground: Any + Send {
 
     /// Prepares for steps of `time_step` seconds, and clears all tractions.
     ///
-    /// `steps` is the total number of steps, including the committed steps; `None` if the number is open. The method
+    /// `steps` is the total number of steps, including the committed steps; `None` if it is unknown. The method
     /// computes weights and allocates memory. [`build`](crate::coupled::SimulationBuilder::build) calls it before the
     /// first step. A run beyond `steps` calls it again, with [`Ground::save`] before and [`Ground::restore`] after the
     /// call.
     ///
     /// # Errors
-    /// If this ground does not support this time step or number of steps ([`Error::part`](crate::Error::part) makes an error
-    /// of a ground of your own); [`Error::Stopped`] by the observer. The ground is then unchanged.
+    /// If this ground does not support this time step or number of steps ([`Error::part`](crate::Error::part) creates an
+    /// error of a user's ground); [`Error::Stopped`] by the observer. The ground is then unchanged.
     fn prepare(
         &mut self,
         time_step: f64,
@@ -130,8 +130,8 @@ pub trait Ground: Any + Send {
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with end-of-step displacements due to unit tractions.
     ///
-    /// The tractions act during the step. If the ground is an energy method, the matrix is symmetric once rows are
-    /// multiplied by element lengths; the integrator does not rely on it.
+    /// The tractions act during the step. For an energy method, the matrix with its rows multiplied by the element lengths
+    /// is symmetric. The integrator does not require this symmetry.
     ///
     /// # Errors
     /// If the ground is not prepared or the slice has the wrong length.
@@ -156,9 +156,9 @@ pub trait Ground: Any + Send {
 
     /// Diagonals of step and static compliance, if all other entries are zero; `None` by default.
     ///
-    /// Return them only if a traction displaces its own element in its own direction alone. Under a base of few rigid
-    /// bodies, a run on many such elements in plan then needs no full matrices: a bed of 64 × 64 cells needs tens of
-    /// megabytes instead of gigabytes. A run on all other grounds and bases uses the full matrices.
+    /// Return them only if a traction displaces only the element on which it acts, in the direction in which it acts. Under
+    /// a base of few rigid bodies, a run on many such elements in plan then needs no full matrices: a bed of 64 × 64 cells
+    /// needs tens of megabytes instead of gigabytes. A run on all other grounds and bases uses the full matrices.
     ///
     /// # Errors
     /// If the ground is not prepared.
@@ -166,7 +166,7 @@ pub trait Ground: Any + Send {
         Ok(None)
     }
 
-    /// Static compliance of elements cut into halves, or in plan into quarters; `None` by default.
+    /// Static compliance of elements divided into halves, or in plan into quarters; `None` by default.
     ///
     /// The matrix is like [`Ground::static_compliance`], with the parts of each element in place of the element. In plan
     /// their order is left front, right front, left back, right back. `build` uses the matrix to check whether a

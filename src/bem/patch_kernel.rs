@@ -11,6 +11,7 @@ use crate::soil::Soil;
 /// The coupling of a pair of elements ends when the Rayleigh wave has crossed both.
 #[derive(Debug, Clone)]
 pub struct PatchKernel {
+    /// Influence coefficients of single pairs.
     pub(super) kernel: InfluenceKernel,
     classes: PairClasses,
     spectra: SharedSpectra,
@@ -20,7 +21,7 @@ impl PatchKernel {
     /// Weights for `elements` (left to right, not overlapping) and steps of `time_step` seconds.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step; as for [`PairClasses::new`].
+    /// [`Error::Input`](crate::Error::Input) for a time step that is not positive; as for [`PairClasses::new`].
     pub fn new(soil: Soil, elements: Vec<ContactElement>, time_step: f64) -> Result<Self> {
         let classes = PairClasses::new(elements)?;
         let kernel = InfluenceKernel::new(soil, time_step)?;

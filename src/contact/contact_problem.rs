@@ -125,9 +125,9 @@ impl ContactProblem {
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
         let count = delassus.len().isqrt() / COMPONENTS_IN_PLANE;
         let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
-        if count == 0 || layout.square() != delassus.len() {
+        if count == 0 || layout.matrix_len() != delassus.len() {
             let quantity = "Delassus operator";
-            let needed = ContactLayout::new(COMPONENTS_IN_PLANE, count.max(1)).square();
+            let needed = ContactLayout::new(COMPONENTS_IN_PLANE, count.max(1)).matrix_len();
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
         check_list(&laws, count)?;

@@ -6,6 +6,7 @@ use crate::bem::Ground;
 use crate::contact::ContactSearch;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::joint::Joint;
 use crate::coupled::model::load::Load;
 use crate::coupled::scheme::{Midpoint, TimeScheme};
 use crate::coupled::serviceability::Serviceability;
@@ -33,6 +34,7 @@ pub struct SimulationBuilder {
     pub(crate) ground: Option<Box<dyn Ground>>,
     pub(crate) time_step: f64,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(crate) joints: Vec<Joint>,
     pub(crate) motion: Box<dyn FreeField>,
     pub(crate) scheme: Box<dyn TimeScheme>,
     pub(crate) search: ContactSearch,
@@ -79,6 +81,7 @@ impl SimulationBuilder {
             ground: None,
             time_step,
             laws: Vec::new(),
+            joints: Vec::new(),
             motion: Box::new(AtRest),
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
@@ -142,6 +145,15 @@ impl SimulationBuilder {
         self
     }
 
+    /// Adds a joint: contact between two lines of nodes of the structure.
+    ///
+    /// Only in the plane. [`State::joints`](crate::coupled::State::joints) has its results.
+    #[must_use]
+    pub fn joint(mut self, joint: Joint) -> Self {
+        self.joints.push(joint);
+        self
+    }
+
     /// Sets the ground motion.
     #[must_use]
     pub fn motion(mut self, motion: impl FreeField + 'static) -> Self {
@@ -163,7 +175,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets gravity g (m/s²), which gives the structure its weight.
+    /// Sets gravity g (m/s²), which determines the structure's weight.
     ///
     /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state under the
     /// weight and the loads at t = 0, as [`GravityStage`] defines. Without gravity there is no static state. The base
@@ -198,7 +210,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the friction while the weight is applied; [`GravityStage`] has the rule.
+    /// Sets the friction while the weight is applied, as [`GravityStage`] defines.
     #[must_use]
     pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
         self.gravity_stage = gravity_stage;
@@ -221,9 +233,9 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the point (m) along x for base moment and torque.
+    /// Sets the x coordinate (m) of the point to which base moment and torque refer.
     ///
-    /// Default: the middle of the base. Along y it is always the middle.
+    /// Default: the middle of the base. The y coordinate is always that of the middle.
     #[must_use]
     pub fn moment_center(mut self, x: f64) -> Self {
         self.moment_center = Some(x);
@@ -243,8 +255,8 @@ impl SimulationBuilder {
 
     /// Sets the observer of [`build`](SimulationBuilder::build); default [`unobserved`](crate::unobserved).
     ///
-    /// The build reports the progress of the ground's convolution weights to it: of the weights of the expected steps,
-    /// or of those that the build needs.
+    /// The build reports to the observer how many convolution weights of the ground it has computed. It computes the
+    /// weights of all expected steps, or only those that it needs itself if no number is expected.
     #[must_use]
     pub fn observer(
         mut self,
@@ -273,17 +285,17 @@ impl SimulationBuilder {
     /// Sets friction coefficients for the factor of safety against sliding.
     ///
     /// Pass one coefficient for all elements, or one for each from left to right. They replace the coefficients of the
-    /// interface laws ([`InterfaceLaw::friction_coefficient`]), for example for a bonded base, which has none. They
-    /// change nothing else.
+    /// interface laws ([`InterfaceLaw::friction_coefficient`]), for example for a bonded base, which has none. Only the
+    /// factor of safety depends on them.
     #[must_use]
     pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
         self.safety_friction_coefficients = coefficients.into();
         self
     }
 
-    /// Sets limits of slip, gap, uplifted fraction and rotation.
+    /// Sets limits of slip, gap, uplifted fraction, rotation and settlement.
     ///
-    /// Each [`Run`](crate::results::Run) is compared with the limits. Default: no limits. They change nothing else.
+    /// Each [`Run`](crate::results::Run) is compared with the limits, which change no other result. Default: no limits.
     #[must_use]
     pub fn serviceability(mut self, limits: Serviceability) -> Self {
         self.serviceability = limits;
@@ -335,8 +347,8 @@ impl SimulationBuilder {
 
     /// Fixes the base: each foundation moves rigidly with its free field.
     ///
-    /// Codes and fixed-base models assume this. Of ground and interface law only the positions of the contact elements
-    /// are used. Base shear, moment and tractions then act on the support.
+    /// Design codes and fixed-base models assume this. Of the ground only the positions of the contact elements are
+    /// used, and of the interface law nothing. Base shear, moment and tractions then act on the support.
     /// [`interaction`](crate::analyses::interaction()) compares the run with the run on the ground.
     ///
     /// ```

@@ -10,6 +10,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
+use crate::coupled::step::joint_losses::JointLosses;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::COMPONENTS_IN_SPACE;
 use crate::interface::{ContactState, LawForm, Mode, PreviousContact};
@@ -150,7 +151,7 @@ impl Simulation {
         Ok(checkpoint)
     }
 
-    /// Sets the simulation to the state of `checkpoint`; its present state does not matter.
+    /// Sets the simulation to the state of `checkpoint`, whatever its present state.
     ///
     /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
     ///
@@ -168,8 +169,8 @@ impl Simulation {
 
     /// Sets the simulation to the state of `checkpoint`, in a scene with these `changes`.
     ///
-    /// Apart from the changes it is [`Simulation::resume`]. Use it, for example, to continue with another friction or
-    /// another motion, which the label names.
+    /// Apart from the changes the function is [`Simulation::resume`]. Use it, for example, to continue with another
+    /// friction or another motion, which the label names.
     ///
     /// # Errors
     /// As for [`Simulation::resume`], for a difference outside the `changes`.
@@ -232,9 +233,11 @@ impl Simulation {
         state.trials = 0;
         state.method = SearchMethod::ActiveSet;
         state.transitions.clear();
+        state.joints.iter_mut().for_each(|joint| joint.transitions.clear());
         state.kinematics.clear_dof_cache();
         state.energy_balance =
             energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
+        JointLosses::set(energies.as_ref().map(|energies| &energies.joint_losses), &mut state);
         state.update_resultants(scene);
         self.state = state;
         self.energies = energies;
@@ -296,27 +299,37 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
         return Err(corrupt.into());
     }
     let has_limits = LawForm::of(scene.layout()) == LawForm::Limits;
+    let mut restored = Vec::with_capacity(saved.len());
     for (e, &(index, has_opened)) in saved.iter().enumerate() {
         let mode = Mode::ALL.get(index).copied();
         let is_possible = |mode: &Mode| has_limits || scene.law(e).modes().contains(mode);
         let mode = mode.filter(is_possible).ok_or_else(|| corrupt.clone())?;
-        state.modes[e] = mode;
-        state.start.restore(e, state.contact[e], mode, has_opened);
+        restored.push((mode, has_opened));
+    }
+    let elements = state.elements_mut().zip(&restored);
+    let mut contacts = Vec::with_capacity(saved.len());
+    for ((contact, present_mode), (mode, _)) in elements {
+        *present_mode = *mode;
+        contacts.push(*contact);
+    }
+    for (e, (contact, (mode, has_opened))) in contacts.into_iter().zip(restored).enumerate() {
+        state.start.restore(e, contact, mode, has_opened);
     }
     Ok(())
 }
 
 /// All numbers that a step passes to the next, in a fixed order.
 ///
-/// `components`: number of displacement components, 2 in the plane, 3 in plan.
+/// `component_count` is the number of displacement components: 2 in the plane, 3 in plan.
 fn state_numbers<'a>(
-    components: usize,
+    component_count: usize,
     state: &'a mut State,
     energies: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
     let mut numbers = Vec::new();
     let State { kinematics, contact, start, free_field, free_field_across, foundations, .. } =
         state;
+    let joint_contact = state.joints.iter_mut().flat_map(|joint| &mut joint.contact);
     for values in
         [&mut kinematics.displacement, &mut kinematics.velocity, &mut kinematics.acceleration]
     {
@@ -327,11 +340,13 @@ fn state_numbers<'a>(
         let Translation { displacement, increment, velocity, new_velocity, new_acceleration } =
             translation;
         for values in [displacement, increment, velocity, new_velocity, new_acceleration] {
-            numbers.extend(values.iter_mut().take(components));
+            numbers.extend(values.iter_mut().take(component_count));
         }
     }
     let mut y_components = Vec::new();
-    for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in contact {
+    for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in
+        contact.iter_mut().chain(joint_contact)
+    {
         numbers.extend([gap, slip, pressure, shear]);
         y_components.extend([slip_across, shear_across]);
     }
@@ -340,10 +355,10 @@ fn state_numbers<'a>(
         numbers.push(&mut foundation.rocking_work);
         y_components.push(&mut foundation.rocking_work_across);
     }
-    if components == COMPONENTS_IN_SPACE {
+    if component_count == COMPONENTS_IN_SPACE {
         numbers.push(free_field_across);
         numbers.extend(y_components);
     }
-    numbers.extend(energies.into_iter().flat_map(|energies| energies.numbers(components)));
+    numbers.extend(energies.into_iter().flat_map(|energies| energies.numbers(component_count)));
     numbers
 }

@@ -3,7 +3,7 @@
 use crate::coupled::model::effective_stiffness::EFFECTIVE_STIFFNESS_NAME;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::{Error, Result};
 use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
@@ -18,7 +18,7 @@ const MAX_STIFFNESS_CONDITION: f64 = 1e12;
 /// A light structure depends only on three sums of the tractions, in which their errors cancel. Beyond the limit the
 /// operator retains no digit of the ground's compliance.
 const MAX_DELASSUS_CONDITION: f64 = 1e16;
-/// Fraction of a condition that a ratio must reach to be named as its cause.
+/// Fraction of a condition number that a ratio must reach to count as its cause.
 const MIN_CAUSE_FRACTION: f64 = 1e-3;
 /// Condition beyond which a matrix counts as singular.
 const SINGULAR_CONDITION: f64 = 1e18;
@@ -84,16 +84,17 @@ impl fmt::Display for Conditioning {
 /// Returns an error if double precision is insufficient.
 pub(crate) fn conditioning(
     scene: &Scene,
-    solver: &mut Solver,
+    solver: &mut StepSolver,
     start: &PreviousContacts,
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.operators_and_contact_mut();
-    let order = scene.layout().len();
     let effective_stiffness = operators.condition_number(&scene.model, &scene.coefficients)?;
-    let ground = match scene.step_compliance.as_diagonal() {
+    let ground = if scene.step_compliance.as_diagonal().is_some() {
         // A diagonal matrix scaled by its diagonal is the identity.
-        Some(_) => 1.0,
-        None => dense_condition(&scene.step_compliance, order),
+        1.0
+    } else {
+        let ground_order = scene.base.elements().layout().len();
+        dense_condition(&scene.base.ground_matrix(&scene.step_compliance), ground_order)
     };
     let delassus = contact.condition_number_at_rest(
         &operators.delassus,
@@ -150,14 +151,14 @@ fn cause_of_stiffness_condition(scene: &Scene, operators: &Operators, condition:
         let quantity = "stiffness of the structure over its inertia in a time step";
         return Cause { quantity, ratio: inertia_ratio };
     }
-    let mut largest: f64 = 0.0;
-    let mut smallest = f64::INFINITY;
+    let mut max_stiffness: f64 = 0.0;
+    let mut min_stiffness = f64::INFINITY;
     for &stiffness in stiffnesses.iter().filter(|stiffness| **stiffness > 0.0) {
-        largest = largest.max(stiffness);
-        smallest = smallest.min(stiffness);
+        max_stiffness = max_stiffness.max(stiffness);
+        min_stiffness = min_stiffness.min(stiffness);
     }
     let quantity = "largest over smallest stiffness within the structure";
-    Cause { quantity, ratio: largest / smallest }
+    Cause { quantity, ratio: max_stiffness / min_stiffness }
 }
 
 /// Cause of a large condition of W: a compliant structure, the ground, or very different elements.
@@ -170,9 +171,10 @@ fn cause_of_delassus_condition(
     let order = scene.layout().len();
     let mut compliance_ratio: f64 = 0.0;
     for i in 0..order {
-        let ground = scene.step_compliance.diagonal(order, i);
-        let structure = (operators.delassus.diagonal(order, i) - ground).abs();
-        compliance_ratio = compliance_ratio.max(structure / ground.abs());
+        let ground_compliance = scene.step_compliance.diagonal(order, i);
+        let structure_compliance =
+            (operators.delassus.diagonal(order, i) - ground_compliance).abs();
+        compliance_ratio = compliance_ratio.max(structure_compliance / ground_compliance.abs());
     }
     if compliance_ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
         let quantity = "compliance of the structure in a time step over that of the ground";
@@ -183,7 +185,7 @@ fn cause_of_delassus_condition(
         return Cause { quantity, ratio: ground_condition };
     }
     let areas = scene.base.areas();
-    let largest = areas.iter().copied().fold(0.0, f64::max);
-    let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
-    Cause { quantity: "longest over shortest contact element", ratio: largest / smallest }
+    let max_area = areas.iter().copied().fold(0.0, f64::max);
+    let min_area = areas.iter().copied().fold(f64::INFINITY, f64::min);
+    Cause { quantity: "largest over smallest contact element", ratio: max_area / min_area }
 }

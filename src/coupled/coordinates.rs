@@ -57,12 +57,12 @@ pub enum Coordinates {
     /// accelerations after a collision, has no error bound. With fewer forces, a structure whose responses do not converge
     /// without damping is an error.
     ///
-    /// Measured errors of a block of 1 344 degrees of freedom on 36 cells, which slides and uplifts on 17 % of its base: at
-    /// a tolerance of 1e-3, at most 2e-4 in base shear, displacements and pressures with damping in proportion to
-    /// stiffness, and 6e-4 without damping. At 1e-4 they were 2e-5 and 3e-4, and 4e-3 and 4e-2 in the roof's
-    /// acceleration. Twelve harder blocks of 2 400 degrees of freedom (parts 1e4 times as stiff as others, point masses,
-    /// none or all of the damping in proportion to mass) had errors of at most 9e-4 in base shear and displacements and of
-    /// 3.4e-3 in pressures at 1e-4. Compare two tolerances.
+    /// Measured errors of a block of 1 344 degrees of freedom on 36 cells, which slides and uplifts on 17 % of its
+    /// base: at a tolerance of 1e-3, at most 2e-4 in base shear, displacements and pressures with damping in proportion
+    /// to stiffness, and 6e-4 without damping. At a tolerance of 1e-4 they were 2e-5 with this damping and 3e-4
+    /// without; those of the roof's acceleration were 4e-3 and 4e-2. Twelve harder blocks of 2 400 degrees of freedom
+    /// (parts 1e4 times as stiff as others, point masses, none or all of the damping in proportion to mass) had errors
+    /// of at most 9e-4 in base shear and displacements and of 3.4e-3 in pressures at 1e-4. Compare two tolerances.
     ///
     /// Probes of section forces add vectors, because such forces respond to tractions less than their stiffness suggests.
     /// On a block of concrete on 36 cells the section shear and moment at half its height had errors of 8e-5 at 1e-4.

@@ -27,11 +27,12 @@ pub enum GravityStage {
     Frictional,
     /// The structure replaces soil at rest, for comparisons.
     ///
-    /// The structure has walls in the ground, which begin without friction and without an open cut. Pressures of the
-    /// soil at rest act on base and walls, and the difference of the weights strains the soil. A structure as heavy as
-    /// the soil that it replaces causes no strain. Below a lighter structure part of the base opens. The pressures on
-    /// the walls of a heavier structure exceed the pressures of the soil at rest. Elements under laws that never open are
-    /// bonded from the start. On the surface this stage is [`Frictionless`](Self::Frictionless).
+    /// It is for a structure with walls in the ground. The walls have no friction at the start, and the soil was never
+    /// cut open. Pressures of the soil at rest act on base and walls, and the difference of the weights strains the
+    /// soil. A structure as heavy as the soil that it replaces causes no strain. Below a lighter structure part of the
+    /// base opens. The pressures on the walls of a heavier structure exceed the pressures of the soil at rest. Elements
+    /// under laws that never open are bonded from the start. On the surface this stage is
+    /// [`Frictionless`](Self::Frictionless).
     WishedInPlace,
     /// There is no static state: the base starts without pressure, and weight and loads act from t = 0 on.
     ///

@@ -6,7 +6,7 @@ use crate::bem::{Ground, GroundDescription, SpringGround, WeightsGround};
 use crate::error::{Result, same_length, unobserved};
 use crate::geometry::ContactLayout;
 
-/// Time step over the trial step.
+/// Ratio of the time step to the trial step.
 ///
 /// In the trial step waves cross few elements and dashpots hardly move. Only an elastic part then has a compliance.
 const TRIAL_STEP_DIVISOR: f64 = 64.0;
@@ -21,8 +21,8 @@ const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 
 /// Whether an elastic part of the ground applies each traction at the end of its step.
 ///
-/// Its displacement at the end of the step is then s₁ = C τ. Grounds of the crate and grounds with waves return `false`
-/// without a trial. The ground must be prepared again after this function.
+/// The displacement of the part at the end of a first step is then s₁ = C τ. Grounds of the crate and grounds with
+/// waves return `false` without a trial. The ground must be prepared again after this function.
 ///
 /// # Errors
 /// If the ground cannot be prepared for the time step.
@@ -74,7 +74,7 @@ fn uniform_response(
         )?;
         return Ok(component_sums(&diagonal.in_step, layout));
     }
-    let mut matrix = vec![0.0; layout.square()];
+    let mut matrix = vec![0.0; layout.matrix_len()];
     ground.step_compliance(&mut matrix)?;
     let row_sums: Vec<f64> = matrix.chunks(layout.len()).map(|row| row.iter().sum()).collect();
     Ok(component_sums(&row_sums, layout))

@@ -155,7 +155,8 @@ impl Simulation {
     pub(crate) fn identity(&self) -> Identity {
         let Self { scene, state, .. } = self;
         let model = &scene.model;
-        // The sign of each mode is arbitrary. The responses of a nonlinear structure have no modes and change.
+        // Modal coordinates of a checkpoint are wrong for modes of other signs, which are arbitrary. This sum depends
+        // on the signs. The responses of a nonlinear structure have no modes and change with the tangent.
         let operators = self.solver.operators();
         let responses = operators.traction_responses.iter().enumerate().filter(|_| model.is_linear);
         let signed_sum = responses.map(|(k, value)| (k as f64).cos() * value).sum();
@@ -164,8 +165,14 @@ impl Simulation {
         for row in [c.acceleration, c.velocity, c.displacement] {
             scheme_numbers.extend(row);
         }
-        let elements = scene.base.elements().iter();
-        let elements = elements.flat_map(ContactElement::ends).flatten().collect();
+        let ground_elements = scene.base.elements().iter();
+        let mut elements: Vec<f64> =
+            ground_elements.flat_map(ContactElement::ends).flatten().collect();
+        for joint in scene.base.joints() {
+            let ends = joint.line.elements().iter().flat_map(ContactElement::ends);
+            elements.extend(ends.flatten());
+            elements.push(joint.line.gap);
+        }
         let structure = vec![
             sum_of_magnitudes(model.mass.values()),
             sum_of_magnitudes(model.damping.values()),

@@ -38,11 +38,13 @@ pub(crate) struct Scene {
     pub(crate) loads: Vec<SteppedLoad>,
     /// Weight as a load, in stepping coordinates, if the run starts without a static state; otherwise empty.
     pub(crate) weight: Vec<f64>,
-    /// Whether the nonlinear force connects each part with other parts.
+    /// For each part, whether the nonlinear force connects it with other parts.
     pub(crate) is_connected_by_force: Vec<bool>,
-    /// Step compliance of the ground, 2Q × 2Q.
+    /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) step_compliance: Arc<CompressedMatrix>,
-    /// Displacement of the free field at t = 0, m, 2Q; it is subtracted from the free field of every step.
+    /// Displacement of the free field at t = 0 (m), which is subtracted from the free field of every step.
+    ///
+    /// It has 2Q entries, or 3Q in plan.
     pub(crate) initial_free_field: Vec<f64>,
     /// The probes in stepping coordinates.
     pub(crate) stepped_probes: Vec<SteppedProbe>,
@@ -129,7 +131,7 @@ impl Scene {
             weight,
             is_connected_by_force,
             step_compliance: parts.step_compliance.clone(),
-            initial_free_field: std::mem::take(&mut parts.initial_free_field),
+            initial_free_field: base.with_zero_joints(&parts.initial_free_field),
             stepped_probes,
             gravity_stage: builder.gravity_stage as usize as f64,
             initial_motion_sums: [
@@ -143,9 +145,9 @@ impl Scene {
         }
     }
 
-    /// Number of contact elements Q.
+    /// Number of contact elements Q, of the ground and the joints.
     pub(crate) fn element_count(&self) -> usize {
-        self.base.elements().len()
+        self.layout().elements()
     }
 
     /// Order of the numbers of a contact vector.
@@ -166,8 +168,7 @@ impl Scene {
         if let Transformation::Identity = self.model.transformation {
             self.base.means(displacement, means);
             let influence = &self.model.influence;
-            let translations =
-                influence.parts().iter().map(|part| part.mean_translation(&self.base, means));
+            let translations = influence.base_translations(&self.base, means);
             influence.translate(-1.0, translations, displacement);
         }
     }
@@ -185,7 +186,8 @@ impl Scene {
     ) {
         self.base.means(displacement, means);
         let influence = &self.model.influence;
-        let base_translation = |part: &ConnectedPart| part.mean_translation(&self.base, means);
+        let base_translation =
+            |part: &ConnectedPart| influence.base_translation(part, &self.base, means);
         let parts = || influence.parts().iter().zip(&self.is_connected_by_force);
         let first_connected = parts()
             .zip(translations.clone())
@@ -236,14 +238,14 @@ impl Scene {
     }
 
     /// Whether any law stores elastic energy, now or with other state variables.
-    pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
+    pub(crate) fn is_compliant(&self, previous: &PreviousContacts) -> Result<bool, LawError> {
         let mut is_compliant = false;
         for element in 0..self.element_count() {
             for &mode in self.law(element).modes() {
-                is_compliant |= self.compliance(element, mode, start)? != [0.0; 2];
+                is_compliant |= self.compliance(element, mode, previous)? != [0.0; 2];
             }
         }
-        Ok(is_compliant || !start.state_variables().is_empty())
+        Ok(is_compliant || !previous.state_variables().is_empty())
     }
 
     /// Normal and shear compliance of an element whose step ends in `mode`, m/Pa.
@@ -251,9 +253,9 @@ impl Scene {
         &self,
         element: usize,
         mode: Mode,
-        start: &PreviousContacts,
+        previous: &PreviousContacts,
     ) -> Result<[f64; 2], LawError> {
-        let compliance = self.law(element).compliance(mode, &start.element(element));
+        let compliance = self.law(element).compliance(mode, &previous.element(element));
         let named_values =
             [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
         match named_values.into_iter().find(|(_, value)| !value.is_finite()) {

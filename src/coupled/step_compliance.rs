@@ -8,7 +8,7 @@ use crate::geometry::{Patch, check_count, lattice_cells};
 use crate::linalg::{CompressedMatrix, indefinite_pivot};
 use crate::structure::Structure;
 
-/// Number of contact elements from which the step compliance of a bed is not stored as a matrix.
+/// Number of contact elements from which the step compliance of a bed of springs is not stored as a matrix.
 ///
 /// With fewer elements, matrices take less time.
 const MIN_BED_ELEMENTS: usize = 64;
@@ -23,8 +23,8 @@ const STEP_COMPLIANCE_NAME: &str = "step compliance of the ground";
 
 /// Step compliance of a ground, for tractions inside the outline.
 ///
-/// A bed of independent springs under a base of few rigid bodies has a diagonal, any other scene a matrix. Returns an
-/// error if the ground could generate energy.
+/// The result is a diagonal for a bed of independent springs under a base of few rigid bodies, otherwise a matrix. A
+/// ground that could generate energy is an error.
 pub(crate) fn step_compliance(
     ground: &dyn Ground,
     structure: &dyn Structure,
@@ -47,7 +47,7 @@ fn bed_compliance(
         return Ok(None);
     }
     let Some(compliance) = ground.diagonal_compliance()? else { return Ok(None) };
-    let base = PlacedBase::of(structure, elements)?;
+    let base = PlacedBase::of(structure, elements, &[])?;
     let rank = base.dofs().len();
     let has_small_rank = rank <= MAX_STRUCTURE_RANK && 2 * rank <= elements.len();
     let is_elastic = compliance.in_step.iter().all(|entry| *entry != 0.0);
@@ -74,12 +74,12 @@ pub(crate) fn diagonal_inside_outline(
 
 /// Step compliance of all pairs of elements; an error if it could generate energy.
 ///
-/// With rows weighted by the elements' areas, its symmetric part must not be negative.
+/// With rows weighted by the elements' areas, its symmetric part must be positive semi-definite.
 fn compliance_matrix(ground: &dyn Ground, elements: &Patch) -> Result<CompressedMatrix> {
     let layout = elements.layout();
     let areas = elements.areas();
     let order = layout.len();
-    let mut compliance = vec![0.0; layout.square()];
+    let mut compliance = vec![0.0; layout.matrix_len()];
     ground.step_compliance(&mut compliance)?;
     elements.refer_inside(&mut compliance);
     all_finite(STEP_COMPLIANCE_NAME, &compliance)?;
@@ -91,16 +91,16 @@ fn compliance_matrix(ground: &dyn Ground, elements: &Patch) -> Result<Compressed
             scale[row] = root.recip();
         }
     }
-    let mut symmetric = vec![0.0; order * order];
+    let mut symmetric_part = vec![0.0; order * order];
     for i in 0..order {
         for j in 0..order {
             let sum =
                 row_areas[i] * compliance[i * order + j] + row_areas[j] * compliance[j * order + i];
-            symmetric[i * order + j] = 0.5 * scale[i] * scale[j] * sum;
+            symmetric_part[i * order + j] = 0.5 * scale[i] * scale[j] * sum;
         }
-        symmetric[i * (order + 1)] += NEGATIVE_EIGENVALUE_TOLERANCE;
+        symmetric_part[i * (order + 1)] += NEGATIVE_EIGENVALUE_TOLERANCE;
     }
-    match indefinite_pivot(&symmetric, order) {
+    match indefinite_pivot(&symmetric_part, order) {
         None => Ok(match lattice_cells(elements) {
             Some(cells) => CompressedMatrix::on_lattice(compliance, &cells, areas),
             None => CompressedMatrix::new(compliance, order),

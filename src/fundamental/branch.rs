@@ -1,10 +1,10 @@
-//! Quadrature of the half-plane surface kernel against a polynomial in the speed of waves.
+//! Quadrature of the half-plane's surface kernel times a smooth function of the wave speed.
 //!
 //! The kernel is a sum of branches. Each branch is a square root times a rational function whose poles are the roots of
 //! the Rayleigh polynomial. On each branch a variable s removes the square root, and pieces are halved until the nearest
 //! singularity is distant enough for a Gauss rule. Two poles may be arbitrarily close to the path of integration; they
 //! are subtracted and integrated in closed form. The Rayleigh root is on the path (principal value). For small Poisson's
-//! ratios, the root near the pressure wave is close to the path.
+//! ratios, the root near the pressure wave is close to the path. Further symbols: see `half_plane` and `rayleigh`.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -17,9 +17,9 @@ use crate::linalg::{Complex, gauss};
 
 /// Weight of the kernel in an integral: a smooth function A of the speed u.
 pub(crate) trait KernelWeight {
-    /// A(u).
+    /// Weight A at the speed u.
     fn value(&self, u: f64) -> f64;
-    /// A(u)/u.
+    /// Quotient A(u)/u.
     fn value_over_speed(&self, u: f64) -> f64;
     /// Whether A(u)/u is smooth at u = 0.
     fn vanishes_at_zero(&self) -> bool;
@@ -72,9 +72,9 @@ pub(crate) struct Branches {
     pub(crate) rayleigh_arrival: f64,
     /// Strength of the Rayleigh pulse of zx.
     pub(crate) rayleigh_pulse: f64,
-    /// a² − y for the root y near the pressure wave; `None` if this root is not subtracted.
+    /// Distance a² − y of the root y near the pressure wave; `None` if this root is not subtracted.
     near_root: Option<f64>,
-    /// Singularities of each branch that are not subtracted: pieces are halved because of them.
+    /// Singularities of each branch that are not subtracted, in the variable s; they limit the length of pieces.
     distant_singularities: [[[f64; 2]; 4]; 5],
     /// The Rayleigh pole in the variables of `Pressure` and `Shear`.
     rayleigh_poles: [f64; 2],
@@ -116,16 +116,16 @@ impl SubtractedTerms {
     }
 }
 
-/// Largest distance of a subtracted root from a²: pieces resolve a more distant root.
+/// Largest distance of a subtracted root from a²; for a more distant root halved pieces are accurate.
 const NEAR_ROOT_DISTANCE: f64 = 0.01;
-/// Largest [`gauss::ellipse_size`] of a pole that is subtracted: a Gauss rule resolves a more distant pole.
+/// Largest [`gauss::ellipse_size`] of a pole that is subtracted; for a more distant pole a Gauss rule is accurate.
 const MAX_SUBTRACTION_ELLIPSE: f64 = 3.0;
-/// Start of the tail relative to the Rayleigh arrival: the Rayleigh pole is then distant enough for a Gauss rule.
+/// Start of the tail relative to the Rayleigh arrival, at which the Rayleigh pole is distant enough for a Gauss rule.
 const TAIL_START_FACTOR: f64 = 1.6;
 /// Largest number of successive halvings of a piece: its length is then a rounding error.
 const MAX_PIECE_HALVINGS: u32 = 60;
 
-/// Values of the kernel of a branch at one point.
+/// Values of a branch of the kernel at one point.
 struct BranchKernel {
     /// zz and xx; or zx and 0.
     values: [f64; 2],

@@ -16,7 +16,7 @@ use crate::error::{Result, finite, positive};
 use crate::fundamental::{FundamentalSolution, LoadHistory, LoadResponse};
 use crate::soil::Soil;
 
-/// Elastic full plane, without a surface, in plane strain.
+/// Fundamental solution of the elastic full plane, without a surface, in plane strain.
 #[derive(Debug, Clone, Copy)]
 pub struct FullPlane {
     soil: Soil,
@@ -26,18 +26,18 @@ pub struct FullPlane {
 
 /// Time functions of a load history at one distance.
 struct TimeFunctions {
-    /// Z₁−Z₂.
+    /// Difference Z₁−Z₂.
     z_difference: f64,
-    /// L₁+L₂.
+    /// Sum L₁+L₂.
     l_sum: f64,
-    /// Q₂.
+    /// Function Q₂ of the shear wave.
     q_shear: f64,
-    /// 2(Z₁−Z₂)+Q₁−Q₂.
+    /// Sum 2(Z₁−Z₂)+Q₁−Q₂ in r χ'.
     chi_slope: f64,
 }
 
 impl FullPlane {
-    /// The full plane of a soil.
+    /// Creates the solution for a soil.
     pub fn new(soil: Soil) -> Self {
         let pressure_wave_speed = soil.pressure_wave_speed();
         let shear_wave_speed = soil.shear_wave_speed();
@@ -134,8 +134,8 @@ impl FundamentalSolution for FullPlane {
         Ok([[psi - chi * e[0] * e[0], coupling], [coupling, psi - chi * e[1] * e[1]]])
     }
 
-    /// [`LoadHistory::Impulse`] gives the function away from the fronts; at a front it is a
-    /// Hadamard finite part, not integrable as it stands.
+    /// For [`LoadHistory::Impulse`] the traction between the wave fronts. At a front it is singular, and its integral is
+    /// a Hadamard finite part.
     fn traction(
         &self,
         offset: [f64; 2],

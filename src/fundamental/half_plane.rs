@@ -1,4 +1,4 @@
-//! Surface displacements of an elastic half-plane under a line load on its surface, closed form.
+//! Surface displacements of an elastic half-plane under a line load on its surface, in closed form.
 //!
 //! Lamb's problem by the Cagniard–de Hoop method (Achenbach 1973, ch. 7; Kausel 2006). With `c_S` = μ = 1, a
 //! load δ(x)δ(t) gives `u_ij` = `f_ij`(τ)/(π|x|), τ = t/|x|, where x leads from the load to the receiver:
@@ -23,7 +23,7 @@ use crate::geometry::ContactElement;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// Values for the three independent pairs of surface components.
+/// Response of the surface, for the three independent pairs of displacement and load.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Surface {
     /// z displacement due to z load.
@@ -34,7 +34,7 @@ pub struct Surface {
     pub zx: f64,
 }
 
-/// Elastic half-plane with a traction-free surface; load and receiver on that surface.
+/// Fundamental solution of the elastic half-plane, with load and receiver on its free surface.
 #[derive(Debug, Clone)]
 pub struct HalfPlane {
     soil: Soil,
@@ -59,19 +59,19 @@ const FIRST_TAIL: usize = 2;
 /// Index in [`PRIMITIVE_POWERS`] of m = −2, the primitive W.
 const SECOND_TAIL: usize = 3;
 
-/// Largest discriminant of nearly equal roots: their contribution is a mean over a circle of discriminants.
+/// Largest discriminant of nearly equal roots, whose contribution is computed as a mean over a circle of discriminants.
 const DOUBLE_ROOT_DISCRIMINANT: f64 = 1e-4;
-/// Number of points on this circle: the mean then has only rounding errors.
+/// Number of points on this circle, with which the mean has only rounding errors.
 const AVERAGING_POINTS: u32 = 16;
-/// Radius of this circle in the complex plane of the discriminant.
+/// Radius of this circle in the complex plane, twice the limit above, so that no point is close to a double root.
 const AVERAGING_RADIUS: f64 = 2e-4;
-/// Time in Rayleigh arrivals from which the series for late times is used.
+/// Time, in Rayleigh arrivals, after which the series for late times is used: it then has only rounding errors.
 const LATE_SERIES_START: f64 = 3.0;
 /// A time τ so late that all integrals have reached their limits.
 const LIMIT_TIME: f64 = 1e100;
 
 impl HalfPlane {
-    /// The half-plane of a soil.
+    /// Creates the solution for a soil.
     pub fn new(soil: Soil) -> Self {
         let rayleigh = Rayleigh::new(soil);
         let mut plane = Self {
@@ -91,7 +91,9 @@ impl HalfPlane {
         &self.branches.rayleigh
     }
 
-    /// f(τ), dimensionless, without the pulse D δ(τ−`τ_R`) of zx; infinite at the Rayleigh arrival.
+    /// Dimensionless response f(τ) to an impulse, infinite at the Rayleigh arrival.
+    ///
+    /// The pulse D δ(τ−`τ_R`) of zx is not included.
     pub fn impulse(&self, tau: f64) -> Surface {
         let r = self.rayleigh();
         let a = self.branches.pressure_arrival;
@@ -120,23 +122,23 @@ impl HalfPlane {
         }
     }
 
-    /// F(τ) = ∫₀^τ f dη: a load H(t) gives u = F/(πμ).
+    /// Dimensionless response F(τ) = ∫₀^τ f dη to a load H(t): u = F/(πμ).
     pub fn heaviside(&self, tau: f64) -> Surface {
         let even = self.even_primitives(tau)[PLAIN_PRIMITIVE];
         Surface { zz: even[0], xx: even[1], zx: self.odd_with_pulse(tau, PLAIN_PRIMITIVE) }
     }
 
-    /// Q(τ) = ∫_τ^∞ f/η dη.
+    /// Integral Q(τ) = ∫_τ^∞ f/η dη.
     pub fn first_tail(&self, tau: f64) -> Surface {
         self.tail(tau, FIRST_TAIL)
     }
 
-    /// W(τ) = ∫_τ^∞ f/η² dη.
+    /// Integral W(τ) = ∫_τ^∞ f/η² dη.
     pub fn second_tail(&self, tau: f64) -> Surface {
         self.tail(tau, SECOND_TAIL)
     }
 
-    /// The primitive Q or W, of the index [`FIRST_TAIL`] or [`SECOND_TAIL`].
+    /// Integral Q or W, for the index [`FIRST_TAIL`] or [`SECOND_TAIL`].
     fn tail(&self, tau: f64, primitive: usize) -> Surface {
         let arrival = self.branches.rayleigh_arrival;
         let even = if tau > LATE_SERIES_START * arrival {
@@ -168,7 +170,7 @@ impl HalfPlane {
         Surface { zz: even[0], xx: even[1], zx }
     }
 
-    /// J(x, t), m², for `path` = `c_S` t and x in m; even in x for zz and xx, odd for zx.
+    /// Twice-integrated response J(x, t), m², for `path` = `c_S` t and x in m; even in x for zz and xx, odd for zx.
     pub(crate) fn twice_integrated(&self, x: f64, path: f64) -> Surface {
         let r = x.abs();
         if r == 0.0 || path.is_nan() || path <= 0.0 {
@@ -224,7 +226,7 @@ impl HalfPlane {
         Ok(Surface { zz: sum.zz * unit, xx: sum.xx * unit, zx: sum.zx * unit })
     }
 
-    /// ∫₀^τ f η^m dη of zz and xx for the four [`PRIMITIVE_POWERS`] m.
+    /// Integrals ∫₀^τ f η^m dη of zz and xx, for the four [`PRIMITIVE_POWERS`] m.
     fn even_primitives(&self, tau: f64) -> [[f64; 2]; 4] {
         let mut sum = [[0.0; 2]; 4];
         if tau.is_nan() || tau <= self.branches.pressure_arrival {
@@ -307,7 +309,9 @@ impl HalfPlane {
         }
     }
 
-    /// ∫ f η^m dη of zx up to τ without the Rayleigh pulse, m = `power`, by Gauss rules (elliptic for m = ±1).
+    /// Integral ∫ f η^m dη of zx up to τ, m = `power`, without the Rayleigh pulse.
+    ///
+    /// It is computed by Gauss rules, because the integral is elliptic for m = ±1.
     fn odd_primitive(&self, tau: f64, power: i32) -> f64 {
         let start = self.branches.pressure_arrival;
         let mut sum = [0.0; 2];
@@ -317,7 +321,7 @@ impl HalfPlane {
         sum[0]
     }
 
-    /// ∫ f η^m dη of zx up to τ, with the Rayleigh pulse after its arrival.
+    /// Integral ∫ f η^m dη of zx up to τ, with the Rayleigh pulse after its arrival.
     fn odd_with_pulse(&self, tau: f64, primitive: usize) -> f64 {
         if tau.is_nan() || tau <= self.branches.pressure_arrival {
             return 0.0;
@@ -385,7 +389,7 @@ impl FundamentalSolution for HalfPlane {
     }
 }
 
-/// |x| of an offset along the surface.
+/// Distance |x| of an offset along the surface; an error for another offset.
 fn surface_distance(offset: [f64; 2]) -> Result<f64> {
     let x = offset[0];
     let z = offset[1];

@@ -1,8 +1,7 @@
 //! Plane-strain elastodynamic fundamental solutions.
 //!
-//! A line load per metre of thickness acts at the origin; the responses are displacements and
-//! tractions at an offset from the load. Components are (x, z) with **z down**; index 0 is x, index 1
-//! is z, and `u[i][j]` is component i due to a load in direction j.
+//! A line load acts at the origin. The responses are displacements and tractions at an offset from the load. Components
+//! are (x, z) with **z down**: index 0 is x, index 1 is z, and `u[i][j]` is component i due to a load in direction j.
 
 pub(crate) mod branch;
 #[cfg(feature = "full-plane")]
@@ -34,7 +33,7 @@ pub(crate) type LoadResponse = [[f64; 2]; 2];
 
 /// Displacements and tractions of an elastic plane or half-plane under a line load.
 pub trait FundamentalSolution: Send + Sync {
-    /// The soil.
+    /// Soil of the plane or half-plane.
     fn soil(&self) -> Soil;
 
     /// Displacements (m) at `offset` (x, z; m) from the load, at `time` (s) after the start of the load.

@@ -26,29 +26,29 @@ use crate::soil::Soil;
 /// ratio even at the double root (ν = 0.26308…), and precise even for ν → 0, where one root tends to a² like ν⁴.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rayleigh {
-    /// a² = (`c_S`/`c_P`)².
+    /// Squared ratio of the wave speeds, a² = (`c_S`/`c_P`)².
     pub(crate) a2: f64,
-    /// 1 − a².
+    /// Difference h = 1 − a².
     pub(crate) h: f64,
-    /// 1 − 2a².
+    /// Difference g = 1 − 2a².
     pub(crate) g: f64,
-    /// `y_R`.
+    /// Rayleigh root `y_R`, the squared arrival of the Rayleigh wave.
     pub(crate) square: f64,
-    /// `y_R` − a².
+    /// Rayleigh root in z, `y_R` − a².
     pub(crate) z: f64,
-    /// `y_R` − 1.
+    /// Excess `y_R` − 1 over the squared arrival of the shear wave.
     pub(crate) excess: f64,
-    /// σ: minus the sum of the other two roots in z.
+    /// Coefficient σ: minus the sum of the other two roots in z.
     pub(crate) sum: f64,
-    /// ϖ: product of the other two roots in z.
+    /// Coefficient ϖ: product of the other two roots in z.
     pub(crate) product: f64,
 }
 
 /// Upper bound of `y_R` − 1: Rayleigh waves are faster than 0.6 times shear waves for all Poisson's ratios.
 const MAX_EXCESS: f64 = 4.0;
-/// Number of bisections: their error of 4/2³⁰ is small enough for Newton's method.
+/// Number of bisections, after which the error of 4/2³⁰ is small enough for Newton's method.
 const BISECTION_COUNT: usize = 30;
-/// Number of Newton's iterations: the error of the root is then a rounding error.
+/// Number of Newton's iterations, after which the error of the root is a rounding error.
 const NEWTON_ITERATIONS: usize = 3;
 
 impl Rayleigh {
@@ -90,7 +90,7 @@ impl Rayleigh {
         self.square.sqrt()
     }
 
-    /// z² + σ z + ϖ, the factor of the two roots other than the Rayleigh wave.
+    /// Factor z² + σ z + ϖ of the two roots other than the Rayleigh root.
     pub(crate) fn pair(&self, z: f64) -> f64 {
         (z + self.sum) * z + self.product
     }
@@ -105,7 +105,7 @@ impl Rayleigh {
         let root = Complex::new(real, imaginary).sqrt();
         let middle = Complex::real(-0.5 * self.sum);
         if imaginary == 0.0 && real > 0.0 && self.sum > 0.0 {
-            // Without cancellation in the smaller root.
+            // The smaller root is computed from the product of the roots, without cancellation.
             let larger_root = middle - root;
             return [Complex::real(self.product / larger_root.re), larger_root];
         }
@@ -146,12 +146,12 @@ impl Soil {
     }
 }
 
-/// Number of terms of the series for late times: errors are rounding errors from three Rayleigh arrivals on.
+/// Number of terms of the series for late times, whose error after three Rayleigh arrivals is a rounding error.
 pub(crate) const LATE_SERIES_TERMS: usize = 20;
 
 /// Coefficients of the kernel's series for late times, zz and xx.
 ///
-/// They are the `c_k` of f = Σ `c_k` τ^(−2k−1), which converges for τ above the Rayleigh arrival. With v = τ⁻² and
+/// The series is f = Σ `c_k` τ^(−2k−1), which converges for τ above the Rayleigh arrival. With v = τ⁻² and
 /// p(v) = v³ P(1/v), f = τ⁻¹ n(v)/p(v). The numerators n are binomial series. The division by the cubic p is a
 /// recurrence, which is stable because the Rayleigh root dominates.
 pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; LATE_SERIES_TERMS]; 2] {

@@ -1,4 +1,4 @@
-//! The history of a ground: methods, and a description of the method in use.
+//! The history of a ground: its methods, and a description of the method in use.
 
 use std::fmt;
 
@@ -12,18 +12,18 @@ use crate::error::{CheckpointError, Result};
 ///
 /// The table counts Q elements, N steps and C classes of pairs (Q on a uniform strip, about Q²/4 on a graded one). W is
 /// the number of lags before the exponentials: on the half-plane, the power of two at or above the steps in which the
-/// Rayleigh wave crosses the patch three times. M is the power of two at or above N. The coupling ends after few lags,
-/// as on the half-plane:
+/// Rayleigh wave crosses the patch three times. M is the power of two at or above N. The costs are for a coupling that
+/// ends after few lags, as on the half-plane:
 ///
 /// | | result | multiply–adds per step | bytes |
 /// |---|---|---|---|
 /// | direct | exact to rounding | Q² N on average | 16 (C + Q) N |
-/// | relaxed transforms, pairs of elements | exact to rounding | 64 Q² + log₂(N/64) (16 Q² + 5 Q log₂ N) | (32 C + 24 Q + 16) M |
-/// | relaxed transforms, wavenumbers | exact to rounding | 128 Q + log₂(N/32) (8 Q + 5 Q log₂ 2N) | (64 Q + 32) M |
+/// | relaxed transforms, pairs of elements | exact to rounding | 32 Q² + log₂(N/32) (4 Q² + 2.5 Q log₂ 64N) | (32 C + 24 Q + 16) M |
+/// | relaxed transforms, wavenumbers | exact to rounding | 128 Q + log₂(N/32) (8 Q + 5 Q log₂ 64N) | (64 Q + 32) M |
 /// | exponentials | within a tolerance | as the transforms, with W for N, and about 3000 | as the transforms, with W for M, and 32 Q W |
 ///
-/// From eight equal elements on, wavenumbers replace pairs. A processor makes 4 to 7 of these multiply–adds in a
-/// nanosecond.
+/// For eight or more equal elements, transforms over wavenumbers replace those over pairs. A processor performs 4 to 7
+/// of these multiply–adds in a nanosecond.
 ///
 /// See [`RelaxedFftHistory`](super::RelaxedFftHistory) and
 /// [`ExponentialHistory`](super::ExponentialHistory) for more.
@@ -36,17 +36,20 @@ pub enum HistoryMethod {
     Direct,
     /// Transforms of blocks, [`RelaxedFftHistory`](super::RelaxedFftHistory).
     RelaxedFft,
-    /// A window of exact lags and a sum of exponentials, [`ExponentialHistory`](super::ExponentialHistory): memory that
-    /// does not grow, small checkpoints. The kernel must provide its [late lags](super::ConvolutionWeights::late_weights).
+    /// A window of exact lags and a sum of exponentials, [`ExponentialHistory`](super::ExponentialHistory).
+    ///
+    /// Its memory does not grow with the number of steps, and its checkpoints are small. The kernel must provide its
+    /// [late lags](super::ConvolutionWeights::late_weights).
     Exponentials,
-    /// One of the above by one rule, whatever the number of steps:
+    /// One of these methods, by a rule that does not depend on the number of steps:
     ///
     /// * exponentials for a half-plane under strips, within the tolerance of [`HistoryOptions`](super::HistoryOptions)
     ///   or else 1e-12, which is rounding; unless the step is so short that they begin after 16 384 lags, or they need
     ///   more memory than allowed, or are not accurate or passive;
-    /// * relaxed transforms otherwise, in plan up to the last lag that counts.
+    /// * relaxed transforms otherwise, in plan up to the last lag that is not negligible.
     ///
-    /// The division of a run into parts, and the number of steps announced, change no bit up to 2²⁰ steps.
+    /// Up to 2²⁰ steps, the results are the same to the last bit for any division of a run into parts, and for any
+    /// announced number of steps.
     #[default]
     Auto,
 }
@@ -66,7 +69,7 @@ words! { pub(crate) HistoryMethod, "history", {
 pub struct HistoryChoice {
     /// Method; never [`HistoryMethod::Auto`].
     pub kind: HistoryMethod,
-    /// Number of steps for which the ground was prepared; `None` if no end is known.
+    /// Number of steps for which the ground was prepared; `None` if the end of the run is unknown.
     pub steps: Option<usize>,
     /// Memory used now, bytes.
     pub memory: usize,
@@ -102,7 +105,7 @@ impl fmt::Display for HistoryChoice {
     }
 }
 
-/// History of a ground, made from its options or supplied by the caller.
+/// History of a ground, created from its options or supplied by the caller.
 pub(crate) struct ChosenHistory {
     pub(crate) history: Box<dyn ConvolutionHistory>,
     /// Description; `None` for a history that the caller supplied.

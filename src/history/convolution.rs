@@ -1,4 +1,4 @@
-//! The trait for convolutions with all past tractions.
+//! Trait of the methods that convolve weights with all past tractions.
 
 use crate::error::{CheckpointError, Observer, Result};
 
@@ -28,7 +28,7 @@ pub trait ConvolutionHistory: Send {
     /// `traction` contains all components of all elements.
     fn push(&mut self, traction: &[f64]);
 
-    /// Bytes used by coefficients, tractions and scratch; zero (the default) if not known.
+    /// Bytes used by coefficients, tractions and scratch; zero (the default) if unknown.
     fn memory(&self) -> usize {
         0
     }

@@ -1,4 +1,4 @@
-//! Weights of a ground's convolution, lag by lag; late weights as exponentials.
+//! Traits of a ground's convolution weights: all lags, and late lags as exponentials.
 
 use super::exponential_sum::ExponentialSum;
 use super::pair_classes::PairClasses;
@@ -10,13 +10,13 @@ use crate::geometry::COMPLIANCES_PER_OFFSET;
 ///
 /// All steps have one length.
 ///
-/// A traction of 1 Pa on element q during one step displaces element p by the mean Gⁿ at the end of the n-th step:
-/// n = 1 is the end of the step itself. The ground may vary with depth, but not along the surface, and must be
-/// reciprocal. Then only one pair of each [class](PairClasses) has to be computed. The coefficients of a pair are the
-/// coefficients of its class times [`Pair::scale`](super::Pair::scale), the coupling also times
-/// [`Pair::sign`](super::Pair::sign):
+/// A traction of 1 Pa on element q during one step displaces element p by the mean Gⁿ at the end of the n-th step. The
+/// lag n = 1 is the end of the step itself. The ground may vary with depth, but not along the surface, and must be
+/// reciprocal. Then only one pair of each [class](PairClasses) has to be computed. The *coefficients* of a class are its
+/// weights, integrated over the receiver. The weights of a pair are the coefficients of its class times
+/// [`Pair::scale`](super::Pair::scale), the coupling also times [`Pair::sign`](super::Pair::sign):
 ///
-/// | displacement | due to | coefficient |
+/// | displacement | due to | weight |
 /// |---|---|---|
 /// | down | pressure | scale · normal |
 /// | to the right | shear | scale · tangential |
@@ -24,10 +24,10 @@ use crate::geometry::COMPLIANCES_PER_OFFSET;
 /// | to the right | pressure | −sign · scale · coupling |
 ///
 /// A history stores tables made from [`ConvolutionWeights::coefficients`], so that a step calls none of these methods
-/// unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the division
-/// of a run into parts does not change the results.
+/// unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the
+/// division of a run into parts does not change the results.
 ///
-/// The example of [`WeightsGround`](crate::bem::WeightsGround) implements this trait in twenty lines.
+/// The example of [`WeightsGround`](crate::bem::WeightsGround) implements this trait in some thirty lines.
 pub trait ConvolutionWeights: Send + Sync {
     /// The elements, and the classes of their pairs.
     fn classes(&self) -> &PairClasses;
@@ -66,8 +66,8 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Last lag at which the coupling of `class` is not zero.
     ///
-    /// It is 0 if the coupling is always zero, and `None` (the default) if it never ends. If the coupling ends,
-    /// histories need no table of it for later lags.
+    /// The lag is 0 if the coupling is always zero, and `None` (the default) if the coupling never ends. Histories store
+    /// the coupling only up to this lag.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
@@ -84,41 +84,45 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Largest sum of the errors of late coefficients, relative to the sum of all coefficients.
     ///
-    /// Zero (the default) if they are exact. It is the smallest [tolerance](super::HistoryOptions) at which late
-    /// weights are neglected.
+    /// Zero (the default) if the late coefficients are exact. Histories in plan neglect late coefficients up to this
+    /// fraction, or 1e-8 if that is larger, unless a [tolerance](super::HistoryOptions) is set.
     fn late_error(&self) -> f64 {
         0.0
     }
 
     /// Store of the spectra that histories of this kernel share; `None` (the default) for no store.
     ///
-    /// Without a store each history makes its spectra anew. A kernel keeps the store with its coefficients, and only its
-    /// clones share it.
+    /// Without a store each history computes its spectra again. A kernel stores the spectra with its coefficients, and
+    /// shares them only with its clones.
     fn spectra(&self) -> Option<&SharedSpectra> {
         None
     }
 
-    /// Overwrites `matrix` (square, row-major, m/Pa) with the means of lag 1.
+    /// Overwrites `matrix` with the compliance of one step, the weights of lag 1.
+    ///
+    /// `matrix`: square and row-major, m/Pa.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length; as for
     /// [`ConvolutionWeights::coefficients`].
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
-        same_length("step compliance", matrix.len(), classes.layout().square())?;
+        same_length("step compliance", matrix.len(), classes.layout().matrix_len())?;
         self.prepare(1, &mut unobserved)?;
         // Coefficients of each class, kind by kind; zero for kinds that the elements do not have.
-        let mut coefficients = vec![[0.0; COMPLIANCES_PER_OFFSET]; classes.count()];
-        for (class, coefficients) in coefficients.iter_mut().enumerate() {
+        let mut class_coefficients = vec![[0.0; COMPLIANCES_PER_OFFSET]; classes.count()];
+        for (class, coefficients) in class_coefficients.iter_mut().enumerate() {
             let mut values: Vec<_> = coefficients.chunks_mut(1).take(classes.kinds()).collect();
             self.coefficients(class, 1, &mut values)?;
         }
-        classes.scatter(matrix, |_, pair| coefficients[pair.class].map(|value| value * pair.scale));
+        classes.scatter(matrix, |_, pair| {
+            class_coefficients[pair.class].map(|coefficient| coefficient * pair.scale)
+        });
         Ok(())
     }
 }
 
-/// Slices of [`ConvolutionWeights::coefficients`], one for each of N kinds.
+/// Converts the slices of [`ConvolutionWeights::coefficients`] to an array of N kinds.
 ///
 /// ```
 /// use basemat::history::by_kind;
@@ -140,7 +144,7 @@ pub fn by_kind<'a, 'b, const N: usize>(
     values.try_into().map_err(|_| Error::Size { quantity, found, needed: N })
 }
 
-/// A kernel whose late lags are sums of decaying exponentials.
+/// Late convolution weights that are sums of decaying exponentials.
 ///
 /// [`ExponentialHistory`](super::ExponentialHistory) compares these exponentials with the coefficients at single lags
 /// up to the horizon, and checks that window and exponentials together are passive. Therefore

@@ -7,10 +7,10 @@ use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 
-/// Number of steps summed for all pairs in turn, so that tractions and coefficients stay in cache.
+/// Number of steps summed for one pair before the next pair, so that tractions and coefficients stay in cache.
 const STEPS_PER_CHUNK: usize = 512;
 
-/// Smallest number of lags for which coefficients are stored.
+/// Smallest number of lags for which coefficients are stored, so that the first steps do not enlarge the tables.
 const MIN_CAPACITY_LAGS: usize = 64;
 
 /// Direct summation of the history: the reference for all other methods.
@@ -27,6 +27,7 @@ pub struct DirectHistory {
     coefficients: Vec<Vec<Vec<f64>>>,
     /// Tractions of all steps, for each contact component.
     tractions: Vec<Vec<f64>>,
+    /// Number of inputs so far.
     steps: usize,
     /// Memory allowed, bytes.
     memory_limit: f64,
@@ -37,7 +38,7 @@ short_debug! {
 }
 
 impl DirectHistory {
-    /// Makes an empty history of `kernel`.
+    /// Creates a history of `kernel` without inputs.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
         let coefficients = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
@@ -65,7 +66,7 @@ impl DirectHistory {
                 asked: lags as f64,
                 needed: needed_bytes,
                 limit: self.memory_limit,
-                remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a checkpoint can go on there",
+                remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a run can continue there from a checkpoint",
             }));
         }
         let diagonal_kinds = self.kernel.classes().layout().components();
@@ -90,7 +91,7 @@ impl DirectHistory {
     }
 }
 
-/// Puts `later_lags`, which follow the stored lags, in front of `stored`, reversed.
+/// Inserts `later_lags`, reversed, in front of the lags in `stored`, which they follow.
 fn prepend_reversed(stored: &mut Vec<f64>, later_lags: &[f64]) {
     let mut grown = Vec::with_capacity(stored.len() + later_lags.len());
     grown.extend(later_lags.iter().rev());

@@ -35,9 +35,9 @@ pub struct TailProduct {
 }
 
 impl ExponentialSum {
-    /// Makes a sum of exponentials from its `rates`, `functions` and `products`.
+    /// Creates a sum of exponentials from its `rates`, `functions` and `products`.
     ///
-    /// Rates are per step and not negative; functions are given by their means over all elements.
+    /// Rates are per step and not negative. The values of a function are its means over all elements.
     ///
     /// # Errors
     /// [`Error::Input`] for negative rates or numbers that are not finite, [`Error::Index`] for

@@ -1,16 +1,16 @@
-//! Last lag that is not negligible in plan.
+//! Last lag that is not negligible, on a ground in plan.
 //!
-//! The effect of a traction there decays to zero.
+//! On such a ground the effect of a traction decays to zero.
 
 use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
 use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_SPACE, Lattice};
 
-/// Smallest number of lags that are not neglected.
+/// Smallest number of lags that are not neglected, and number of lags that are summed together.
 const MIN_KEPT_LAGS: usize = 64;
 /// Sum of the coefficients beyond lag 2M, relative to the sum over the lags M + 1 … 2M.
 ///
-/// The coupling falls like n⁻³, all other coefficients fall faster.
+/// For a coupling that decays like n⁻³ the ratio is 1/3; all other coefficients decay faster.
 const REMAINDER_RATIO: f64 = 1.0 / 3.0;
 
 /// Lag after which the coefficients of a kernel are neglected.
@@ -20,15 +20,15 @@ pub(super) struct LastLag {
     pub(super) lag: usize,
     /// Bound of the neglected displacement's change in a step, per traction, m/Pa.
     ///
-    /// The sum of |Gⁿ − Gⁿ⁻¹| with zero at the last lag: late coefficients change slowly.
+    /// It is the sum of |Gⁿ − Gⁿ⁻¹| over the neglected lags, with zero in place of the weights of the last lag.
     pub(super) change: f64,
 }
 
 impl LastLag {
     /// Smallest power of two after which the coefficients' sum is at most `tolerance` of the total.
     ///
-    /// `None` if the lags up to `max_lags` do not reach it. The lag found does not depend on `max_lags`. The observer
-    /// counts lags; the search ends where the last lag is found.
+    /// `None` if no such lag is up to half of `max_lags`. The returned lag does not depend on `max_lags`. The observer is
+    /// notified of the number of computed lags, out of `max_lags`; the search may end before.
     pub(super) fn find(
         kernel: &dyn ConvolutionWeights,
         tolerance: f64,

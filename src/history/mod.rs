@@ -2,7 +2,7 @@
 //!
 //! A [`ConvolutionWeights`] provides the coefficients of a ground, lag by lag. A history sums them over all past
 //! tractions, exactly ([`DirectHistory`], [`RelaxedFftHistory`]) or within a tolerance ([`ExponentialHistory`]).
-//! [`HistoryOptions`] chooses the method by one rule. Nothing here depends on the soil.
+//! [`HistoryOptions`] contain the rule that chooses the method. Nothing in this module depends on the soil.
 
 mod chosen;
 mod convolution;

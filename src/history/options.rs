@@ -15,7 +15,7 @@ const NEGLECTED_WEIGHT_FRACTION: f64 = 1e-8;
 const RULE_TOLERANCE: f64 = 1e-12;
 /// Longest window with which the rule chooses exponentials, lags.
 ///
-/// Its fit takes a few tenths of a second.
+/// The fit for such a window takes a few tenths of a second.
 const MAX_RULE_WINDOW: usize = 1 << 14;
 
 /// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
@@ -39,16 +39,16 @@ pub struct HistoryOptions {
     /// Relative error that coefficients may have, 1e-12 to 1e-2.
     ///
     /// Exponentials, which only the half-plane's closed form has, use it in place of 1e-12 ([`HistoryMethod::Auto`]) or
-    /// 1e-10 ([`HistoryMethod::Exponentials`]). In plan, [`HistoryMethod::Auto`] drops late coefficients whose sum is
-    /// less than this fraction of the sum of all coefficients, in runs at least twice as long as the lags that remain.
-    /// Unless given, the fraction is 1e-8, or the [error](ConvolutionWeights::late_error) of late coefficients if that
-    /// is larger.
+    /// 1e-10 ([`HistoryMethod::Exponentials`]). In plan, [`HistoryMethod::Auto`] neglects late coefficients whose sum is
+    /// less than this fraction of the sum of all coefficients, in runs at least twice as long as the remaining lags. With
+    /// `None` the fraction is 1e-8, or the [error](ConvolutionWeights::late_error) of late coefficients if that is
+    /// larger.
     pub tolerance: Option<f64>,
     /// Memory that the history may use, bytes; 1 GiB by default.
     ///
     /// A run that needs more returns [`Error::Memory`](crate::Error::Memory) when its number of steps becomes known
     /// ([`expected_steps`](crate::coupled::SimulationBuilder::expected_steps), [`run`](crate::Simulation::run)), or
-    /// else before the first step that does not fit. A checkpoint can be resumed with more memory.
+    /// else before the first step that needs more. A run can be continued from a checkpoint with more memory.
     pub memory: usize,
 }
 
@@ -71,9 +71,9 @@ impl HistoryOptions {
         Ok(self)
     }
 
-    /// Makes an empty history of `weights`.
+    /// Creates a history of `weights` without inputs.
     ///
-    /// `steps`: number of steps of the run; `None` if its end is not known.
+    /// `steps`: number of steps of the run; `None` if unknown.
     pub(crate) fn history(
         self,
         weights: &Arc<dyn ConvolutionWeights>,
@@ -117,6 +117,7 @@ impl HistoryOptions {
         ChosenHistory::transforms(history, steps, neglected)
     }
 
+    /// History by relaxed transforms within the option's memory.
     fn transforms(self, weights: &Arc<dyn ConvolutionWeights>) -> RelaxedFftHistory {
         RelaxedFftHistory::new(Arc::clone(weights)).within_memory(self.memory)
     }

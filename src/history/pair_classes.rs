@@ -20,10 +20,10 @@ pub(crate) const COUPLING_KIND: usize = 2;
 /// Largest number of kinds in the plane: two couplings, where they are not equal up to the sign.
 pub(crate) const MAX_PLANE_KINDS: usize = STRIP_KINDS + 1;
 
-/// Number of units of a key in the length of the patch: rounding of the nodes does not split a class.
+/// Number of integer units in the length of the patch: rounding of the nodes does not divide a class.
 const LENGTH_KEY_UNITS: f64 = 1e12;
 
-/// Length as an integer, for comparison without rounding.
+/// Length in integer units of the patch's length `span`, for comparison without rounding.
 #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn length_key(length: f64, span: f64) -> i64 {
     (length / span * LENGTH_KEY_UNITS).round() as i64
@@ -43,9 +43,9 @@ pub(crate) struct Term {
 /// Class of a pair of elements, with the factors of its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// Class of pairs that the pair belongs to.
+    /// Index of the class that contains the pair.
     pub class: usize,
-    /// 1/length of the receiver, 1/m: coefficients of a class are integrals over the receiver, not means.
+    /// 1/length of the receiver (1/m), which converts the integrals of a class to means.
     pub scale: f64,
     /// Sign of the coupling between normal and tangential components.
     ///
@@ -59,10 +59,10 @@ const MIN_LENGTH_RATIO: f64 = 1e-8;
 
 /// Elements of a patch, and their pairs sorted into classes.
 ///
-/// On a laterally homogeneous ground (any layering, but no change from place to place) a pair's coefficients depend on
-/// the two lengths and the distance alone, and by reciprocity lₚ Gₚq = l_q G_qp. So the Q² pairs fall into classes: Q
-/// of them on a uniform strip, about Q²/4 on a graded one. A [`ConvolutionWeights`](super::ConvolutionWeights) computes
-/// one pair of each class.
+/// On a laterally homogeneous ground (any layering, but no change along the surface) a pair's coefficients depend on
+/// the two lengths and the distance alone, and by reciprocity lₚ Gₚq = l_q G_qp. The Q² pairs therefore belong to fewer
+/// classes: Q on a uniform strip, about Q²/4 on a graded one. A [`ConvolutionWeights`](super::ConvolutionWeights)
+/// computes one pair of each class.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -96,9 +96,10 @@ impl PairClasses {
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         let span = elements[elements.len() - 1].right() - elements[0].left();
-        let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
+        let min_length = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
         let quantity = "length of the shortest contact element over that of the patch";
-        require(quantity, shortest / span, shortest >= MIN_LENGTH_RATIO * span, "at least 1e-8")?;
+        let is_long_enough = min_length >= MIN_LENGTH_RATIO * span;
+        require(quantity, min_length / span, is_long_enough, "at least 1e-8")?;
         let mut class_indices = HashMap::new();
         let mut representatives = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());
@@ -234,7 +235,7 @@ impl PairClasses {
         ContactLayout::new(components, self.elements.len())
     }
 
-    /// Calls `visit` with every pair's receiver and source, its class, and its terms.
+    /// Calls `visit` for every pair, with its receiver and source, its class and its terms.
     pub(crate) fn each(&self, mut visit: impl FnMut([usize; 2], &Pair, &[Term])) {
         let count = self.elements.len();
         let mut terms = [Term::default(); 9];
@@ -294,11 +295,13 @@ impl PairClasses {
 
     /// Smallest eigenvalue of the Hermitian part of a symbol, normalised by `diagonal`.
     ///
-    /// `pair_values` returns the symbol as for [`PairClasses::scatter`]. `diagonal(class, component)` returns a magnitude for
-    /// each element on itself. NaN if the symbol is not finite.
+    /// The symbol is the matrix of z-transformed coefficients at one z; `pair_values` returns its values as for
+    /// [`PairClasses::scatter`]. `diagonal(class, component)` returns a reference value for each element on itself. NaN if
+    /// the symbol is not finite.
     ///
-    /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can create energy: by Parseval
-    /// the work of any tractions is not negative if this eigenvalue is not negative anywhere on |z| = 1.
+    /// For the symbol (1−z) Ĝ(z), integrated over receivers and sources, the eigenvalue shows whether a ground can create
+    /// energy: by Parseval the work of any tractions is not negative if this eigenvalue is not negative anywhere on
+    /// |z| = 1.
     pub(crate) fn smallest_eigenvalue<T, const N: usize>(
         &self,
         diagonal: impl Fn(usize, usize) -> f64,
@@ -313,7 +316,7 @@ impl PairClasses {
 
     /// Whether the smallest eigenvalue of a real symbol is above `bound`.
     ///
-    /// It uses a factorization, which is much faster than eigenvalues; close to `bound` it may return false.
+    /// The test is a factorization, which is much faster than the eigenvalues. Close to `bound` it may return false.
     pub(crate) fn exceeds<const N: usize>(
         &self,
         bound: f64,
@@ -336,12 +339,12 @@ impl PairClasses {
         T: Copy + Default + Mul<f64, Output = T>,
     {
         let layout = self.layout();
-        let mut matrix = vec![T::default(); layout.square()];
+        let mut matrix = vec![T::default(); layout.matrix_len()];
         self.scatter(&mut matrix, pair_values);
         let mut scales = Vec::with_capacity(layout.len());
         for matrix_index in 0..layout.len() {
             let [component, element] = layout.origin(matrix_index);
-            // The first class of a lattice is a cell on itself.
+            // Class 0 of a lattice is a cell on itself.
             let self_pair = self.pairs.get(element * (self.elements.len() + 1));
             scales.push(1.0 / diagonal(self_pair.map_or(0, |pair| pair.class), component).sqrt());
         }

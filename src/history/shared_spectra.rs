@@ -1,4 +1,4 @@
-//! Tables made of convolution weights, shared by all histories of these weights.
+//! Store of tables computed from convolution weights, which all histories of these weights share.
 
 use std::any::{Any, TypeId};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -7,8 +7,8 @@ use crate::geometry::ContactElement;
 
 /// Store of spectra and exponentials that all histories of the same weights share.
 ///
-/// All clones refer to one store. A [`ConvolutionWeights`](crate::history::ConvolutionWeights) holds it with its
-/// coefficients and returns it from [`spectra`](crate::history::ConvolutionWeights::spectra).
+/// All clones refer to one store. A [`ConvolutionWeights`](crate::history::ConvolutionWeights) contains the store with
+/// its coefficients and returns it from [`spectra`](crate::history::ConvolutionWeights::spectra).
 #[derive(Clone, Default)]
 pub struct SharedSpectra {
     stores: Arc<Stores>,
@@ -25,9 +25,9 @@ struct Stores {
 /// Tables of one type, in a store.
 pub(super) type Shared<T> = Arc<Mutex<T>>;
 
-/// Locks tables: other threads wait while one computes.
+/// Locks tables; other threads wait while one thread computes.
 ///
-/// Even after a panic, a table is complete or absent.
+/// A lock that was poisoned by a panic is usable, because every table is complete or absent.
 pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
     tables.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -35,7 +35,7 @@ pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
 impl SharedSpectra {
     /// Whether the store belongs to these elements.
     ///
-    /// An empty store belongs to them from now on.
+    /// If the store is empty, this call assigns it to these elements.
     pub(super) fn belong_to(&self, elements: &[ContactElement]) -> bool {
         self.stores.elements.get_or_init(|| elements.to_vec()) == elements
     }

@@ -57,7 +57,10 @@ validated! {
 }
 
 impl Cohesive {
-    /// Law with a tensile strength and a cohesion (Pa), and the friction coefficient of broken elements.
+    /// Creates the law from its two strengths (Pa) and its friction coefficient.
+    ///
+    /// `tension`: tensile strength; `cohesion`: shear strength without pressure; `friction`: coefficient that bonded
+    /// elements add to the cohesion, and that alone acts on broken elements.
     ///
     /// The coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
@@ -72,7 +75,7 @@ impl Cohesive {
         })
     }
 
-    /// The friction coefficient of broken elements.
+    /// The friction coefficient, of bonded and broken elements.
     pub(crate) fn friction(&self) -> f64 {
         self.broken_contact.friction()
     }
@@ -80,7 +83,7 @@ impl Cohesive {
     /// Traction by which a bonded element exceeds its strength, Pa; negative below the strength.
     fn overload(&self, trial: &ContactState) -> f64 {
         let mut friction_limit = self.friction() * trial.pressure.max(0.0);
-        // Infinite friction times zero pressure.
+        // Infinite friction times zero pressure is NaN.
         if friction_limit.is_nan() {
             friction_limit = 0.0;
         }
@@ -88,7 +91,7 @@ impl Cohesive {
     }
 }
 
-/// Whether the bond of an element is intact, at the start of the step and in the present trial.
+/// Whether an element's bond is intact at the start of the step and has not broken in it.
 fn is_bonded(start: &PreviousContact) -> bool {
     !start.has_opened && start.state_variables.first().is_some_and(|bonded| *bonded > 0.0)
 }

@@ -1,4 +1,4 @@
-//! Linear condition on gap, slip and tractions of an element.
+//! Linear condition on the gap, slip and tractions of an element.
 
 /// Linear condition on an element at the end of a step.
 ///
@@ -40,7 +40,7 @@ impl Condition {
         Self { shear: 1.0, value, ..Self::default() }
     }
 
-    /// Sum of all coefficients and the right-hand side; it is finite only if all of them are.
+    /// Sum that is finite only if all coefficients and the right-hand side are.
     pub(crate) fn sum(&self) -> f64 {
         self.gap + self.slip + self.pressure + self.shear + self.value
     }
@@ -56,7 +56,7 @@ impl Condition {
             ("right-hand side of a condition", value),
         ]
         .into_iter()
-        .find(|(_, value)| !value.is_finite())
+        .find(|(_, number)| !number.is_finite())
     }
 
     /// The gap that this condition prescribes at a pressure; `None` if other quantities occur in it.
@@ -71,7 +71,9 @@ impl Condition {
         (!has_other_terms && self.pressure != 0.0).then(|| self.value / self.pressure)
     }
 
-    /// The component (0 normal, 1 tangential) whose traction this condition alone prescribes.
+    /// Component of traction that this condition prescribes: 0 normal, 1 tangential.
+    ///
+    /// `None` if the condition contains the gap, the slip, or both tractions.
     #[inline]
     pub(crate) fn fixed_component(&self) -> Option<usize> {
         match *self {

@@ -3,7 +3,7 @@
 use super::{InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::error::{Result, not_negative, require};
 
-/// Quantity in the contact conditions of a closed element: the gap or its change.
+/// Quantity that is not negative under unilateral contact: the gap or its change.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -25,8 +25,8 @@ pub enum UnilateralCondition {
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
 /// Gap and pressure satisfy Signorini's conditions. Shear satisfies |τ| ≤ friction · p, and slip has the direction of
-/// the shear traction. With infinite friction the base uplifts but does not slide; with zero friction it is frictionless. For a
-/// coefficient that changes, use [`VariableFriction`](super::VariableFriction).
+/// the shear traction. With infinite friction the base uplifts but does not slide; with zero friction it is
+/// frictionless. For a coefficient that changes, use [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
 /// use basemat::interface::Coulomb;
@@ -130,7 +130,7 @@ impl Coulomb {
         crate::text::forms::number::serialize(&self.friction, to)
     }
 
-    /// Tensile strength of the element, which it loses when it first opens, Pa.
+    /// Tensile strength of the element (Pa): zero after it has opened once.
     fn remaining_strength(&self, start: &PreviousContact) -> f64 {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
@@ -167,7 +167,7 @@ impl InterfaceLaw for Coulomb {
         Some(self.friction)
     }
 
-    /// This law without friction, with the same tensile strength.
+    /// Law without friction, with the same tensile strength and the condition on the position.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Self::frictionless_with_strength(self.tensile_strength))
     }
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn admissible_states_stay() {
+    fn admissible_states_keep_their_mode() {
         let law = Coulomb::new(0.5).unwrap();
         let start = start(Mode::Stick);
         let state = ContactState { pressure: 2.0, shear: 0.99, ..Default::default() };
@@ -200,20 +200,20 @@ mod tests {
     fn violations_change_the_mode() {
         let law = Coulomb::new(0.5).unwrap();
         let start = start(Mode::Stick);
-        let next = |mode, gap, slip, pressure, shear| {
+        let next_mode_of = |mode, gap, slip, pressure, shear| {
             let state = ContactState { gap, slip, pressure, shear, ..Default::default() };
             law.next_mode(mode, &start, &state, TEST_TOLERANCE)
         };
-        assert_eq!(next(Mode::Stick, 0.0, 0.0, -1.0, 0.0), Mode::Open);
-        assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, 0.6), Mode::SlipRight);
-        assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, -0.6), Mode::SlipLeft);
-        assert_eq!(next(Mode::SlipRight, 0.0, -0.1, 1.0, 0.5), Mode::Stick);
-        assert_eq!(next(Mode::SlipLeft, 0.0, 0.1, 1.0, -0.5), Mode::Stick);
-        assert_eq!(next(Mode::Open, -0.1, 0.0, 0.0, 0.0), Mode::Stick);
+        assert_eq!(next_mode_of(Mode::Stick, 0.0, 0.0, -1.0, 0.0), Mode::Open);
+        assert_eq!(next_mode_of(Mode::Stick, 0.0, 0.0, 1.0, 0.6), Mode::SlipRight);
+        assert_eq!(next_mode_of(Mode::Stick, 0.0, 0.0, 1.0, -0.6), Mode::SlipLeft);
+        assert_eq!(next_mode_of(Mode::SlipRight, 0.0, -0.1, 1.0, 0.5), Mode::Stick);
+        assert_eq!(next_mode_of(Mode::SlipLeft, 0.0, 0.1, 1.0, -0.5), Mode::Stick);
+        assert_eq!(next_mode_of(Mode::Open, -0.1, 0.0, 0.0, 0.0), Mode::Stick);
     }
 
     #[test]
-    fn tensile_strength_holds_until_first_opening() {
+    fn tensile_strength_acts_until_first_opening() {
         let law = Coulomb::new(0.5).unwrap().with_tensile_strength(3.0).unwrap();
         let state = ContactState { pressure: -2.0, ..Default::default() };
         let mut start = start(Mode::Stick);

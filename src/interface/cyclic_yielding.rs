@@ -5,9 +5,9 @@ use super::{
 };
 use crate::error::{Result, not_negative, positive, require};
 
-/// Smallest distance of a pressure from the bearing pressure on the backbone, relative to the latter.
+/// Smallest difference of bearing pressure and pressure on the backbone, relative to the bearing pressure.
 ///
-/// Closer to it the settlement on the backbone is rounding, and the soil is plastic.
+/// Below it, rounding errors determine the settlement that the backbone returns for the pressure.
 const MIN_RESERVE_FRACTION: f64 = 1e-12;
 
 /// Coulomb friction and uplift on soil that settles in every cycle of load.
@@ -19,10 +19,10 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 /// F(h) = q h/(h + w_r),        q = q_u + q_d w
 /// ```
 ///
-/// The soil remembers only the last load: where the pressure has fallen by more than the elastic range η q, the soil
-/// yields again before the former pressure is back. The state variables of each element are its settlement w (m) and
-/// the threshold c (Pa) up to which it bears without yielding. The normal conditions of an element, combined with stick
-/// and slip, with v the settlement in the step and F(h₀) = c:
+/// After the pressure has fallen by more than the elastic range η q, the soil yields again before the pressure reaches
+/// its former value. The state variables of each element are its settlement w (m) and the threshold c (Pa) up to which
+/// it bears without yielding. The normal conditions of an element are combined with stick and slip. With v the
+/// settlement in the step and F(h₀) = c, they are:
 ///
 /// | | |
 /// |---|---|
@@ -30,16 +30,16 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 /// | closed | g = −w, 0 ≤ p ≤ c |
 /// | yielding | g = −w − v, p = F(h₀ + v) |
 ///
-/// At the end of a step w grows by v, c becomes F(h₀ + v) where the soil yielded, and then min(c, p + η q). The first
-/// load is virgin, with c = 0: the weight settles by F⁻¹ of its pressure. With w_r = 0 and q_d = 0 the law is
+/// At the end of a step w grows by v. Where the soil yielded, c becomes F(h₀ + v). Then c becomes min(c, p + η q). The
+/// first load is virgin, with c = 0: the weight settles by F⁻¹ of its pressure. With w_r = 0 and q_d = 0 the law is
 /// [`Yielding`](super::Yielding).
 ///
-/// The soil stores nothing. The energy balance counts p v ≥ 0 in `contact`, whatever the parameters are: dissipation
-/// never falls. Sliding does not lower q.
+/// The law stores no elastic energy. The energy balance counts p v ≥ 0 in `contact`, for all parameters, so that the
+/// dissipated energy never decreases. Sliding does not lower q.
 ///
-/// The law is a bed of springs in series with an elastic ground. Its parameters were fitted to one slow centrifuge test of
-/// a rocking wall on dense dry sand (Gajan & Kutter 2008, doi:10.1061/(ASCE)1090-0241(2008)134:8(1129)): w_r = 5 mm,
-/// η = 0.1, q_d = 1.4 MPa/m for a footing of 2.8 m × 0.65 m. Settlement grows linearly with the number of equal cycles.
+/// The law is a bed of springs in series with an elastic ground. For a footing of 2.8 m × 0.65 m, w_r = 5 mm, η = 0.1
+/// and q_d = 1.4 MPa/m were fitted to one slow centrifuge test of a rocking wall on dense dry sand (Gajan & Kutter 2008,
+/// doi:10.1061/(ASCE)1090-0241(2008)134:8(1129)). Settlement grows linearly with the number of equal cycles.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -95,10 +95,10 @@ validated! {
 }
 
 impl CyclicYielding {
-    /// Law with a bearing pressure (Pa), a reference settlement (m) and friction.
+    /// Creates the law from its bearing pressure (Pa), reference settlement (m) and friction coefficient.
     ///
-    /// The soil remembers its largest pressure: the elastic range is one. The bearing pressure does not grow. The friction
-    /// coefficient is zero or more; if it is infinite, nothing ever slides.
+    /// The elastic range is one: the soil yields again only above its largest past pressure. The bearing pressure does
+    /// not grow. The friction coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a pressure that is not finite and above zero, a settlement that is not
@@ -134,11 +134,11 @@ impl CyclicYielding {
         Ok(self)
     }
 
-    /// Settlement of soil that has borne nothing before under a pressure (Pa), m.
+    /// Settlement (m) of soil that is loaded for the first time, under a pressure (Pa).
     ///
-    /// Without the elastic ground below, and with the initial bearing pressure.
+    /// The settlement of the elastic ground below is not included. The bearing pressure has its initial value.
     pub fn virgin_settlement(&self, pressure: f64) -> f64 {
-        self.backbone(0.0).settlement(pressure)
+        self.backbone(0.0).settlement_at(pressure)
     }
 
     /// The friction coefficient.
@@ -146,7 +146,7 @@ impl CyclicYielding {
         self.contact.friction()
     }
 
-    /// Backbone of soil that has settled, m.
+    /// Backbone of soil after a settlement (m).
     fn backbone(&self, settlement: f64) -> Backbone {
         Backbone {
             bearing_pressure: self.bearing_pressure + self.depth_gradient * settlement.max(0.0),
@@ -175,12 +175,12 @@ impl Backbone {
     }
 
     /// F⁻¹ of a pressure, m.
-    fn settlement(&self, pressure: f64) -> f64 {
+    fn settlement_at(&self, pressure: f64) -> f64 {
         let ratio = self.load_ratio(pressure);
         self.reference_settlement * ratio / (1.0 - ratio)
     }
 
-    /// Pressure up to which soil with this `threshold` bears without yielding: F(h₀) as [`Backbone::point`] has it.
+    /// Pressure up to which soil with this `threshold` bears without yielding: F(h₀) as [`Backbone::point_after`] has it.
     fn pressure_without_settlement(&self, threshold: f64) -> f64 {
         if self.reference_settlement == 0.0 {
             self.bearing_pressure
@@ -189,39 +189,49 @@ impl Backbone {
         }
     }
 
-    /// F(h₀ + v) and its slope at a settlement v, with F(h₀) = `threshold`.
+    /// Pressure F(h₀ + v) and its slope after a further settlement v (m), with F(h₀) = `threshold`.
     ///
     /// With x = F(h₀)/q, F(h₀ + v) = q (x w_r + (1 − x) v)/(w_r + (1 − x) v).
-    fn point(&self, threshold: f64, settlement: f64) -> BackbonePoint {
+    fn point_after(&self, threshold: f64, settlement_in_step: f64) -> BackbonePoint {
         let Self { bearing_pressure, reference_settlement } = *self;
         if reference_settlement == 0.0 {
             return BackbonePoint { pressure: bearing_pressure, slope: 0.0 };
         }
         let ratio = self.load_ratio(threshold);
-        let reserve = 1.0 - ratio;
-        let reduced_settlement = reserve * settlement;
-        let distance = reference_settlement + reduced_settlement;
-        let rate = reserve / distance;
-        let load = (ratio * reference_settlement + reduced_settlement) / distance;
+        let reserve_ratio = 1.0 - ratio;
+        let reduced_settlement = reserve_ratio * settlement_in_step;
+        // The denominator w_r + (1 − x) v.
+        let denominator = reference_settlement + reduced_settlement;
+        let reserve_quotient = reserve_ratio / denominator;
+        let ratio_after = (ratio * reference_settlement + reduced_settlement) / denominator;
         BackbonePoint {
-            pressure: bearing_pressure * load,
-            slope: bearing_pressure * reference_settlement * rate * rate,
+            pressure: bearing_pressure * ratio_after,
+            slope: bearing_pressure * reference_settlement * reserve_quotient * reserve_quotient,
         }
     }
 }
 
-/// Settlement (m) and threshold of an element (Pa), its state variables.
-fn settlement_and_threshold(start: &PreviousContact) -> [f64; 2] {
-    match *start.state_variables {
-        [settlement, threshold, ..] => [settlement, threshold],
-        _ => [0.0; 2],
+/// State variables of an element.
+struct SettledSoil {
+    /// Settlement w, m.
+    settlement: f64,
+    /// Pressure c up to which the soil does not yield, Pa.
+    threshold: f64,
+}
+
+impl SettledSoil {
+    fn of(start: &PreviousContact) -> Self {
+        match *start.state_variables {
+            [settlement, threshold, ..] => Self { settlement, threshold },
+            _ => Self { settlement: 0.0, threshold: 0.0 },
+        }
     }
 }
 
 impl CyclicYielding {
     /// Limits of soil that does not yield in the step.
     fn limits_without_yield(&self, start: &PreviousContact) -> Result<Limits> {
-        let [settlement, threshold] = settlement_and_threshold(start);
+        let SettledSoil { settlement, threshold } = SettledSoil::of(start);
         Ok(Limits {
             pressure_cap: self.backbone(settlement).pressure_without_settlement(threshold),
             gap_offset: -settlement,
@@ -239,7 +249,7 @@ impl InterfaceLaw for CyclicYielding {
         2
     }
 
-    /// Soil that is virgin above its present pressure.
+    /// Sets the threshold to the present pressure: soil above it is virgin.
     fn initial_state_variables(&self, start: &PreviousContact, state_variables: &mut [f64]) {
         let ContactState { gap, pressure, .. } = start.state;
         let is_closed = start.mode.is_closed();
@@ -258,10 +268,11 @@ impl InterfaceLaw for CyclicYielding {
         if mode.is_yield() {
             let settlement = state_variables[0];
             state_variables[0] = settlement.max(-end.gap);
-            // On the backbone, so that errors of pressures do not add up from step to step.
+            // The threshold is computed from the backbone, so that errors of the pressure do not add up over the steps.
             let settlement_in_step = state_variables[0] - settlement;
             let backbone = self.backbone(settlement);
-            state_variables[1] = backbone.point(state_variables[1], settlement_in_step).pressure;
+            let point = backbone.point_after(state_variables[1], settlement_in_step);
+            state_variables[1] = point.pressure;
         }
         let bearing_pressure = self.backbone(state_variables[0]).bearing_pressure;
         let max_threshold = pressure + self.elastic_range * bearing_pressure;
@@ -300,9 +311,10 @@ impl InterfaceLaw for CyclicYielding {
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        let [settlement, threshold] = settlement_and_threshold(start);
+        let SettledSoil { settlement, threshold } = SettledSoil::of(start);
         let backbone = self.backbone(settlement);
-        let BackbonePoint { pressure, slope } = backbone.point(threshold, start.trial_settlement);
+        let BackbonePoint { pressure, slope } =
+            backbone.point_after(threshold, start.trial_settlement);
         Ok(Limits {
             pressure_cap: (pressure - slope * start.trial_settlement).max(0.0),
             hardening: slope,

@@ -8,9 +8,8 @@ use crate::error::{Error, Result, not_negative, require};
 /// Coulomb friction of a wall on soil between its active and its passive pressure.
 ///
 /// The pressure of soil on a wall is at most passive and at least active: a wedge of soil slides up if the wall is pushed
-/// into the soil, and down if the wall moves away. The state variable of each element is the movement w of the soil's face,
-/// positive away from the wall. The normal conditions of an element,
-/// combined with stick and slip:
+/// into the soil, and down if the wall moves away. The state variable of each element is the movement w of the soil's
+/// face, positive away from the wall. The normal conditions of an element, combined with stick and slip:
 ///
 /// | | |
 /// |---|---|
@@ -18,18 +17,18 @@ use crate::error::{Error, Result, not_negative, require};
 /// | passive | p = passive, g ≤ −w; w becomes −g |
 /// | active | p = active, g ≥ −w; w becomes −g |
 ///
-/// Pressure falls as the gap g grows, as in plasticity with fixed yield stresses: without friction the contact problem of a
-/// step is convex and has one solution. Soil that has followed the wall does not move
-/// back, and resists a wall that returns immediately: pressures increase from cycle to cycle. With an active pressure of
-/// zero the soil stands without the wall because of its cohesion. The wall then opens as under
-/// [`Yielding`](super::Yielding), and meets the soil again at g = −w.
+/// Pressure falls as the gap g grows, as in plasticity with fixed yield stresses: without friction the contact problem
+/// of a step is convex and has one solution. Soil that has followed the wall does not move back: it resists a returning
+/// wall immediately, and pressures increase from cycle to cycle. With an active pressure of zero the soil stands
+/// without the wall because of its cohesion. A gap then opens between wall and soil as under
+/// [`Yielding`](super::Yielding), and closes again at g = −w.
 ///
-/// In the energy balance, `contact` includes p times the movement of the soil. While soil follows a wall, its weight does
-/// work on the wall, and `contact` decreases by the active pressure times the movement. Over a cycle of movement `contact`
-/// never decreases.
+/// In the energy balance, `contact` includes p times the movement of the soil. While soil follows a wall, the weight of
+/// the soil does work on the wall, and `contact` decreases by the active pressure times the movement. Over a cycle of
+/// movement `contact` never decreases.
 ///
-/// [`TrenchGround::interfaces`](crate::bem::embedded::TrenchGround::interfaces) makes the laws of walls from the
-/// strengths of soils.
+/// [`TrenchGround::interfaces`](crate::bem::embedded::TrenchGround::interfaces) computes the laws of an embedded wall
+/// from the strengths of the soils.
 ///
 /// ```
 /// use basemat::interface::{EarthPressure, InterfaceLaw, Mode};
@@ -93,7 +92,7 @@ impl EarthPressure {
         self.active == 0.0
     }
 
-    /// Limits without the active pressure.
+    /// Limits of the law without its active pressure, which [`Limits`] do not contain.
     fn passive_limits(&self, start: &PreviousContact) -> Limits {
         let movement = start.state_variables.first().copied().unwrap_or(0.0);
         Limits {
@@ -131,17 +130,18 @@ impl InterfaceLaw for EarthPressure {
         tolerance: Tolerance,
     ) -> Mode {
         let limits = self.passive_limits(start);
-        let next = limits.next_mode(mode, self.modes()[0], start, trial, tolerance, [0.0; 2]);
+        let passive_mode =
+            limits.next_mode(mode, self.modes()[0], start, trial, tolerance, [0.0; 2]);
         if self.can_open() {
-            return next;
+            return passive_mode;
         }
         let is_following = if mode.is_active() {
             trial.gap - limits.gap_offset >= -tolerance.length
         } else {
             trial.pressure < self.active - tolerance.traction
         };
-        // The limits have no active pressure, and open an element under tension.
-        let closed_mode = if next.is_closed() { next } else { mode.elastic() };
+        // Without the active pressure, the limits open an element under tension; here it stays closed.
+        let closed_mode = if passive_mode.is_closed() { passive_mode } else { mode.elastic() };
         if is_following { closed_mode.elastic().following() } else { closed_mode }
     }
 
@@ -168,12 +168,12 @@ impl InterfaceLaw for EarthPressure {
         Some(self.friction())
     }
 
-    /// No error: the numbers of the law are valid, although it may have no limits.
+    /// No error: [`EarthPressure::new`] has checked the numbers, and soil with an active pressure has no limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
-    /// Limits of soil with an active pressure of zero; other soil acts in the plane alone.
+    /// Limits of soil whose active pressure is zero; an error for other soil, which acts only in the plane.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let needed = "an active pressure of zero, to act by limits alone";
         if self.can_open() {

@@ -1,4 +1,4 @@
-//! Limits of an element's tractions, and the modes in the plane that follow from them.
+//! Limits of an element's tractions, and the modes and conditions in the plane that follow from them.
 
 use super::{Condition, ContactState, Mode, PreviousContact, Tolerance};
 use crate::error::{Error, Result, finite, not_negative, require};
@@ -38,7 +38,7 @@ pub struct Limits {
     ///
     /// With 3 or more, a step may have several solutions: see [`Coulomb::new`](super::Coulomb::new).
     pub friction: f64,
-    /// Pressure that is added to p for friction, Pa.
+    /// Pressure that is added to p in the friction limit, Pa.
     pub attraction: f64,
     /// Shear strength in addition to friction, Pa.
     pub shear_strength: f64,
@@ -128,7 +128,7 @@ impl Limits {
         Ok(self)
     }
 
-    /// Conditions of a mode in the plane.
+    /// The two conditions of a mode in the plane: normal, then tangential.
     ///
     /// `compliance`: of the law's elastic layer, as in [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
     /// The conditions are NaN for invalid limits, which [`Limits::checked`] reports.
@@ -144,44 +144,51 @@ impl Limits {
         let open_conditions = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
         let [normal_compliance, shear_compliance] = compliance;
         let ContactState { slip, shear, .. } = start.state;
-        let closed =
+        let closed_condition =
             Condition { pressure: normal_compliance, ..Condition::gap_is(self.gap_offset) };
-        let no_slip = Condition {
+        let stick_condition = Condition {
             shear: 0.0 - shear_compliance,
             ..Condition::slip_is(slip - shear_compliance * shear)
         };
         if self.bonded {
-            return [closed, no_slip];
+            return [closed_condition, stick_condition];
         }
         if mode == Mode::Open || self.gap_offset == f64::NEG_INFINITY {
             return open_conditions;
         }
         let is_yielding = mode.is_yield() && self.pressure_cap.is_finite();
-        let normal = if is_yielding { self.yield_condition(normal_compliance) } else { closed };
-        match mode.elastic() {
-            Mode::SlipRight => [normal, self.slip_condition(1.0)],
-            Mode::SlipLeft => [normal, self.slip_condition(-1.0)],
-            _ => [normal, no_slip],
-        }
+        let normal_condition =
+            if is_yielding { self.yield_condition(normal_compliance) } else { closed_condition };
+        let tangential_condition = match mode.elastic() {
+            Mode::SlipRight => self.slip_condition(1.0),
+            Mode::SlipLeft => self.slip_condition(-1.0),
+            _ => stick_condition,
+        };
+        [normal_condition, tangential_condition]
     }
 
-    /// p = cap + hardening · settlement, with the settlement of the soil below a layer of this normal `compliance`.
-    fn yield_condition(&self, compliance: f64) -> Condition {
+    /// Condition p = cap + hardening · settlement of yielding soil.
+    ///
+    /// `normal_compliance`: of the elastic layer above the soil, m/Pa. The settlement of the soil excludes the
+    /// compression of the layer.
+    fn yield_condition(&self, normal_compliance: f64) -> Condition {
         let Self { pressure_cap, hardening, gap_offset, .. } = *self;
         Condition {
             gap: hardening,
-            pressure: 1.0 + hardening * compliance,
+            pressure: 1.0 + hardening * normal_compliance,
             value: pressure_cap + hardening * gap_offset,
             ..Condition::default()
         }
     }
 
-    /// τ = ±R, in a form that remains finite for infinite friction.
+    /// Condition τ = ±R of a sliding element, in a form that remains finite for infinite friction.
     ///
-    /// For infinite friction the condition is p + attraction = 0 with any shear traction. Without this mode the incremental
-    /// problem need not have a solution: an element that is about to open under shear could neither stick nor open.
+    /// `direction`: 1 to the right, −1 to the left. For infinite friction the condition is p + attraction = 0 with any
+    /// shear traction. Without this mode the incremental problem need not have a solution: an element that is about to
+    /// open under shear could neither stick nor open.
     fn slip_condition(&self, direction: f64) -> Condition {
         let Self { friction, attraction, shear_strength, .. } = *self;
+        // Above a coefficient of one, the condition is divided by the coefficient.
         if friction > 1.0 {
             let value = -attraction - shear_strength / friction;
             return Condition {
@@ -195,7 +202,7 @@ impl Limits {
         Condition { pressure: -friction, shear: direction, value, ..Condition::default() }
     }
 
-    /// The mode to try after a `trial` in `mode` in the plane.
+    /// The mode to try next in the plane, after a `trial` in `mode`.
     ///
     /// `closing_mode`: mode of an element that closes. `compliance`: as for [`Limits::conditions`]. An element that
     /// slides opens at a tension above the attraction.
@@ -237,7 +244,7 @@ impl Limits {
             }
         };
         let shear_limit = self.friction * friction_pressure.max(0.0) + self.shear_strength;
-        let next = match mode.elastic() {
+        let elastic_mode = match mode.elastic() {
             Mode::SlipRight => sliding_mode(1.0),
             Mode::SlipLeft => sliding_mode(-1.0),
             _ if trial.pressure + self.tension < -traction_tolerance => Mode::Open,
@@ -252,6 +259,6 @@ impl Limits {
         } else {
             trial.pressure > self.pressure_cap + traction_tolerance
         };
-        if is_yielding { next.yielding() } else { next }
+        if is_yielding { elastic_mode.yielding() } else { elastic_mode }
     }
 }

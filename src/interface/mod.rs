@@ -1,9 +1,10 @@
 //! Interface laws between the base and the soil.
 //!
-//! A law describes one contact element at a time, by the [`Limits`] of its tractions: an [`InterfaceLaw`] needs this one
-//! method. In the plane, the limits determine two linear [`Condition`]s for each [`Mode`], between the element's opening
-//! and its traction, and the next mode after a trial. A law of the plane without such limits implements [`PlaneLaw`], whose
-//! three methods return modes, conditions and the next mode. The mode search of [`crate::contact`] is the same for all laws.
+//! A law describes one contact element at a time. An [`InterfaceLaw`] needs one method: the [`Limits`] of the element's
+//! tractions. In the plane, the limits determine two linear [`Condition`]s for each [`Mode`], between the element's opening
+//! and its traction. They also determine the next mode after a trial. A law of the plane without such limits implements
+//! [`PlaneLaw`], whose three methods return modes, conditions and the next mode. The mode search of [`crate::contact`] is
+//! the same for all laws.
 
 mod cohesive;
 mod condition;
@@ -14,6 +15,7 @@ mod limits;
 mod mode;
 mod plane_law;
 mod previous_contact;
+mod shared_law;
 mod thin_layer;
 mod variable_friction;
 mod yielding;
@@ -30,6 +32,7 @@ pub use mode::Mode;
 pub use plane_law::{InPlane, PlaneLaw};
 pub(crate) use previous_contact::state_variable_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
+pub(crate) use shared_law::SharedLaw;
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
@@ -37,7 +40,7 @@ pub use yielding::Yielding;
 use crate::error::{Result, require_part, same_length};
 use crate::geometry::ContactLayout;
 
-/// Form in which a ground applies the laws of its elements.
+/// Whether the laws of a ground act by conditions of modes or by limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LawForm {
     /// Conditions of each mode, if elements slide along one axis.
@@ -53,7 +56,9 @@ impl LawForm {
     }
 }
 
-/// Opening and **total** traction (static part included) of one contact element, as element means.
+/// Opening and **total** traction of one contact element, as element means.
+///
+/// Tractions include the static part.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -66,19 +71,19 @@ pub struct ContactState {
     pub pressure: f64,
     /// Shear traction that the structure exerts on the soil, Pa; positive to the right.
     pub shear: f64,
-    /// In plan: slip along y, m; zero in the plane.
+    /// Slip along y on a ground in plan, m; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub slip_across: f64,
-    /// In plan: shear traction along y, Pa; zero in the plane.
+    /// Shear traction along y on a ground in plan, Pa; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub shear_across: f64,
 }
 
-/// Column of a contact state in files: word, SI unit, whether in plan only, value.
+/// Column of a contact state in files: word, SI unit, whether only grounds in plan have it, and its value.
 type ContactColumn = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
 
 impl ContactState {
-    /// All numbers, in the order of columns in files.
+    /// Columns of a contact state in files, in their order.
     ///
     /// Each column has its word, its SI unit, whether only grounds in plan have it, and its value.
     pub const NUMBER_COLUMNS: [ContactColumn; 6] = [
@@ -149,27 +154,27 @@ pub struct ContactScene {
     pub time_step: f64,
 }
 
-/// Checks that there is one law, or one for each element, with modes.
-pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<()> {
+/// Checks that there is one law, or one for each element, and that each law has modes.
+pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], element_count: usize) -> Result<()> {
     if laws.len() != 1 {
-        same_length("list of interface laws", laws.len(), count)?;
+        same_length("list of interface laws", laws.len(), element_count)?;
     }
     let all_have_modes = laws.iter().all(|law| !law.modes().is_empty());
     require_part("interface law", all_have_modes, "`modes` must name at least one mode")
 }
 
-/// The law of `element`, from a list of one law for all elements or one each.
+/// Law of an element, from a list of one law for all elements or one law for each.
 pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn InterfaceLaw {
     laws[if laws.len() == 1 { 0 } else { element }].as_ref()
 }
 
-/// Contact law between base and soil: implement this for your law.
+/// Contact law between base and soil; implement this trait for your law.
 ///
 /// A law needs one method: the [`limits`](InterfaceLaw::limits) of an element's tractions. A law of the plane that no
-/// limits describe (an open element that bears, a slip that is resisted by its speed) implements [`PlaneLaw`] instead.
+/// limits describe (an open element with traction, a slip with viscous resistance) implements [`PlaneLaw`] instead.
 ///
 /// A law stores nothing that changes in a run. [`PreviousContact`] contains the end of the previous step. If a
-/// law depends on earlier steps, it declares state variables per element. The simulation stores them, passes
+/// law depends on earlier steps, it declares state variables per element. The simulation stores these variables, passes
 /// them in [`PreviousContact::state_variables`] and saves them in checkpoints. A law that returns a number
 /// that is not finite, or a mode that it does not list, causes a [`LawError`].
 ///
@@ -185,8 +190,8 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///
 /// impl InterfaceLaw for SlipWeakening {
 ///     fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
-///         let slid = start.state_variables[0];
-///         Ok(Limits { friction: 0.3 + 0.2 * (-slid / 0.01).exp(), ..Limits::default() })
+///         let slid_distance = start.state_variables[0];
+///         Ok(Limits { friction: 0.3 + 0.2 * (-slid_distance / 0.01).exp(), ..Limits::default() })
 ///     }
 ///     fn state_variables(&self) -> usize {
 ///         1
@@ -205,8 +210,8 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///     .motion(el_centro_1940().scaled(3.0)?)
 ///     .build()?;
 /// let run = simulation.run(1000, |_| {})?;
-/// let slid = simulation.state().state_variables(3)[0];
-/// assert!(slid > 0.02 && slid > run.whole.largest_slip.magnitude());
+/// let slid_distance = simulation.state().state_variables(3)[0];
+/// assert!(slid_distance > 0.02 && slid_distance > run.whole.largest_slip.magnitude());
 /// assert!(run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -220,9 +225,9 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 pub trait InterfaceLaw: Send {
     /// Limits of the tractions of an element in the step after `start`.
     ///
-    /// This is the only required method. In plan the slip has the direction of the shear traction, and a run uses the limits
-    /// alone: it calls this method once per attempted step. In the plane, modes and conditions follow from the limits, unless
-    /// the law implements their methods.
+    /// This is the only required method. In plan the slip has the direction of the shear traction, and a run uses the
+    /// limits alone: it calls this method once per attempted step. In the plane, modes and conditions follow from the
+    /// limits, unless the law implements their methods.
     ///
     /// # Errors
     /// If the law has no limits for this element, as [`Error::Scene`](crate::Error::Scene) or
@@ -269,12 +274,12 @@ pub trait InterfaceLaw: Send {
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension, and slip per shear traction.
     ///
     /// Zero (the default) for hard contact. The energy balance includes the energy stored in this compliance,
-    /// ½ compliance · traction² at the end of the step. Friction, impact and damage dissipate only the
-    /// work on the inelastic gap and slip, and the energy released by a compliance that changes.
+    /// ½ compliance · traction² at the end of the step. The dissipated energy is only the work on the inelastic gap and
+    /// slip, and the energy that a changing compliance releases.
     ///
-    /// The simulation calls this method for every mode at the static state, and once per step for the mode at its end. A law
-    /// without state variables that is hard in every mode at the static state is treated as hard in the whole
-    /// run.
+    /// The simulation calls this method for every mode at the static state, and once per step for the mode at the end of
+    /// the step. A law without state variables that is hard in every mode at the static state is treated as hard in the
+    /// whole run.
     fn compliance(&self, _mode: Mode, _start: &PreviousContact) -> [f64; 2] {
         [0.0; 2]
     }
@@ -293,7 +298,7 @@ pub trait InterfaceLaw: Send {
     /// Updates the state variables of an element at the `end` of a step in `mode`.
     ///
     /// On entry `state_variables` contains the values at the `start` of the step. The method is called once per accepted
-    /// step, after its modes are found, and not for a law without state variables.
+    /// step, after the search for modes, and not for a law without state variables.
     fn commit(
         &self,
         _start: &PreviousContact,
@@ -307,25 +312,24 @@ pub trait InterfaceLaw: Send {
     ///
     /// The resistance of the base is this coefficient times the pressure
     /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). For friction that varies, return the
-    /// smallest coefficient: with a larger one, the base slides at a factor of safety above one. Infinite for a law that never
-    /// slides; `None` (the default) for a law without such a coefficient.
+    /// smallest coefficient: with a larger one, the base could slide although the factor of safety is above one.
+    /// Infinite for a law that never slides; `None` (the default) for a law without such a coefficient.
     fn friction_coefficient(&self) -> Option<f64> {
         None
     }
 
     /// Traction by which `trial` exceeds the strength of a bond that breaks for good, Pa.
     ///
-    /// Negative for an intact bond; `None` (the default) for an element without a bond, or with a broken
-    /// one.
+    /// Negative below the strength; `None` (the default) for an element without a bond, or with a broken one.
     ///
-    /// The mode search first keeps bonded elements in their mode of rest, at any traction, until all other modes
-    /// are found. Then the bonds with the largest overload break, and the search is repeated until no bond is overloaded.
+    /// The mode search first keeps bonded elements in their mode of rest, at any traction, until all other modes are
+    /// found. Then the bonds with the largest overload break, and the search is repeated until no bond is overloaded.
     /// `start.has_opened` is true for a broken bond.
     fn bond_overload(&self, _start: &PreviousContact, _trial: &ContactState) -> Option<f64> {
         None
     }
 
-    /// Reason for a condition that is not finite, if the law can determine it.
+    /// Returns the cause of a condition that is not finite, if the law can determine it.
     ///
     /// # Errors
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). The default
@@ -336,11 +340,10 @@ pub trait InterfaceLaw: Send {
 
     /// The same law without friction and cohesion, for the gravity stage.
     ///
-    /// It acts on a ground in the plane.
-    ///
-    /// The default is hard and frictionless contact. `build` returns an error if the static state that was found without
-    /// friction is not in equilibrium under the law itself. In plan the law itself acts with its [`limits`](Self::limits), without friction, attraction and
-    /// shear strength; its state variables begin as without pressure.
+    /// The returned law acts on a ground in the plane. The default is hard and frictionless contact. `build` returns an
+    /// error if the static state without friction is not in equilibrium under the law itself. On a ground in plan, the
+    /// gravity stage uses the [`limits`](Self::limits) of the law itself, without friction, attraction and shear strength.
+    /// Its state variables are then initialised without pressure.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Coulomb::frictionless())
     }

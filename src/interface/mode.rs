@@ -12,7 +12,7 @@ pub enum Mode {
     SlipLeft,
     /// Closed; the structure slides to the right over the soil.
     SlipRight,
-    /// Uplift: no traction.
+    /// Uplift; hard contact has no traction.
     Open,
     /// Closed, no slip; the soil yields under the pressure ([`Yielding`](super::Yielding)).
     Yield,

@@ -1,4 +1,4 @@
-//! Contact laws of the plane by conditions of each mode, for laws without limits.
+//! Contact laws of the plane without limits, defined by the conditions of each mode.
 
 use super::{
     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::error::Result;
 
-/// Contact law of the plane by linear conditions, for laws without [`Limits`].
+/// Contact law of the plane without [`Limits`], defined by linear conditions.
 ///
 /// Examples are an open element with traction, or slip against viscous resistance. Such a law needs three methods. A scene
 /// uses it as [`InPlane`]`(law)`. All other laws implement [`InterfaceLaw`] by their limits.
@@ -62,7 +62,7 @@ pub trait PlaneLaw: Send {
 
     /// The two conditions that `mode` imposes at the end of the step.
     ///
-    /// Their numbers are finite: another number ends the step with a [`LawError`](super::LawError).
+    /// All their numbers must be finite: another number ends the step with a [`LawError`](super::LawError).
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2];
 
     /// The mode to try next after a `trial` with the conditions of `mode`: one of [`modes`](PlaneLaw::modes).
@@ -109,7 +109,7 @@ pub trait PlaneLaw: Send {
         None
     }
 
-    /// Reason for a condition that is not finite, if the law can determine it; none by default.
+    /// Returns the cause of a condition that is not finite, if the law can determine it; none by default.
     ///
     /// # Errors
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part).

@@ -30,8 +30,8 @@ pub struct PreviousContact<'a> {
     ///
     /// A law whose pressure is a curve over the settlement returns the curve's tangent at this settlement, as
     /// [`Limits::pressure_cap`](super::Limits::pressure_cap) and [`Limits::hardening`](super::Limits::hardening). The step
-    /// is solved again until the pressure is on the curve. The curve must rise with a slope that falls. Other laws ignore
-    /// this field: with a hardening of zero at a settlement of zero the step has one trial.
+    /// is solved again until the pressure is on the curve. The curve must rise, and its slope must decrease. Other laws
+    /// ignore this field: with a hardening of zero at a settlement of zero the step has one trial.
     pub trial_settlement: f64,
     /// State variables of the law for this element ([`InterfaceLaw::state_variables`]); empty for a
     /// law without state variables.
@@ -77,6 +77,7 @@ impl<'a> PreviousContact<'a> {
         state_variables
     }
 
+    /// Copy of this contact without state variables, in its first trial.
     fn without_state_variables(&self) -> PreviousContact<'static> {
         let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = *self;
         PreviousContact {
@@ -91,9 +92,7 @@ impl<'a> PreviousContact<'a> {
         }
     }
 
-    /// This contact with other state variables.
-    ///
-    /// For a law that contains several laws, each with its own part of the state variables.
+    /// This contact with other state variables, such as those of one of several combined laws.
     #[must_use]
     pub(crate) fn with_state_variables<'b>(self, state_variables: &'b [f64]) -> PreviousContact<'b>
     where
@@ -103,11 +102,11 @@ impl<'a> PreviousContact<'a> {
     }
 }
 
-/// The start of a step for all elements, from left to right, with state variables.
+/// The start of a step for all elements, with their state variables.
 ///
-/// A [`Simulation`](crate::Simulation) contains one. A code with another integrator obtains one from
-/// [`ContactProblem::start`](crate::contact::ContactProblem::start) and may store a clone, to repeat steps from
-/// it. [`ContactSolution::commit`](crate::contact::ContactSolution::commit) advances it.
+/// Elements of a strip are in order from left to right. Code with another integrator obtains this value from
+/// [`ContactProblem::start`](crate::contact::ContactProblem::start), and may store a clone from which it repeats steps.
+/// [`ContactSolution::commit`](crate::contact::ContactSolution::commit) advances it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreviousContacts {
     /// Contact of each element at the start of the step, without its state variables.
@@ -115,40 +114,43 @@ pub struct PreviousContacts {
     /// State variables of all elements, one after the other.
     state_variables: Vec<f64>,
     /// End of each element's range in `state_variables`; empty if no law has any.
-    ends: Vec<usize>,
+    variable_ends: Vec<usize>,
 }
+
+/// Memory for a state variable: in the state, its increment, and a copy of each, eight bytes.
+const BYTES_PER_STATE_VARIABLE: f64 = 32.0;
 
 /// End of each element's range in the list of all state variables; empty if no law has any.
 pub(crate) fn state_variable_ends(
     laws: &[Box<dyn InterfaceLaw>],
-    count: usize,
+    element_count: usize,
 ) -> Result<Vec<usize>> {
     if laws.iter().all(|law| law.state_variables() == 0) {
         return Ok(Vec::new());
     }
     let mut end = 0_usize;
-    let mut ends = Vec::with_capacity(count);
-    for element in 0..count {
+    let mut ends = Vec::with_capacity(element_count);
+    for element in 0..element_count {
         end = end.saturating_add(law_of(laws, element).state_variables());
         ends.push(end);
     }
-    // State, increment and the copy of each store every variable: four numbers of eight bytes.
-    memory::check("state variables of the interface laws", end as f64, 32.0 * end as f64)?;
+    let variable_bytes = BYTES_PER_STATE_VARIABLE * end as f64;
+    memory::check("state variables of the interface laws", end as f64, variable_bytes)?;
     Ok(ends)
 }
 
 impl PreviousContacts {
-    /// Previous contact of all elements from the previous contact of each.
+    /// Collects the previous contacts of all elements.
     ///
     /// If an element has no state variables, its law sets their initial values.
     pub(crate) fn new(
         laws: &[Box<dyn InterfaceLaw>],
         elements: &[PreviousContact<'_>],
     ) -> Result<Self> {
-        let ends = state_variable_ends(laws, elements.len())?;
+        let variable_ends = state_variable_ends(laws, elements.len())?;
         let contacts = elements.iter().map(PreviousContact::without_state_variables).collect();
-        let state_variables = vec![0.0; ends.last().copied().unwrap_or(0)];
-        let mut starts = Self { contacts, state_variables, ends };
+        let state_variables = vec![0.0; variable_ends.last().copied().unwrap_or(0)];
+        let mut starts = Self { contacts, state_variables, variable_ends };
         for (e, start) in elements.iter().enumerate() {
             let range = starts.state_variable_range(e);
             if start.state_variables.is_empty() && !range.is_empty() {
@@ -198,7 +200,7 @@ impl PreviousContacts {
 
     /// State variables of an element's law.
     pub(crate) fn state_variables_of(&self, element: usize) -> &[f64] {
-        if self.ends.is_empty() {
+        if self.variable_ends.is_empty() {
             &[]
         } else {
             &self.state_variables[self.state_variable_range(element)]
@@ -206,17 +208,17 @@ impl PreviousContacts {
     }
 
     fn state_variable_range(&self, element: usize) -> std::ops::Range<usize> {
-        let begin = if element == 0 { 0 } else { self.end(element - 1) };
-        begin..self.end(element)
+        let begin = if element == 0 { 0 } else { self.variable_end(element - 1) };
+        begin..self.variable_end(element)
     }
 
-    fn end(&self, element: usize) -> usize {
-        self.ends.get(element).copied().unwrap_or(0)
+    fn variable_end(&self, element: usize) -> usize {
+        self.variable_ends.get(element).copied().unwrap_or(0)
     }
 
     /// End of each element's range in the list of all state variables; empty if no law has any.
     pub(crate) fn state_variable_ends(&self) -> &[usize] {
-        &self.ends
+        &self.variable_ends
     }
 
     /// State variables of all elements.
@@ -239,9 +241,10 @@ impl PreviousContacts {
         self.contacts[e] = PreviousContact { state, mode, has_opened, ..self.contacts[e] };
     }
 
-    /// Updates `state_variables` by the laws at the end of a step in `states` and `modes`.
+    /// Computes the state variables at the end of a step, and overwrites `state_variables`.
     ///
-    /// `state_variables` has the length of [`PreviousContacts::state_variables`]; `self` does not change.
+    /// The step ended in `states` and `modes`. `state_variables` has the length of
+    /// [`PreviousContacts::state_variables`]; `self` does not change.
     pub(crate) fn update_state_variables(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
@@ -288,6 +291,7 @@ impl PreviousContacts {
     }
 }
 
+/// Returns an error if a state variable of an element is not finite.
 fn check_state_variables(
     element: usize,
     mode: Mode,

@@ -11,8 +11,7 @@ type FrictionFunction = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 /// The closure receives the [`PreviousContact`] of the element: slip, slip rate, pressure, static pressure. The law has no
 /// state variables: friction that depends on the sliding distance needs a user's [`InterfaceLaw`].
 ///
-/// The coefficient is evaluated at the start of the step, so that it is constant during the mode search. It therefore lags
-/// by one step.
+/// The coefficient is computed from the end of the previous step, so that it is constant during the mode search.
 ///
 /// Friction that falls from 0.3 to 0.2 as sliding gets faster:
 /// ```
@@ -31,8 +30,8 @@ type FrictionFunction = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 ///     .gravity(9.81)
 ///     .build()?;
 /// let run = simulation.run(600, |state| {
-///     let largest = 0.3 * state.normal_force;
-///     assert!(state.base_shear.abs() <= largest * (1.0 + 1e-9));
+///     let max_shear = 0.3 * state.normal_force;
+///     assert!(state.base_shear.abs() <= max_shear * (1.0 + 1e-9));
 /// })?;
 /// assert!(run.whole.largest_slip.magnitude() > 1e-3);
 /// # Ok::<(), basemat::Error>(())

@@ -16,9 +16,9 @@ use crate::error::{Result, positive};
 /// | closed | g = −w, 0 ≤ p ≤ q |
 /// | yielding | p = q, g ≤ −w; w becomes −g |
 ///
-/// In the energy balance, `contact` includes q times the indentation. The law models the near field of a
-/// foundation: a rocking base settles and rounds its soil, as in beds of yielding springs (Allotey & El
-/// Naggar 2003), while the half-plane below remains elastic. Sliding does not reduce q.
+/// In the energy balance, `contact` includes q times the indentation. The law models the near field of a foundation: a
+/// rocking base settles, and the surface under it becomes rounded, as in beds of yielding springs (Allotey & El Naggar
+/// 2003). The ground below remains elastic. Sliding does not reduce q.
 ///
 /// ```
 /// use basemat::Simulation;

@@ -1,4 +1,4 @@
-//! Files of other programs: meshes from Gmsh, matrices by Matrix Market, grids for ParaView.
+//! Files of other programs: meshes of Gmsh, matrices of Matrix Market, grids for ParaView.
 //!
 //! The module [`motion`](crate::motion) reads records of ground motion, without this feature.
 //!

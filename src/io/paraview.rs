@@ -1,10 +1,10 @@
 //! Files for ParaView: a `.pvd` collection of `.vtu` grids, up to two per frame.
 //!
-//! The first grid of a frame is the structure. For a [`FemModel`] its cells are the
-//! elements in their order: lines, triangles, quadrilaterals, bricks with eight corners, other solids as convex sets of
-//! points. Points have the vectors `displacement` (m, change from the static state, relative to the free field),
-//! `static_displacement` (m) and `velocity` (m/s, total). Apply *Warp By Vector* to see the structure move, to the sum
-//! of the first two (*Calculator*) to see it from its unloaded shape.
+//! The first grid of a frame is the structure. For a [`FemModel`] its cells are the elements in their order: lines,
+//! triangles, quadrilaterals, bricks with eight corners, other solids as convex sets of points. Points have the vectors
+//! `displacement` (m, change from the static state, relative to the free field), `static_displacement` (m) and `velocity`
+//! (m/s, total). ParaView's filter *Warp By Vector* shows the motion of the structure. Applied to the sum of the first two
+//! vectors (*Calculator*), it shows the displacement from the unloaded shape.
 //!
 //! The second grid is the base. It has one line for each contact element, with `pressure` and `shear`
 //! (Pa), `gap` and `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan

@@ -1,4 +1,4 @@
-//! Free fields, which are motions of the surface without the structure, and simple examples.
+//! Trait of free fields (motions of the surface without the structure), and simple fields.
 
 use super::Record;
 use crate::error::{Result, finite, positive, require};
@@ -9,8 +9,8 @@ use crate::geometry::ContactElement;
 pub trait FreeField: Send {
     /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
     ///
-    /// A run starts at rest and subtracts the displacement of each element at t = 0. A ground that moves at t = 0
-    /// starts with a jump in velocity.
+    /// A run starts at rest and subtracts the displacement of each element at t = 0. If the ground moves at t = 0, its
+    /// velocity jumps there.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
     /// Displacement `[along x, along y, up]` (m) for a ground in plan.
@@ -24,9 +24,9 @@ pub trait FreeField: Send {
     /// Displacement and tractions at contact elements below the surface, for a ground with walls.
     ///
     /// Overwrites `displacement` (m) and `impulse`, the integral of the tractions on the soil from the beginning to
-    /// `time` (Pa s): both 2Q, ordered as the [contact vectors](crate::bem), means over the elements. A pressure is
-    /// positive in compression. Returns `false` for a field that
-    /// has a motion at the surface only, which is the default.
+    /// `time` (Pa s). Both are means over the elements, 2Q numbers in the order of the [contact vectors](crate::bem). A
+    /// pressure is positive in compression. Returns `false` (the default) for a field that has a motion at the surface
+    /// only.
     fn at_faces(
         &self,
         _elements: &[ContactElement],
@@ -39,8 +39,8 @@ pub trait FreeField: Send {
 
     /// Identity of the soils for which [`at_faces`](FreeField::at_faces) is valid.
     ///
-    /// The numbers are equal only for equal soils. A ground with other numbers (its description's `identity`) is an error.
-    /// Default: `None`, for any soils.
+    /// The numbers are equal only for equal soils. A run on a ground whose description has another `identity` returns an
+    /// error. Default: `None`, for any soils.
     fn soils(&self) -> Option<&[f64]> {
         None
     }
@@ -72,9 +72,9 @@ pub trait FreeField: Send {
     }
 }
 
-/// Half the interval of the central difference, s: short beside periods, long beside rounding of times.
+/// Half the interval of the central difference, s: short beside periods, long beside rounding errors of times.
 const HALF_DIFFERENCE_INTERVAL: f64 = 1e-5;
-/// Smallest half interval relative to the time: rounding of the time must stay small beside it.
+/// Smallest half interval relative to the time, a thousand times the rounding error of the time.
 const RELATIVE_HALF_INTERVAL: f64 = 1e-13;
 
 /// Velocity (m/s) of a field by the central difference of its displacements.
@@ -132,8 +132,8 @@ type FieldFunction = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
 /// Free field from closures for the displacement and, optionally, the velocity.
 ///
-/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0; at earlier times
-/// the field is zero. The displacement should start from zero: its value just after t = 0 acts as a jump.
+/// The arguments of both are `(x, time)` (m, s), with time > 0; they return `[horizontal, vertical up]` (m, m/s). At
+/// earlier times the field is zero. The displacement should start from zero: its value just after t = 0 acts as a jump.
 ///
 /// A wave that runs to the right at 1000 m/s:
 /// ```
@@ -154,7 +154,7 @@ pub struct FreeFieldFn {
 impl FreeFieldFn {
     /// Free field from its `displacement(x, time)`.
     ///
-    /// Its velocity is the difference that [`FreeField::velocity`] computes by default.
+    /// The velocity is the central difference that [`FreeField::velocity`] computes by default.
     pub fn new(displacement: impl Fn(f64, f64) -> [f64; 2] + Send + 'static) -> Self {
         Self { displacement: Box::new(displacement), velocity: None }
     }
@@ -182,10 +182,10 @@ impl FreeField for FreeFieldFn {
     }
 }
 
-/// Vertically incident S and P waves, under which all points of the surface move alike.
+/// Vertically incident S and P waves, under which all points of the surface have one motion.
 ///
-/// The records are the motion of the free *surface* (twice the incident wave). S gives the horizontal and P the
-/// vertical component. A plain [`Record`] is a horizontal free field too.
+/// The records are the motion of the free *surface* (twice the incident wave): the horizontal component of the S wave, and
+/// the vertical component of the P wave. A plain [`Record`] is a horizontal free field too.
 ///
 /// ```
 /// use basemat::motion::{FreeField, Record, VerticalIncidence};
@@ -321,7 +321,7 @@ pub struct RickerDisplacement {
 const MIN_CENTER_RATIO: f64 = 4.0;
 
 impl RickerDisplacement {
-    /// Horizontal pulse of peak `amplitude` at the time `center`.
+    /// Creates a horizontal pulse of peak `amplitude` at the time `center`.
     ///
     /// `amplitude`: m, any sign. `sigma`: width, s. `center`: s.
     ///

@@ -1,9 +1,8 @@
-//! Ground motions: records, and free fields made of them.
+//! Ground motions: records, and free fields of records and formulas.
 //!
-//! Read or build a [`Record`] and treat its [`Baseline`]; it is integrated exactly. A [`FreeField`] is the motion
-//! of the ground's surface without the structure: [`VerticalIncidence`] from records, [`Triaxial`] from records in
-//! three directions, [`RickerDisplacement`] a pulse in closed form, [`FreeFieldFn`] from closures, [`AtRest`]
-//! without motion.
+//! Read or build a [`Record`], and correct its [`Baseline`]; a record is integrated exactly. A [`FreeField`] is the motion
+//! of the ground's surface without the structure: [`VerticalIncidence`] of records, [`Triaxial`] of records in three
+//! directions, [`RickerDisplacement`] of a pulse in closed form, [`FreeFieldFn`] of closures, [`AtRest`] without motion.
 
 mod free_field;
 mod out_of_phase;

@@ -1,9 +1,9 @@
-//! Ground motions whose components are out of phase.
+//! Free field whose vertical and horizontal components are out of phase.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | v | velocity of the prescribed component, zero outside the record |
-//! | V = H\[v\], W = ∫₀ᵗ V | velocity and displacement, every harmonic delayed by a quarter of a period |
+//! | V = H\[v\], W = ∫₀ᵗ V | Hilbert transform of v, and its integral: every harmonic is delayed by a quarter of a period |
 //! | h, y | half of the record's length, and position from its middle as a fraction of h, −1 … 1 |
 //! | s, q = h/s | time from the record's middle, in samples, and its inverse relative to h |
 //! | Mₖ | moments Σ vⱼ yⱼᵏ of the record |
@@ -48,10 +48,12 @@ impl OutOfPhase {
         Ok(Self { record: record.clone(), is_record_vertical, component_ratio, delayed_motion })
     }
 
-    /// Horizontal and vertical component, from the record's component and W or V.
+    /// Horizontal and vertical component of the field.
+    ///
+    /// `prescribed`: displacement or velocity of the record; `delayed`: the corresponding W or V.
     fn components(&self, prescribed: f64, delayed: f64) -> [f64; 2] {
-        let second = self.component_ratio.re * prescribed + self.component_ratio.im * delayed;
-        if self.is_record_vertical { [second, prescribed] } else { [prescribed, second] }
+        let other = self.component_ratio.re * prescribed + self.component_ratio.im * delayed;
+        if self.is_record_vertical { [other, prescribed] } else { [prescribed, other] }
     }
 }
 
@@ -113,8 +115,8 @@ impl DelayedMotion {
     /// Delayed motion of two or more samples of velocity (m/s).
     fn from_velocity(time_step: f64, record_velocities: &[f64]) -> Result<Self> {
         let sample_count = record_velocities.len();
-        // The velocity is transformed, not the acceleration: the integral of a transformed acceleration would lack the
-        // part before t = 0.
+        // The velocity is transformed, not the acceleration: the integral of a transformed acceleration would not include
+        // the part before t = 0.
         let velocities = hilbert(record_velocities, sample_count)?;
         let displacements = cumulative_integral(&velocities, time_step, sample_count);
         let moments = Moments::new(record_velocities);
@@ -293,7 +295,7 @@ mod tests {
         let sources = [
             &velocities[..even],
             &velocities[..even - 1],
-            // All at the ends, where the series converge slowest; without and with a mean.
+            // Samples that are not zero only at the ends, where the series converge slowest; without and with a mean.
             &ends[..],
             &[1.0, -1.0][..],
             &[0.0, 1.0],
@@ -328,7 +330,7 @@ mod tests {
         }
     }
 
-    /// GOAL: W and V are continuous where the moments replace the samples, and V is the slope of W everywhere.
+    /// W and V are continuous where the moments replace the samples, and V is the slope of W everywhere.
     #[test]
     fn samples_and_moments_agree_at_their_boundary() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();

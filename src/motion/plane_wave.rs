@@ -35,7 +35,7 @@ const MIN_PRESCRIBED_RATIO: f64 = 0.1;
 /// Magnitude of Rayleigh's function, relative to 1/c₂⁴, below which it is zero up to rounding.
 const RAYLEIGH_ZERO_TOLERANCE: f64 = 1e-14;
 
-/// A plane harmonic wave, and the motion of the half-plane's surface under it.
+/// Plane wave that meets the surface of a half-plane, or Rayleigh wave, and the motion of this surface.
 ///
 /// ```
 /// use basemat::{Soil, motion::{FreeField, PlaneWave, el_centro_1940}};
@@ -50,11 +50,11 @@ const RAYLEIGH_ZERO_TOLERANCE: f64 = 1e-14;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneWave {
-    /// p, s/m.
+    /// Horizontal slowness p, s/m.
     slowness: f64,
-    /// u_x per displacement of the incident wave.
+    /// Surface displacement u_x per displacement of the incident wave.
     horizontal: Complex,
-    /// u_up per displacement of the incident wave.
+    /// Surface displacement u_up per displacement of the incident wave.
     vertical: Complex,
     /// Displacement across the plane of incidence, per displacement of the incident wave.
     transverse: f64,
@@ -63,7 +63,7 @@ pub struct PlaneWave {
 impl PlaneWave {
     /// SV wave from below, at `angle` (rad) from the vertical.
     ///
-    /// It runs to the right if the angle is positive. Beyond the critical angle, sin θ = c₂/c₁, the two components
+    /// The wave runs to the right if the angle is positive. Beyond the critical angle, sin θ = c₂/c₁, the two components
     /// are out of phase.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl PlaneWave {
 
     /// SH wave from below, as for [`PlaneWave::sv`], for a ground in plan.
     ///
-    /// It moves the surface across its direction only, in phase with the incident wave at all angles.
+    /// The surface moves only perpendicularly to the direction of the wave, in phase with the incident wave at all angles.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
@@ -110,7 +110,7 @@ impl PlaneWave {
         })
     }
 
-    /// Rayleigh wave to the right, of unit horizontal displacement.
+    /// Rayleigh wave that runs to the right, with unit horizontal displacement.
     pub fn rayleigh(soil: Soil) -> Self {
         let shear_speed = soil.shear_wave_speed();
         let slowness = Rayleigh::new(soil).arrival() / shear_speed;
@@ -135,28 +135,28 @@ impl PlaneWave {
 
     /// Surface displacement per unit displacement of the incident wave, horizontal and up.
     ///
-    /// Each is `[in phase, a quarter of a period late]`. A Rayleigh wave's is per unit of its horizontal
-    /// displacement.
+    /// Each component is `[in phase, a quarter of a period late]`. For a Rayleigh wave the numbers are per unit of its
+    /// horizontal displacement.
     pub fn amplification(&self) -> [[f64; 2]; 2] {
         [self.horizontal, self.vertical].map(|c| [c.re, c.im])
     }
 
     /// Surface displacement across the wave's direction per unit of the incident wave.
     ///
-    /// 2 for SH, else 0. The displacement is along y if the wave runs along x.
+    /// It is 2 for SH waves and 0 for other waves. The displacement is along y if the wave runs along x.
     pub fn amplification_across(&self) -> f64 {
         self.transverse
     }
 
     /// The free field in which `record` is the horizontal motion at `origin` (m).
     ///
-    /// `origin` is the edge of the base that the wave reaches first. The vertical motion follows.
+    /// `origin` is the edge of the base that the wave reaches first. The vertical motion is computed from the record.
     ///
-    /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal
-    /// one over all time. It begins before the record and decays after it as 1/t (its displacement changes as ln t if the
-    /// ground does not return). Its displacement is zero at t = 0, when it moves already. Its velocity at that time
-    /// ([`FreeField::velocity`](super::FreeField::velocity) returns it) acts as a jolt at the start of a run.
-    /// Quiet time before the record makes the jolt small and changes nothing else: see [`Record::padded`]. The
+    /// If the components are out of phase, the vertical one contains the Hilbert transform of the horizontal one over all
+    /// time. The vertical motion begins before the record and decays after it as 1/t (its displacement changes as ln t if
+    /// the record has a residual displacement). Its displacement is set to zero at t = 0, but its velocity is not zero
+    /// there ([`FreeField::velocity`](super::FreeField::velocity) returns it). This velocity acts as a jolt at the start
+    /// of a run. Quiet time before the record makes the jolt small and changes nothing else: see [`Record::padded`]. The
     /// record must end at rest: see [`Baseline`](super::Baseline).
     ///
     /// ```
@@ -197,7 +197,7 @@ impl PlaneWave {
         self.field(record, origin, true, component_ratio(quantity, self.horizontal, self.vertical)?)
     }
 
-    /// The free field of a record and of a second component by its ratio to the record.
+    /// The free field of a record, and of the other component by its ratio to the record.
     fn field(
         &self,
         record: &Record,
@@ -210,11 +210,11 @@ impl PlaneWave {
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
         let prescribed = Some(record.clone());
-        let second = Some(record.scaled(component_ratio.re)?);
+        let other = Some(record.scaled(component_ratio.re)?);
         let field = if is_record_vertical {
-            VerticalIncidence { horizontal: second, vertical: prescribed }
+            VerticalIncidence { horizontal: other, vertical: prescribed }
         } else {
-            VerticalIncidence { horizontal: prescribed, vertical: second }
+            VerticalIncidence { horizontal: prescribed, vertical: other }
         };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
@@ -234,13 +234,13 @@ impl PlaneWave {
     }
 }
 
-/// `angle`, or an error unless it is an angle of incidence from below.
+/// Returns `angle`, or an error unless it is an angle of incidence from below.
 fn check_angle(angle: f64) -> Result<f64> {
     let needed = "between -pi/2 and pi/2";
     require("angle of incidence", angle, angle.abs() < FRAC_PI_2, needed)
 }
 
-/// The symbols of the table above, for one wave.
+/// Slownesses p, a and b (s/m), g and R of the table above, for one wave.
 struct Slownesses {
     p: f64,
     a: Complex,
@@ -282,7 +282,7 @@ fn vertical_slowness(wave_speed: f64, p: f64, angle: f64, incident_speed: f64) -
     }
 }
 
-/// Ratio of the other component to the prescribed one, or an error if the latter is too small.
+/// Ratio of the other component to the prescribed one, or an error if the prescribed one is too small.
 fn component_ratio(quantity: &'static str, other: Complex, prescribed: Complex) -> Result<Complex> {
     check_prescribed(quantity, prescribed.abs(), other.abs())?;
     Ok(other / prescribed)

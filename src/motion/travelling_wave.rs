@@ -6,17 +6,17 @@ use super::free_field::{FreeField, difference_velocity};
 use crate::error::require_part;
 use crate::error::{Result, finite, require};
 
-/// A free field that travels along the surface: u(x, t) = u₀(t − (x − x₀)/c).
+/// Free field that travels along the surface: u(x, t) = u₀(t − (x − x₀)/c).
 ///
-/// It may travel in any horizontal direction.
+/// The field may travel in any horizontal direction.
 ///
 /// ```
 /// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
-/// // 800 m/s along x, first at x = −5 m.
+/// // 800 m/s along x, from x = −5 m: 8 m further the motion is 10 ms later.
 /// let wave = TravellingWave::new(el_centro_1940(), 800.0, -5.0)?;
-/// let first = wave.displacement(-5.0, 2.0);
-/// let later = wave.displacement(3.0, 2.01);
-/// assert!((first[0] - later[0]).abs() < 1e-15 && first[0] != 0.0);
+/// let origin_motion = wave.displacement(-5.0, 2.0);
+/// let distant_motion = wave.displacement(3.0, 2.01);
+/// assert!((origin_motion[0] - distant_motion[0]).abs() < 1e-15 && origin_motion[0] != 0.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct TravellingWave {
@@ -24,7 +24,7 @@ pub struct TravellingWave {
     field: Box<dyn FreeField>,
     /// Slowness in the direction of the wave, s/m.
     slowness: f64,
-    /// Coordinate in the direction of the wave at which it has the motion of `field`, m.
+    /// Coordinate (m) in the direction of the wave at which the surface has the motion of `field`.
     origin: f64,
     /// Cosine of the azimuth.
     cos: f64,
@@ -46,11 +46,11 @@ short_debug! {
 }
 
 impl TravellingWave {
-    /// Runs `field`, the motion at `origin` (m), along x with the apparent velocity c.
+    /// Creates a wave along x, from its motion `field` at `origin` (m).
     ///
-    /// `apparent_velocity`: m/s, to the right if positive; an infinite one moves all points at once. Points
-    /// that the wave reaches before `origin` move before t = 0 and start with a jump: let `origin` be the edge of the base
-    /// that the wave reaches first.
+    /// `apparent_velocity`: c, m/s, to the right if positive; if it is infinite, all points move at once. Points that the
+    /// wave reaches before `origin` move before t = 0, so that their motion starts with a jump: let `origin` be the edge of
+    /// the base that the wave reaches first.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a velocity of zero or NaN, or an origin that is not finite.
@@ -69,7 +69,7 @@ impl TravellingWave {
     /// Rotates this wave about the vertical axis, for a ground in plan.
     ///
     /// The wave runs in the direction `azimuth` (rad), counter-clockwise from x as seen from above. Its components
-    /// along and across that direction rotate with it. `origin` counts from (0, 0) in that direction. A ground in
+    /// along and across that direction rotate with it. `origin` is the distance from (0, 0) in that direction. A ground in
     /// the plane moves with the components along x and up, at y = 0.
     ///
     /// ```
@@ -83,7 +83,7 @@ impl TravellingWave {
     /// let [x, y, up] = field.displacement_at([3.0, -10.0], 4.0);
     /// assert!((x + el_centro_1940().at(4.0).displacement).abs() < 1e-15);
     /// assert!(y.abs() < 1e-15 && up == 0.0);
-    /// // It passes a mat of 20 m in 40 ms, and turns it.
+    /// // The wave passes a mat of 20 m in 40 ms, and the mat twists.
     /// let later = field.displacement_at([3.0, 10.0], 4.04);
     /// assert!((x - later[0]).abs() < 1e-15);
     /// # Ok::<(), basemat::Error>(())

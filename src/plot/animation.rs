@@ -2,10 +2,8 @@
 
 use std::fmt::Write;
 
-use super::deformed::trench_outline;
-use super::deformed::{
-    FACE_OPACITY, SOIL_COLOR, SURFACE_COLOR, bounds, check_dimension, displaced_points,
-};
+use super::deformed::{FACE_OPACITY, MIN_DRAWN_SIDE, SOIL_COLOR, SURFACE_COLOR};
+use super::deformed::{bounds, check_dimension, displaced_points, trench_outline};
 use super::element_state::ElementStates;
 use super::marks::{self, KEY_LEFT, PixelBox, hex};
 use super::svg::{Svg, discrete_animation, escaped, polygon};
@@ -13,7 +11,7 @@ use super::text_width::{fitted, length_text, short, width};
 use super::ticks::round_down;
 use super::view::StructureView;
 use crate::error::{Result, positive, require, require_part};
-use crate::geometry::far_ends;
+use crate::geometry::enclosing_interval;
 use crate::results::{DeformedShape, TimeSeries};
 
 /// Width of the picture, pixels.
@@ -32,6 +30,8 @@ const MAX_BAR_LENGTH: f64 = 150.0;
 const FLOOR_MARGIN_RATIO: f64 = 0.15;
 /// Width of the soil drawn beside a trench, over the width of the trench.
 const TRENCH_SIDE_RATIO: f64 = 0.15;
+/// Distance of the axes from the base, over the width of the soil around the base.
+const AXIS_DISTANCE_RATIO: f64 = 0.6;
 
 /// The structure in motion with the contact modes of its base, as an animation.
 ///
@@ -83,7 +83,7 @@ pub fn animation(
             out += &floor.draw(time_series, &screen, frames.len(), &duration);
             screen
         }
-        StructureView::AlongX | StructureView::AlongY => {
+        StructureView::AgainstX | StructureView::AlongY => {
             let trench = trench_outline(time_series.elements());
             let mut surface = vec![[frame_points[0][0][0], 0.0]];
             if let Some([left_edge, .., right_edge]) = trench {
@@ -128,7 +128,7 @@ impl Screen {
         let mut all_points: Vec<[f64; 2]> = frame_points.iter().flatten().copied().collect();
         all_points.extend(surface);
         let bounds = bounds(&all_points);
-        let sides = bounds.map(|[low, high]| (high - low).max(1e-6));
+        let sides = bounds.map(|[low, high]| (high - low).max(MIN_DRAWN_SIDE));
         let PixelBox { left, top, right, bottom } = STRUCTURE_BOX;
         let scale = ((right - left) / sides[0]).min((bottom - top) / sides[1]);
         let structure_left = left + 0.5 * (right - left - scale * sides[0]);
@@ -156,7 +156,7 @@ impl Screen {
         frame_points: &[Vec<[f64; 2]>],
         duration: &str,
     ) -> String {
-        // Faces are drawn one by one, so that each hides those behind it.
+        // Faces are drawn one by one, so that each face hides the faces behind it.
         let cells_per_path = if are_faces { 1 } else { cells.len().max(1) };
         let fill = if are_faces { "#fff" } else { "none" };
         let mut out = format!(
@@ -261,8 +261,9 @@ const PLAN_BOX: PixelBox = PixelBox { left: KEY_LEFT, top: 440.0, right: 915.0, 
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
-        let x_ends = far_ends(time_series.elements().iter().map(|element| element.ends()[0]));
-        let y_ends = far_ends(time_series.elements().iter().map(|element| element.ends()[1]));
+        let elements = time_series.elements();
+        let x_ends = enclosing_interval(elements.iter().map(|element| element.ends()[0]));
+        let y_ends = enclosing_interval(elements.iter().map(|element| element.ends()[1]));
         let longer_side = (x_ends[1] - x_ends[0]).max(y_ends[1] - y_ends[0]);
         Self { ends: [x_ends, y_ends], margin: FLOOR_MARGIN_RATIO * longer_side }
     }
@@ -312,11 +313,11 @@ impl Floor {
             });
             let colors: Vec<String> =
                 states.frame_states.iter().map(|frame| hex(frame[e].color())).collect();
-            let change = discrete_animation("fill", &colors, duration);
+            let color_changes = discrete_animation("fill", &colors, duration);
             for cell in [polygon(&screen.corners(corners)), polygon(&plan_corners)] {
                 let _ = writeln!(
                     out,
-                    "<path d=\"{cell}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
+                    "<path d=\"{cell}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{color_changes}</path>",
                     colors[0]
                 );
             }
@@ -327,22 +328,22 @@ impl Floor {
     /// Draws the axes x and y beside the soil.
     fn draw_axes(&self, screen: &Screen, out: &mut String) {
         let [[left, right], [front, back]] = self.ends;
-        let distance = 0.6 * self.margin;
-        for (name, from, to) in [
+        let distance = AXIS_DISTANCE_RATIO * self.margin;
+        for (name, start, end) in [
             ("x", [left, 0.0, front - distance], [right, 0.0, front - distance]),
             ("y", [right + distance, 0.0, front], [right + distance, 0.0, back]),
         ] {
-            let [[x, y], [to_x, to_y]] =
-                [from, to].map(|point| screen.pixels(StructureView::Slanted.project(point)));
+            let [[start_x, start_y], [end_x, end_y]] =
+                [start, end].map(|point| screen.pixels(StructureView::Slanted.project(point)));
             let _ = writeln!(
                 out,
-                "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\
-                 <circle cx=\"{to_x:.1}\" cy=\"{to_y:.1}\" r=\"3\" fill=\"{}\"/>\
+                "<path d=\"M{start_x:.1} {start_y:.1}L{end_x:.1} {end_y:.1}\" stroke=\"{}\"/>\
+                 <circle cx=\"{end_x:.1}\" cy=\"{end_y:.1}\" r=\"3\" fill=\"{}\"/>\
                  <text x=\"{:.1}\" y=\"{:.1}\">{name}</text>",
                 hex(SURFACE_COLOR),
                 hex(SURFACE_COLOR),
-                to_x + 7.0,
-                to_y + 5.0
+                end_x + 7.0,
+                end_y + 5.0
             );
         }
     }
@@ -373,7 +374,7 @@ fn clock(times: &[f64], duration: &str) -> String {
     let frames_per_text = (times.len() - 1).div_ceil(MAX_CLOCK_TEXTS);
     let text_times: Vec<f64> =
         times[..times.len() - 1].iter().copied().step_by(frames_per_text).collect();
-    // Fractions of the run at which texts begin, and its end.
+    // Fractions of the run at which texts begin, and 1 for its end.
     let mut fractions: Vec<f64> = text_times
         .iter()
         .map(|time| ((time - begin) / (end - begin)).clamp(0.0, 1.0))

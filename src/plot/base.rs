@@ -12,15 +12,17 @@ use crate::error::{Result, require_part};
 use crate::results::{ContactFrame, ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 
-/// Distance between the rectangles of neighbouring elements over the length of an element, halved.
+/// Half the distance between the rectangles of neighbouring elements, over the length of an element.
 const ELEMENT_MARGIN_RATIO: f64 = 0.04;
+/// Distance of the labels of gaps from the upper end of the pressure axis, over the length of the axis.
+const LABEL_DISTANCE_RATIO: f64 = 0.04;
 /// Largest number of columns of the map, about one per pixel.
 const MAX_MAP_COLUMNS: usize = 1000;
 
 /// Picture of the contact mode of every element over time.
 ///
-/// Where several frames share a column, the rarest mode is shown. Wide gaps between foundations are drawn
-/// short. Walls continue the base to both sides.
+/// Where several frames share a column, one of their states is shown: slip before touching without pressure, open and
+/// stick. Wide gaps between foundations are drawn short. Walls continue the base to both sides.
 ///
 /// An element in a mode of slip without pressure is shown as touching without pressure. With infinite
 /// friction this is the state between stick and open, and nothing slides.
@@ -47,16 +49,16 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
         label_gaps(&mut chart, &base, |position| (0.5 * (begin + end), position))?;
         for (e, element) in elements.iter().enumerate() {
             let columns = mode_columns(&frames, &states, e, frames_per_column);
-            let mut start = begin;
+            let mut start_time = begin;
             let margin = ELEMENT_MARGIN_RATIO * element.length();
             let low = base.drawn_position(element.left());
             let high = low + element.length();
             for equal_columns in columns.chunk_by(|a, b| a.state == b.state) {
-                let stop = equal_columns[equal_columns.len() - 1].end;
-                let corners = [(start, low + margin), (stop, high - margin)];
+                let end_time = equal_columns[equal_columns.len() - 1].end;
+                let corners = [(start_time, low + margin), (end_time, high - margin)];
                 let color = equal_columns[0].state.color();
                 chart.draw_series([Rectangle::new(corners, color.filled())])?;
-                start = stop;
+                start_time = end_time;
             }
         }
         Ok(())
@@ -67,7 +69,7 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
 struct ModeColumn {
     /// Time of the last of these frames, s.
     end: f64,
-    /// The rarest state in these frames.
+    /// The state that is drawn: the largest of these frames, in the order of [`ElementState`].
     state: ElementState,
 }
 
@@ -95,8 +97,8 @@ type ElementValue = fn(&ElementEnvelope) -> f64;
 
 /// Picture of the largest, static and smallest pressure along the base, constant in each element.
 ///
-/// Wide gaps between foundations are drawn short. Walls continue the base to both sides. In plan, the largest pressure
-/// under each element.
+/// Wide gaps between foundations are drawn short. Walls continue the base to both sides. In plan the picture has the
+/// largest pressure under each element.
 ///
 /// # Errors
 /// Errors of drawing, for extremely large values.
@@ -118,10 +120,10 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     let names = curves.iter().map(|(name, _)| *name);
     let key = names.zip(strokes.map(KeySample::Line));
     PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
-        let top = range.end - 0.04 * (range.end - range.start);
+        let label_pressure = range.end - LABEL_DISTANCE_RATIO * (range.end - range.start);
         let pressure_axis = ChartAxis::linear(range, "pressure, kPa");
         let mut chart = chart(area, &base.axis(), &pressure_axis, true)?;
-        label_gaps(&mut chart, &base, |position| (position, top))?;
+        label_gaps(&mut chart, &base, |position| (position, label_pressure))?;
         for ((_, value), stroke) in curves.into_iter().zip(strokes) {
             let points = steps_along_base(envelope, &elements, &base, value);
             draw_curve(&mut chart, &points, stroke, 2)?;

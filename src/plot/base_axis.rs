@@ -142,7 +142,7 @@ impl BaseAxis {
     }
 }
 
-/// Writes its true width into every shortened gap that has space for the text.
+/// Writes the true width of every shortened gap into the gap, if there is space for the text.
 ///
 /// `text_point` returns the middle of a text from its position on the axis.
 pub(super) fn label_gaps(

@@ -29,9 +29,9 @@ const BAR_COLOR: RGBColor = RGBColor(70, 70, 70);
 
 /// A cell to be drawn.
 pub(super) struct PictureCell {
-    /// Corners (x, y), m; two of a bar.
+    /// Corners (x, y), m; the two ends of a bar.
     pub(super) corners: Vec<(f64, f64)>,
-    /// Colour of the value; a cell without one is drawn as its outline.
+    /// Colour of the value; only the outline of a cell without a value is drawn.
     pub(super) color: Option<RGBColor>,
     /// Arrow in the direction in which the cell slides.
     pub(super) arrow: Option<Arrow>,
@@ -122,7 +122,7 @@ pub(super) fn cell_picture(
 
 /// Draws cells, bars and arrows.
 ///
-/// Outlines of cells without a value lie over those of cells with a value, bars and arrows over both.
+/// Outlines of cells without a value lie over cells with a value. Bars and arrows lie over both.
 fn draw_cells(
     chart: &mut Chart<'_, '_>,
     cells: &[PictureCell],

@@ -5,9 +5,11 @@ use super::key::KeySample;
 use super::ticks::{mark_text, rounded_step};
 use plotters::style::RGBColor;
 
-/// Approximate number of classes from zero to the value of largest magnitude, if a picture has no other.
+/// Approximate number of classes from zero to the value of largest magnitude, unless a picture sets another number.
 const CLASS_COUNT: f64 = 6.0;
-/// Part of a class by which values exceed its end by rounding only: a strength of 1 + 10⁻¹⁶ needs no class above 1.
+/// Excess over the end of a class that is rounding, relative to the width of a class.
+///
+/// A mobilised strength of 1 + 10⁻¹⁶, for example, needs no class above 1.
 const CLASS_ROUNDING: f64 = 1e-9;
 /// Colour of zero, as red, green and blue.
 const ZERO_COLOR: [f64; 3] = [250.0, 240.0, 222.0];
@@ -79,7 +81,7 @@ impl Classes {
     }
 }
 
-/// Colour between that of zero (at 0) and the last of two colours (at 1), through the first of them.
+/// Colour at a ratio: from the colour of zero at 0, through `middle_color`, to `end_color` at 1.
 fn mixed_color([middle_color, end_color]: [[f64; 3]; 2], ratio: f64) -> RGBColor {
     let is_pale = ratio < 0.5;
     let start = if is_pale { ZERO_COLOR } else { middle_color };

@@ -10,7 +10,7 @@ use super::text_width::short;
 use super::view::StructureView;
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
-use crate::geometry::{far_ends, middle, span};
+use crate::geometry::{enclosing_interval, middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
@@ -30,8 +30,8 @@ pub(super) fn displaced_points(
     let displacements = shape.displacements(frame.displacement)?;
     let mut points = Vec::with_capacity(displacements.len());
     for (point, displacement) in shape.points().iter().zip(displacements) {
-        let at_rest = point.place();
-        points.push([0, 1, 2].map(|k| at_rest[k] + magnification * displacement[k]));
+        let rest_position = point.place();
+        points.push([0, 1, 2].map(|k| rest_position[k] + magnification * displacement[k]));
     }
     for value in points.iter().flatten() {
         require("magnified coordinate", *value, is_drawable(*value), "below 1e60 m")?;
@@ -47,7 +47,7 @@ pub(super) const SOIL_COLOR: RGBColor = RGBColor(238, 229, 214);
 pub(super) const SURFACE_COLOR: RGBColor = RGBColor(125, 98, 62);
 
 /// Smallest side of a drawn structure, m, so that the scale is finite.
-const MIN_SIDE: f64 = 1e-6;
+pub(super) const MIN_DRAWN_SIDE: f64 = 1e-6;
 /// Size of the chart over the size of the shapes.
 const SHAPE_MARGIN_FACTOR: f64 = 1.1;
 
@@ -56,7 +56,9 @@ pub(super) fn bounds(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| span(points.iter().map(|point| point[axis])))
 }
 
-/// Draws the cells of a shape in a view, with these projections of its points; faces hide cells behind them.
+/// Draws the cells of a shape in a view; faces hide the cells behind them.
+///
+/// `projections` are those of the shape's points, m.
 fn draw_shape(
     chart: &mut Chart<'_, '_>,
     shape: &DeformedShape,
@@ -103,8 +105,8 @@ pub fn deformed_shapes(
     check_dimension(shape, time_series)?;
     let shapes = shapes_at(shape, time_series, times, magnification)?;
     let mut key = Vec::new();
-    for (k, named) in shapes.iter().enumerate() {
-        key.push((named.name.as_str(), KeySample::Line(shape_stroke(k))));
+    for (k, named_shape) in shapes.iter().enumerate() {
+        key.push((named_shape.name.as_str(), KeySample::Line(shape_stroke(k))));
     }
     key.push(("soil", KeySample::Area(SOIL_COLOR)));
     let scale_text = format!("displacements × {}", short(magnification));
@@ -149,13 +151,13 @@ fn elevations(shapes: &[NamedShape], up: usize, chart_size: [f64; 2]) -> Vec<Ele
     let mut elevations = Vec::new();
     for &view in views {
         let projected_shapes: Vec<Vec<[f64; 2]>> =
-            shapes.iter().map(|named| view.project_all(&named.points)).collect();
+            shapes.iter().map(|named_shape| view.project_all(&named_shape.points)).collect();
         let mut all_points = projected_shapes.concat();
         all_points.push([all_points[0][0], 0.0]);
         let ranges = equal_scale_ranges(bounds(&all_points), view_size);
         elevations.push(Elevation { view, ranges, shapes: projected_shapes });
     }
-    // All views use the scale of the widest one.
+    // All views use the scale of the widest view.
     let max_width = elevations.iter().map(Elevation::width).fold(0.0, f64::max);
     for elevation in &mut elevations {
         let ratio = max_width / elevation.width();
@@ -177,10 +179,10 @@ fn draw_elevation(
 ) -> Drawing<()> {
     let x = &elevation.ranges[0];
     let y = &elevation.ranges[1];
-    let horizontal = if elevation.view == StructureView::AlongX { "y, m" } else { "x, m" };
-    let vertical = ["x, m", "y, m", "z, m"][time_series.up()];
-    let x_axis = ChartAxis::linear(x.clone(), horizontal);
-    let y_axis = ChartAxis::linear(y.clone(), vertical);
+    let horizontal_label = if elevation.view == StructureView::AgainstX { "y, m" } else { "x, m" };
+    let vertical_label = ["x, m", "y, m", "z, m"][time_series.up()];
+    let x_axis = ChartAxis::linear(x.clone(), horizontal_label);
+    let y_axis = ChartAxis::linear(y.clone(), vertical_label);
     let mut chart = chart(area, &x_axis, &y_axis, false)?;
     draw_soil(&mut chart, x, y.start, trench_outline(time_series.elements()))?;
     for (k, projections) in elevation.shapes.iter().enumerate() {
@@ -220,8 +222,8 @@ fn shapes_at(
     times: &[f64],
     magnification: f64,
 ) -> Result<Vec<NamedShape>> {
-    let at_rest = shape.points().iter().map(ShapePoint::place).collect();
-    let mut shapes = vec![NamedShape { name: "at rest".to_owned(), points: at_rest }];
+    let rest_positions = shape.points().iter().map(ShapePoint::place).collect();
+    let mut shapes = vec![NamedShape { name: "at rest".to_owned(), points: rest_positions }];
     for &time in times {
         finite("time of a deformed shape", time)?;
         let nearest = time_series
@@ -239,8 +241,8 @@ fn shapes_at(
 
 /// Ranges of both axes at one scale, in an area of [width, height] pixels.
 fn equal_scale_ranges(bounds: [[f64; 2]; 2], size: [f64; 2]) -> [Range<f64>; 2] {
-    let scales =
-        [0, 1].map(|k| (bounds[k][1] - bounds[k][0]).max(MIN_SIDE) * SHAPE_MARGIN_FACTOR / size[k]);
+    let scales = [0, 1]
+        .map(|k| (bounds[k][1] - bounds[k][0]).max(MIN_DRAWN_SIDE) * SHAPE_MARGIN_FACTOR / size[k]);
     let metres_per_pixel = scales[0].max(scales[1]);
     [0, 1].map(|k| {
         let middle = middle(bounds[k]);
@@ -254,7 +256,7 @@ pub(super) fn trench_outline(elements: &[ContactElement]) -> Option<[[f64; 2]; 4
     if !ContactElement::any_wall(elements) {
         return None;
     }
-    let [left, right] = far_ends(elements.iter().map(|element| element.ends()[0]));
-    let [bottom, top] = far_ends(elements.iter().map(ContactElement::heights));
+    let [left, right] = enclosing_interval(elements.iter().map(|element| element.ends()[0]));
+    let [bottom, top] = enclosing_interval(elements.iter().map(ContactElement::heights));
     Some([[left, top], [left, bottom], [right, bottom], [right, top]])
 }

@@ -59,7 +59,7 @@ pub(super) const CURVE_COLORS: [RGBColor; 7] = [
 /// Corners of a marker, pixels from its middle.
 type Marker = &'static [(i32, i32)];
 
-/// A square, a triangle, a diamond, a triangle upside down, an hourglass.
+/// Markers of curves: a square, a triangle, a diamond, a triangle upside down, an hourglass.
 const CURVE_MARKERS: [Marker; 5] = [
     &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
     &[(0, -6), (5, 4), (-5, 4)],
@@ -98,11 +98,12 @@ impl Stroke {
         let marker = (k / CURVE_COLORS.len())
             .checked_sub(1)
             .map(|cycle| CURVE_MARKERS[cycle % CURVE_MARKERS.len()]);
+        // The remainder limits the rounding of the phase.
         let phase = (FIRST_PHASE + GOLDEN_RATIO * (k % 100) as f64).fract();
         Self { color: CURVE_COLORS[k % CURVE_COLORS.len()], marker, phase }
     }
 
-    /// Stroke of the measured points number `k`: markers in other colours than the first curves.
+    /// Stroke of set number `k` of measured points: markers in other colours than the first curves.
     pub(super) fn points(k: usize) -> Self {
         let marker = Some(CURVE_MARKERS[k % CURVE_MARKERS.len()]);
         let color = CURVE_COLORS[CURVE_COLORS.len() - 2 - k % (CURVE_COLORS.len() - 1)];

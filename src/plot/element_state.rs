@@ -7,7 +7,9 @@ use plotters::style::RGBColor;
 /// Largest pressure that is due to rounding, relative to the largest pressure of the base.
 const PRESSURE_ROUNDING: f64 = 1e-9;
 
-/// State of an element in a picture; of several states in a column of a map, the largest is drawn.
+/// State of an element in a picture.
+///
+/// If a column of a map has several states, the one that stands last in this list is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum ElementState {
     Stick,
@@ -71,7 +73,7 @@ impl ElementState {
 pub(super) struct ElementStates {
     /// State of every element in every frame.
     pub(super) frame_states: Vec<Vec<ElementState>>,
-    /// States in the key: all of the plane or of plan, but touching without pressure only if it occurs.
+    /// States in the key: all states of the plane or of plan, but touching without pressure only if it occurs.
     pub(super) key_states: Vec<ElementState>,
 }
 

@@ -16,8 +16,8 @@ const SECTION_CLASSES: f64 = 10.0;
 ///
 /// `values` are pairs of an element of the mesh, by its index, and its value, such as the mean of a bending moment over
 /// its corners ([`FemModel::shell_resultants`](crate::structure::FemModel::shell_resultants)). `quantity` is the name
-/// and unit of the values, for the key. Every shell has the colour of its value, in classes on both sides of zero; other elements
-/// are not drawn.
+/// and unit of the values, for the key. Every shell has the colour of its value, in classes on both sides of zero.
+/// Other elements are not drawn.
 ///
 /// ```
 /// use basemat::fem::{Material, Mesh, Shell};
@@ -101,7 +101,11 @@ pub fn solid_section(
     for (element_index, element) in mesh.elements().enumerate() {
         let corners = outline_nodes(element);
         if !has_value[element_index] && corners.len() > 1 {
-            cells.push(PictureCell { corners: places(mesh, &corners), color: None, arrow: None });
+            cells.push(PictureCell {
+                corners: node_coordinates(mesh, &corners),
+                color: None,
+                arrow: None,
+            });
         }
     }
     let mut key = value_key(quantity, &classes);
@@ -113,7 +117,7 @@ pub fn solid_section(
 
 /// Smallest and largest of the values of elements and zero.
 ///
-/// Errors: no values, or one that is not finite.
+/// It is an error if there are no values, or if a value is not finite.
 fn value_ends(values: &[(usize, f64)]) -> Result<[f64; 2]> {
     at_least("values of elements", values.len(), 1)?;
     for &(_, value) in values {
@@ -125,7 +129,7 @@ fn value_ends(values: &[(usize, f64)]) -> Result<[f64; 2]> {
 
 /// Elements in the colours of their values.
 ///
-/// Errors: an element that does not exist, or is not of this `kind`.
+/// It is an error if an element does not exist, or is not of this `kind`.
 fn value_cells(
     mesh: &Mesh,
     values: &[(usize, f64)],
@@ -140,7 +144,7 @@ fn value_cells(
             let reason = format!("it is not a {kind}");
             return Err(Error::part(format!("element {element_index}"), reason));
         };
-        let corners = places(mesh, face.corners());
+        let corners = node_coordinates(mesh, face.corners());
         cells.push(PictureCell { corners, color: Some(classes.color(value)), arrow: None });
     }
     Ok(cells)
@@ -162,6 +166,6 @@ fn outline_nodes(element: &dyn Element) -> Vec<usize> {
 }
 
 /// Coordinates (x, y) of nodes, m.
-fn places(mesh: &Mesh, nodes: &[usize]) -> Vec<(f64, f64)> {
+fn node_coordinates(mesh: &Mesh, nodes: &[usize]) -> Vec<(f64, f64)> {
     nodes.iter().map(|&node| (mesh.nodes()[node][0], mesh.nodes()[node][1])).collect()
 }

@@ -18,6 +18,14 @@ const SPACE_BESIDE_NAMES: u32 = 52;
 const LINE_HEIGHT: i32 = 18;
 /// Height between two names, pixels.
 const NAME_GAP: i32 = 6;
+/// Distance of the middle of the first line from the top of the strip, pixels.
+const FIRST_LINE_Y: i32 = 18;
+/// Distance of the names from the left edge of the strip, pixels.
+const NAME_X: i32 = 38;
+/// Distance of the middle of the samples from the left edge of the strip, pixels.
+const SAMPLE_MIDDLE_X: i32 = 18;
+/// Height above and below all names together, pixels.
+const STRIP_PADDING: u32 = 24;
 
 /// Sample of colour beside a name.
 #[derive(Clone, Copy)]
@@ -41,7 +49,7 @@ impl PictureKey {
     /// Key with these names and samples.
     pub(super) fn new<'n>(entries: impl IntoIterator<Item = (&'n str, KeySample)>) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();
-        // A line "and 1 more" would need as much room as the name itself.
+        // A line "and 1 more" would need as much space as the name itself.
         let entry_count = if entries.len() > MAX_ENTRIES + 1 { MAX_ENTRIES } else { entries.len() };
         let mut lines_and_samples = Vec::with_capacity(entry_count + 1);
         for (name, sample) in &entries[..entry_count] {
@@ -73,12 +81,14 @@ impl PictureKey {
         let line_count: usize = self.0.iter().map(|(name, _)| name.len()).sum();
         let text_height =
             LINE_HEIGHT.unsigned_abs() * u32::try_from(line_count).unwrap_or(u32::MAX / 100);
-        text_height + NAME_GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
+        text_height
+            + NAME_GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0)
+            + STRIP_PADDING
     }
 
     /// Draws the key from the top of the strip.
     pub(super) fn draw(&self, strip: &Area<'_>) -> Drawing<()> {
-        let mut y = 18;
+        let mut y = FIRST_LINE_Y;
         for (name, sample) in &self.0 {
             match *sample {
                 KeySample::Line(stroke) => {
@@ -96,7 +106,7 @@ impl PictureKey {
                 KeySample::Nothing => {}
             }
             for line in name {
-                strip.draw(&Text::new(line.clone(), (38, y - 6), KEY_FONT))?;
+                strip.draw(&Text::new(line.clone(), (NAME_X, y - 6), KEY_FONT))?;
                 y += LINE_HEIGHT;
             }
             y += NAME_GAP;
@@ -108,7 +118,8 @@ impl PictureKey {
 /// Draws the marker of a stroke, if it has one, at this height of the strip.
 fn draw_marker(strip: &Area<'_>, stroke: Stroke, y: i32) -> Drawing<()> {
     if let Some(marker) = stroke.marker {
-        let corners = marker.iter().map(|(dx, dy)| (18 + dx, y + dy)).collect::<Vec<_>>();
+        let corners =
+            marker.iter().map(|(dx, dy)| (SAMPLE_MIDDLE_X + dx, y + dy)).collect::<Vec<_>>();
         strip.draw(&Polygon::new(corners, stroke.color.filled()))?;
     }
     Ok(())

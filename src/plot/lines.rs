@@ -7,10 +7,10 @@ use super::svg::{PictureLayout, Svg};
 use crate::error::{Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
-use crate::text::readable_number::{PrintedUnit, of_body, printed};
+use crate::text::readable_number::{PrintedUnit, printed_unit, whole_body_unit};
 use plotters::prelude::*;
 
-/// Largest number of intervals of a long curve that are drawn by their extremes, about one per pixel.
+/// Largest number of intervals of a long curve, about one per pixel; each is drawn by its extremes.
 const MAX_INTERVALS: usize = 1500;
 /// Largest demand drawn; larger demands are drawn at this value.
 const MAX_DRAWN_DEMAND: f64 = 4.0;
@@ -78,8 +78,8 @@ fn curves_with_limit(
 /// Chart of one quantity of one or more runs over time, in kN, mm, mrad or per cent.
 ///
 /// Factors of safety are drawn as their inverse, demand over capacity, because the factors themselves may be infinite. The
-/// demand starts at zero and reaches one at the limit. On a bonded base the demand can be
-/// larger; values above four are drawn at four, and the axis states this.
+/// demand starts at zero and reaches one at the limit. On a bonded base the demand can be larger. Values above four are
+/// drawn at four, and the description of the axis states this.
 ///
 /// # Errors
 /// As for [`curves`]; [`Error::Scene`](crate::Error::Scene) for runs in the plane and in plan together, whose units
@@ -87,8 +87,9 @@ fn curves_with_limit(
 pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
     let limit = quantity.limit_label();
     let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
-    let PrintedUnit { factor, symbol: unit } = quantity.printed(in_plan);
-    let have_same_unit = runs.iter().all(|(_, run)| quantity.printed(run.in_plan()).symbol == unit);
+    let PrintedUnit { factor, symbol: unit } = quantity.printed_unit(in_plan);
+    let have_same_unit =
+        runs.iter().all(|(_, run)| quantity.printed_unit(run.in_plan()).symbol == unit);
     let needed = "the same in all runs: in the plane it is per metre";
     require_part("unit of a quantity", have_same_unit, needed)?;
     let mut curves = Vec::with_capacity(runs.len());
@@ -127,7 +128,7 @@ fn drawn_demand(factor_of_safety: f64) -> f64 {
     }
 }
 
-/// Chart of a probe of one or more runs over time, in the probe's or the engineer's unit.
+/// Chart of a probe of one or more runs over time, in the unit in which tables print it.
 ///
 /// See [`Probe::in_unit`](crate::coupled::Probe::in_unit).
 ///
@@ -141,7 +142,8 @@ pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str)
     }
     let needed = "the same in all runs";
     require_part("unit of a probe", units.windows(2).all(|pair| pair[0] == pair[1]), needed)?;
-    let PrintedUnit { factor, symbol: unit } = printed(units.first().copied().unwrap_or_default());
+    let PrintedUnit { factor, symbol: unit } =
+        printed_unit(units.first().copied().unwrap_or_default());
     let mut probe_curves = Vec::with_capacity(runs.len());
     for &(name, time_series) in runs {
         let values = time_series.probe(probe)?.iter().map(|value| factor * value);
@@ -181,7 +183,7 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 /// Chart of the terms of the energy balance over time.
 ///
-/// Terms that stay below a thousandth of the largest are left out.
+/// Terms that stay below a thousandth of the largest term are omitted.
 ///
 /// # Errors
 /// The errors of [`curves`].
@@ -205,11 +207,11 @@ pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
         is_input = false;
         is_shown
     });
-    let y = with_unit("energy", of_body("kJ/m", time_series.in_plan()));
+    let y = with_unit("energy", whole_body_unit("kJ/m", time_series.in_plan()));
     curves(title, "time, s", &y, &term_curves)
 }
 
-/// Largest magnitude of a term of the energy balance that is left out, relative to the largest term.
+/// Largest magnitude of an omitted term of the energy balance, relative to the largest term.
 const ENERGY_TERM_THRESHOLD: f64 = 1e-3;
 
 /// Largest magnitude of a curve.
@@ -217,6 +219,8 @@ fn largest_value(curve: &Curve) -> f64 {
     curve.points.iter().fold(0.0_f64, |largest, point| largest.max(point.1.abs()))
 }
 
+/// Upper end of the axis of a spectrum, over its largest ordinate.
+const SPECTRUM_AXIS_FACTOR: f64 = 1.08;
 /// Largest ordinate of a spectrum that is drawn as zero, m/s².
 const MIN_DRAWN_ORDINATE: f64 = 1e-60;
 /// Periods that can be drawn, s.
@@ -256,8 +260,11 @@ pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result
     } else {
         0.5 * min_period..2.0 * min_period
     };
-    let axis_end =
-        if max_acceleration > MIN_DRAWN_ORDINATE { 1.08 * max_acceleration } else { 1.0 };
+    let axis_end = if max_acceleration > MIN_DRAWN_ORDINATE {
+        SPECTRUM_AXIS_FACTOR * max_acceleration
+    } else {
+        1.0
+    };
     let y = ChartAxis::linear(0.0..axis_end, "pseudo-acceleration, m/s²");
     Ok([ChartAxis::logarithmic(periods, "period, s"), y])
 }
@@ -289,12 +296,13 @@ mod tests {
         points[34_567].1 = 7.0;
         points[54_321].1 = -9.0;
         points[70_001].1 = f64::NAN;
-        let few = thinned(&points);
-        assert!(few.len() < 6 * MAX_INTERVALS && few.windows(2).all(|pair| pair[1].0 > pair[0].0));
+        let drawn_points = thinned(&points);
+        assert!(drawn_points.len() < 6 * MAX_INTERVALS);
+        assert!(drawn_points.windows(2).all(|pair| pair[1].0 > pair[0].0));
         for k in [34_567, 54_321] {
-            assert!(few.contains(&points[k]));
+            assert!(drawn_points.contains(&points[k]));
         }
-        assert_eq!(few.iter().filter(|point| point.1.is_nan()).count(), 1);
+        assert_eq!(drawn_points.iter().filter(|point| point.1.is_nan()).count(), 1);
         assert_eq!(thinned(&points[..100]), points[..100]);
     }
 }

@@ -74,12 +74,12 @@ pub(super) fn element_marks(
     for (e, element) in time_series.elements().iter().enumerate() {
         let colors: Vec<String> =
             states.frame_states.iter().map(|frame| hex(frame[e].color())).collect();
-        let change = discrete_animation("fill", &colors, duration);
+        let color_changes = discrete_animation("fill", &colors, duration);
         if has_walls {
             let mark = mark_corners(element, MARK_WIDTH / scale).map(&to_pixels);
             let _ = writeln!(
                 out,
-                "<path d=\"{}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
+                "<path d=\"{}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{color_changes}</path>",
                 polygon(&mark),
                 colors[0]
             );
@@ -94,7 +94,7 @@ pub(super) fn element_marks(
             lower_edge + 12.0,
             (right - left - 1.0).max(0.5),
             colors[0],
-            change
+            color_changes
         );
     }
     out

@@ -66,7 +66,7 @@ impl PathChart {
     }
 }
 
-/// Axis of values that increase downwards; `range`: of the negative values.
+/// Axis of values that increase downwards; `range` is that of the negatives of the values.
 fn downward_axis(range: &Range<f64>, description: &str) -> ChartAxis {
     let Ticks { marks, offset } = linear_ticks(&(-range.end..-range.start), DOWNWARD_MARKS);
     let marks = marks.into_iter().rev().map(|(value, name)| (0.0 - value, name)).collect();
@@ -91,7 +91,7 @@ fn draw_points(chart: &mut Chart<'_, '_>, points: &[(f64, f64)], stroke: Stroke)
     Ok(())
 }
 
-/// Points of a path; a path of many points loses those that are close to the previous point.
+/// Points of a path; in a path of many points, points that are close to the previous point are omitted.
 fn thinned_path(points: &[(f64, f64)], ranges: [&Range<f64>; 2]) -> Vec<(f64, f64)> {
     if points.len() <= MAX_DRAWN_POINTS {
         return points.to_vec();

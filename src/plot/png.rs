@@ -46,9 +46,9 @@ impl Svg {
         let width = f64::from(picture_size.width()) * scale;
         let height = f64::from(picture_size.height()) * scale;
         // Comparisons with NaN are false, so a scale that is NaN is an error.
-        let fits = width >= 1.0 && height >= 1.0 && width * height <= MAX_BITMAP_PIXELS;
+        let has_valid_size = width >= 1.0 && height >= 1.0 && width * height <= MAX_BITMAP_PIXELS;
         let needed = "above zero, and a bitmap of 100 million pixels at most";
-        require("scale of a bitmap", scale, fits, needed)?;
+        require("scale of a bitmap", scale, has_valid_size, needed)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let mut bitmap = Pixmap::new(width.ceil() as u32, height.ceil() as u32).ok_or(NOT_DRAWN)?;
         #[allow(clippy::cast_possible_truncation)]

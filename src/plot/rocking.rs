@@ -49,8 +49,8 @@ fn rocking_chart(
     let needed = "the same in all runs: in the plane it is per metre";
     let have_same_unit = runs.iter().all(|(_, rocking)| rocking.in_plan == in_plan);
     require_part("unit of a moment", have_same_unit, needed)?;
-    let rotation_unit = Quantity::BaseRotation.printed(in_plan);
-    let value_unit = quantity.printed(in_plan);
+    let rotation_unit = Quantity::BaseRotation.printed_unit(in_plan);
+    let value_unit = quantity.printed_unit(in_plan);
     let is_downward = quantity == Quantity::Settlement;
     let y_factor = if is_downward { -value_unit.factor } else { value_unit.factor };
     let scaled = |x: &f64, y: &f64| (rotation_unit.factor * x, y_factor * y);

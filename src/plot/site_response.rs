@@ -9,8 +9,11 @@ use crate::error::Result;
 use crate::motion::SpectralOrdinate;
 use crate::site::{EquivalentLinear, LayerResponse};
 
-/// A quantity of a layer, from its response and its shear wave speed.
+/// Function that returns a quantity of a layer from its response and its shear wave speed, m/s.
 type LayerValue = fn(&LayerResponse, f64) -> f64;
+
+/// Width of each chart over depth, in tenths of the picture.
+const DEPTH_CHART_TENTHS: u32 = 3;
 
 /// Shear wave speeds and strains over depth, and response spectra beside them.
 ///
@@ -45,9 +48,9 @@ pub fn site_response(
     let speed_curves = speeds.map(|(_, value)| steps_over_depth(response, value));
     let strain_curves = strains.map(|(_, value)| steps_over_depth(response, value));
     PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
-        let width = area.dim_in_pixel().0;
-        let (speed_area, remaining_area) = area.split_horizontally(width * 3 / 10);
-        let (strain_area, spectrum_area) = remaining_area.split_horizontally(width * 3 / 10);
+        let depth_chart_width = area.dim_in_pixel().0 * DEPTH_CHART_TENTHS / 10;
+        let (speed_area, remaining_area) = area.split_horizontally(depth_chart_width);
+        let (strain_area, spectrum_area) = remaining_area.split_horizontally(depth_chart_width);
         draw_over_depth(&speed_area, "c_S, m/s", &speed_curves, &strokes[..2])?;
         draw_over_depth(&strain_area, "strain, %", &strain_curves, &strokes[2..])?;
         draw_spectra(&spectrum_area, &axes, spectra)

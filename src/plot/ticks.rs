@@ -15,12 +15,22 @@ pub(super) struct Ticks {
 
 /// Relative difference of steps and powers of ten that is due to rounding.
 const STEP_ROUNDING: f64 = 1e-9;
+/// Distance of an end of a range from a multiple of the step that is due to rounding, relative to the step.
+const MULTIPLE_ROUNDING: f64 = 1e-6;
+/// Largest multiple of the step that is zero apart from rounding, relative to the step.
+const ZERO_ROUNDING: f64 = 1e-3;
+/// Smallest magnitude that is written with a power of ten because it is large.
+const MIN_LARGE_VALUE: f64 = 1e6;
+/// Smallest step between values below one that are written without a power of ten.
+const MIN_DECIMAL_STEP: f64 = 1e-4;
+/// Number of letters up to which a decimal number is written, although a power of ten would be shorter.
+const SHORT_DECIMAL_LETTERS: usize = 6;
 
 /// The next number at or above `value` that is 1, 2 or 5 times a power of ten.
 pub(super) fn rounded_step(value: f64) -> f64 {
     let power = 10.0_f64.powf(value.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
-    // A step below `value` by rounding only is not skipped.
+    // A step that is below `value` only by rounding counts as equal.
     steps
         .into_iter()
         .find(|step| *step >= (1.0 - STEP_ROUNDING) * value)
@@ -43,8 +53,8 @@ struct Multiples {
 /// Multiples of a rounded step in a range, about `max_count` or fewer.
 fn multiples(range: &Range<f64>, max_count: usize) -> Multiples {
     let step = rounded_step((range.end - range.start) / max_count.max(1) as f64);
-    let first_multiple = (range.start / step - 1e-6).ceil();
-    let last_multiple = (range.end / step + 1e-6).floor();
+    let first_multiple = (range.start / step - MULTIPLE_ROUNDING).ceil();
+    let last_multiple = (range.end / step + MULTIPLE_ROUNDING).floor();
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -84,18 +94,18 @@ fn exponent(value: f64) -> i32 {
 /// Text of a multiple of `step`, with the digits that distinguish it from its neighbours.
 pub(super) fn mark_text(value: f64, step: f64) -> String {
     // This multiple differs from zero by rounding only.
-    if value.abs() < 1e-3 * step {
+    if value.abs() < ZERO_ROUNDING * step {
         return "0".to_owned();
     }
     let decimals = usize::try_from(-exponent(step)).unwrap_or(0);
     let decimal_text = format!("{value:.decimals$}");
     // Numbers far from one are written with powers of ten.
-    if value.abs() < 1e6 && (step >= 1e-4 || value.abs() >= 1.0) {
+    if value.abs() < MIN_LARGE_VALUE && (step >= MIN_DECIMAL_STEP || value.abs() >= 1.0) {
         return decimal_text;
     }
     let digits = usize::try_from(exponent(value) - exponent(step)).unwrap_or(0);
     let exponent_text = format!("{value:.digits$e}");
-    let is_short = decimal_text.len() <= exponent_text.len().max(6);
+    let is_short = decimal_text.len() <= exponent_text.len().max(SHORT_DECIMAL_LETTERS);
     if is_short { decimal_text } else { exponent_text }
 }
 
@@ -200,7 +210,7 @@ mod tests {
             ["1.10", "1.15", "1.20", "1.25", "1.30", "1.35"]
         );
         assert_eq!(logarithmic_names(1e-6..1e6, 14).len(), 13);
-        // A narrow picture has room for few, and one mark alone would say nothing.
+        // A narrow picture has space for few marks, and one mark alone shows no scale.
         assert_eq!(logarithmic_names(0.05..3.0, 3), ["0.1", "1"]);
         assert_eq!(logarithmic_names(0.2..3.0, 3), ["0.3", "1", "3"]);
         assert_eq!(logarithmic_names(0.05..1.1, 3), ["0.1", "0.3", "1"]);

@@ -35,7 +35,7 @@ pub fn flamant_relative_settlement(soil: Soil, load: f64, near: f64, far: f64) -
 
 /// Horizontal displacement of the surface due to a vertical line load, m, to the right.
 ///
-/// −(1−2ν)P/(4μ) sgn x at `x` (m) from the load P (N/m, downwards): towards the load, and zero under the load.
+/// −(1−2ν)P/(4μ) sgn x at `x` (m) from the load P (N/m, downwards). The surface moves towards the load.
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19a.
 ///

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::Soil;
 use crate::error::{Result, positive};
 
-/// Massless rigid strip of width 2B on an elastic half-plane: limits of its dynamic stiffness.
+/// Limits of the dynamic stiffness of a massless rigid strip of width 2B on a half-plane.
 ///
 /// The time factor is e^(+iωt).
 ///

@@ -24,7 +24,7 @@ pub struct RockingBlock {
     gravity: f64,
 }
 
-/// Largest number of impact times for which memory is reserved: a larger count may be a mistake.
+/// Largest number of impact times for which memory is reserved in advance, because a larger count may be a mistake.
 const MAX_RESERVED_TIMES: usize = 1024;
 
 impl RockingBlock {
@@ -44,7 +44,7 @@ impl RockingBlock {
         self.half_width.atan2(self.half_height)
     }
 
-    /// Rate of the inverted pendulum p = √(3g/(4R)), R = √(b² + h²), 1/s.
+    /// Growth rate p = √(3g/(4R)) of the block as an inverted pendulum, R = √(b² + h²), 1/s.
     pub fn frequency_parameter(&self) -> f64 {
         (0.75 * self.gravity / self.half_width.hypot(self.half_height)).sqrt()
     }
@@ -85,8 +85,8 @@ impl RockingBlock {
     /// angular momentum, each jump adds 3 V cos α/(4 R) to the rate of rotation, and the impact multiplies the rate by the
     /// [`restitution`] η. By the conservation of energy, the block overturns at the rate 2 p sin(α/2). Hence
     /// V = (8/3) p R sin(α/2)/((1 + η) cos α). A second impulse at any other time needs a larger V. The problem is that of
-    /// Nabeshima, Taniguchi, Kojima and Takewaki, Frontiers in Built Environment 2 (2016), 9; the formula was derived from
-    /// their abstract, without their formula.
+    /// Nabeshima, Taniguchi, Kojima and Takewaki, Frontiers in Built Environment 2 (2016), 9. The formula was derived from
+    /// the problem in their abstract, and was not compared with theirs.
     ///
     /// ```
     /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;
@@ -236,7 +236,7 @@ impl RockingBlock {
     }
 }
 
-/// Largest relative difference of arguments for the series: the neglected terms are of its sixth power.
+/// Largest relative difference of the arguments for which the series is used; it neglects terms of the sixth power.
 const MAX_SERIES_DIFFERENCE: f64 = 1e-3;
 
 /// Carlson's symmetric elliptic integral of the first kind, `R_F`(x, y, z).

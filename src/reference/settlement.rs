@@ -23,7 +23,7 @@ pub fn hertz_plate_settlement(force: f64, rigidity: f64, bed: f64) -> Result<f64
     Ok(force / (8.0 * root_product))
 }
 
-/// Settlement (m) of the surface of a half-space under an even `pressure` on a rectangle.
+/// Settlement (m) of the surface of a half-space under a uniform `pressure` on a rectangle.
 ///
 /// The rectangle has the `sides` (m) along x and y, and its middle at the origin; the `pressure` is in Pa. The `point`
 /// (m) of the settlement may be under the load or beside it. The formula is the integral of Boussinesq's solution
@@ -65,7 +65,7 @@ pub fn loaded_rectangle_settlement(
 
 /// a arsinh(b/|a|), one of two terms of the integral of 1/r over a rectangle a × b from its corner.
 ///
-/// It is odd in both sides.
+/// The term is odd in both sides.
 fn half_integral(a: f64, b: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a * (b / a.abs()).asinh() }
 }

@@ -17,14 +17,20 @@ use crate::motion::SpectralOrdinate;
 /// let spectrum = el_centro_1940().response_spectrum(&periods, 0.1, &mut basemat::unobserved)?;
 /// let estimate = SlidingEstimate::new(0.15, 0.0, 9.81)?;
 /// assert!((estimate.spectral_acceleration() - 2.943).abs() < 1e-12);
-/// let slip = estimate.slip(&spectrum)?.ok_or("the spectrum stays below it")?;
+/// let slip = estimate.slip(&spectrum)?.ok_or("the spectrum stays below this acceleration")?;
 /// assert!(slip > 0.02 && slip < 0.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlidingEstimate {
+    /// Spectral acceleration c, m/s².
     spectral_acceleration: f64,
 }
+
+/// Reduction of the friction coefficient per vertical acceleration in g (ASCE/SEI 43-05, eq. A-2).
+const FRICTION_REDUCTION: f64 = 0.4;
+/// Vertical acceleration in g at which the effective friction vanishes, 1/0.4.
+const MAX_VERTICAL_RATIO: f64 = 2.5;
 
 impl SlidingEstimate {
     /// Estimate for a friction coefficient μ, the largest vertical acceleration A (m/s²) and `gravity` g (m/s²).
@@ -36,9 +42,10 @@ impl SlidingEstimate {
         positive("friction of the block", friction)?;
         positive("gravity", gravity)?;
         not_negative("vertical acceleration", vertical_acceleration)?;
-        let is_below_limit = vertical_acceleration < 2.5 * gravity;
+        let is_below_limit = vertical_acceleration < MAX_VERTICAL_RATIO * gravity;
         require("vertical acceleration", vertical_acceleration, is_below_limit, "below 2.5 g")?;
-        let effective_friction = friction * (1.0 - 0.4 * vertical_acceleration / gravity);
+        let effective_friction =
+            friction * (1.0 - FRICTION_REDUCTION * vertical_acceleration / gravity);
         let spectral_acceleration =
             positive("spectral acceleration of slip", 2.0 * effective_friction * gravity)?;
         Ok(Self { spectral_acceleration })

@@ -40,7 +40,7 @@ pub(super) struct SlidingState {
     pub(super) velocity: f64,
 }
 
-/// A change between rest and slip.
+/// Start, stop or reversal of the slip, and its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SlidingEvent {

@@ -30,7 +30,7 @@ use crate::error::{Result, finite, positive, require};
 pub struct NoTensionStrip {
     soil: Soil,
     half_width: f64,
-    /// γ.
+    /// Shift γ of the exponents of the pressure.
     exponent: f64,
 }
 
@@ -55,8 +55,8 @@ impl StripContact {
 impl NoTensionStrip {
     /// Strip of half width B (m) on `soil`, sliding with `friction` f.
     ///
-    /// f > 0: the strip slides to the right and drags the soil to the right with f times the pressure; f < 0:
-    /// to the left; f = 0: frictionless.
+    /// If f > 0, the strip slides to the right, and the shear traction on the soil is f times the pressure to the right.
+    /// If f < 0, the strip slides to the left. If f = 0, it is frictionless.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless B is finite and above zero, and f is finite.
@@ -151,14 +151,16 @@ impl NoTensionStrip {
         Ok(-load * eccentricity)
     }
 
-    /// c in p = N cos πγ/π · (1 + c (x − 2γB)) · weight, 1/m, in full contact.
+    /// Slope c of the pressure in full contact, 1/m.
+    ///
+    /// The pressure is p = N cos πγ/π · (1 + c (x − 2γB)) · weight.
     fn slope(&self, eccentricity: f64) -> f64 {
         let b = self.half_width;
         let g = self.exponent;
         (eccentricity - 2.0 * g * b) / (2.0 * b * b * (0.25 - g * g))
     }
 
-    /// (1−ν)N/(πμ), m.
+    /// Tilt times length (1−ν)N/(πμ) of a load N, m.
     fn unit_tilt(&self, load: f64) -> f64 {
         (1.0 - self.soil.poisson()) * load / (PI * self.soil.shear_modulus())
     }

@@ -21,7 +21,7 @@ use crate::error::{Result, require};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UpliftLaw {
-    /// α.
+    /// Coefficient α of the moment M₀ = N L/α.
     alpha: f64,
 }
 

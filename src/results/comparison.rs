@@ -8,7 +8,7 @@ use crate::coupled::run::page::safety_text;
 use crate::coupled::run::quantity_row::ShownIn;
 use crate::text::column::{NumberCell, column, distinct};
 use crate::text::csv::Csv;
-use crate::text::readable_number::{number, of_body, printed};
+use crate::text::readable_number::{number, printed_unit, whole_body_unit};
 use crate::text::table::Table;
 
 /// Runs side by side in one table.
@@ -99,7 +99,7 @@ fn comparison_rows(run_kinds: &[bool]) -> Vec<ComparisonRow> {
                 let peak = run.whole.peak(quantity).value;
                 Some(peak).filter(|peak| has_value && !peak.is_nan())
             };
-            let unit = quantity.printed(in_plan);
+            let unit = quantity.printed_unit(in_plan);
             rows.push(ComparisonRow {
                 name: quantity.short_name(),
                 unit: unit.symbol,
@@ -142,7 +142,7 @@ fn comparison_rows(run_kinds: &[bool]) -> Vec<ComparisonRow> {
 fn energy_input_row(in_plan: bool) -> ComparisonRow {
     ComparisonRow {
         name: "energy input".to_owned(),
-        unit: of_body("kJ/m", in_plan),
+        unit: whole_body_unit("kJ/m", in_plan),
         column: EnergyTerm::Input.column(in_plan),
         factor: 1e-3,
         value: Box::new(move |run: &Run| {
@@ -195,7 +195,7 @@ impl Comparison {
             }
         }
         for (k, probe) in self.common_probes().iter().enumerate() {
-            let unit = printed(&probe.unit);
+            let unit = printed_unit(&probe.unit);
             let mut cells = vec![probe.name.clone(), unit.symbol.to_owned()];
             for (_, run) in &self.cases {
                 let cell = run.probes.get(k).map_or("–".to_owned(), |probe| {

@@ -8,7 +8,7 @@ use crate::motion::SpectralOrdinate;
 use crate::text::column::{NumberCell, cell_line, column};
 use crate::text::csv::Csv;
 
-/// Joins a heading and lines, each with a text followed by its numbers.
+/// Joins a heading and lines; each line has a text, followed by numbers.
 fn csv_lines<N: IntoIterator<Item = f64>>(
     heading: &str,
     rows: impl IntoIterator<Item = (String, N)>,
@@ -24,7 +24,7 @@ fn csv_lines<N: IntoIterator<Item = f64>>(
 impl TimeSeries {
     /// Times, scalars, probes and the energy balance's input as CSV.
     ///
-    /// A heading and a line for every kept step, by [the rule](super#columns-and-numbers-in-files).
+    /// The text has a heading and a line for every kept step, by [the rule](super#columns-and-numbers-in-files).
     pub fn csv(&self) -> Csv {
         let mut columns = self.columns();
         columns.push(EnergyTerm::Input.column(self.in_plan()));
@@ -37,7 +37,8 @@ impl TimeSeries {
 
     /// [Contact frames](TimeSeries::contact_frames) as CSV in long form.
     ///
-    /// A heading and a line for every frame and element; elements count from 0, and each line has the ends of its element.
+    /// The text has a heading and a line for every frame and element. Elements count from 0, and each line has the ends
+    /// of its element.
     ///
     /// ```
     /// # use basemat::bem::SpringGround;
@@ -91,7 +92,9 @@ type EnvelopeColumn = (&'static str, &'static str, fn(&Run) -> bool, fn(&Element
 
 /// Condition of a column that all runs have.
 const IN_ALL_RUNS: fn(&Run) -> bool = |_| true;
+/// Condition of a column that runs in plan have.
 const IN_PLAN_RUNS: fn(&Run) -> bool = |run| run.in_plan;
+/// Condition of a column that runs of a base with walls have.
 const IN_RUNS_WITH_WALLS: fn(&Run) -> bool = Run::has_walls;
 
 impl Run {
@@ -123,7 +126,7 @@ impl Run {
 
     /// [Envelopes](Run::envelope) as CSV, with the times of the extremes.
     ///
-    /// A heading and a line for every element, by [the rule](super#columns-and-numbers-in-files).
+    /// The text has a heading and a line for every element, by [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
         let columns: Vec<_> = Self::ENVELOPE_COLUMNS
             .iter()
@@ -141,7 +144,7 @@ impl Run {
 
 /// Response spectrum of a record or of a floor as CSV.
 ///
-/// A heading and a line for every period, by [the rule](crate::results#columns-and-numbers-in-files).
+/// The text has a heading and a line for every period, by [the rule](crate::results#columns-and-numbers-in-files).
 ///
 /// ```
 /// use basemat::results::spectrum_csv;

@@ -31,9 +31,10 @@ pub struct ShapePoint {
 /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
 /// let shape = DeformedShape::of_block(&block, 10.0)?;
 /// assert_eq!(shape.points()[2].position, [2.0, 10.0]);
-/// // A turn by 0.01 to the left moves the upper right corner by (−0.1, 0.02).
-/// let moved = shape.displacements(&[0.0, 0.0, 0.01])?;
-/// assert!((moved[2][0] + 0.1).abs() < 1e-15 && (moved[2][1] - 0.02).abs() < 1e-15);
+/// // A counter-clockwise rotation by 0.01 moves the upper right corner by (−0.1, 0.02).
+/// let corner_displacement = shape.displacements(&[0.0, 0.0, 0.01])?[2];
+/// assert!((corner_displacement[0] + 0.1).abs() < 1e-15);
+/// assert!((corner_displacement[1] - 0.02).abs() < 1e-15);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +44,7 @@ pub struct DeformedShape {
     cells: Vec<Vec<usize>>,
     /// Cells for ParaView.
     grid: Vec<ShapeCell>,
-    /// Whether cells of three and more points are faces of elements in space, which hide those behind them.
+    /// Whether cells of three and more points are faces of elements in space, which hide the cells behind them.
     has_faces: bool,
 }
 
@@ -54,8 +55,9 @@ impl DeformedShape {
     /// and 8 or 9 a quadrilateral with the corners first; other numbers a polygon.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) without points or for an empty cell, [`Error::Index`](crate::Error::Index) for a cell with a point
-    /// that does not exist, [`Error::Input`](crate::Error::Input) for a number that is not finite.
+    /// [`Error::Size`](crate::Error::Size) without points or for an empty cell, [`Error::Index`](crate::Error::Index)
+    /// for a cell with a point that does not exist, [`Error::Input`](crate::Error::Input) for a number that is not
+    /// finite.
     pub fn new(points: Vec<ShapePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
         at_least("points of a deformed shape", points.len(), 1)?;
         for point in &points {
@@ -88,16 +90,16 @@ impl DeformedShape {
         let mut points = Vec::with_capacity(mesh.nodes().len());
         for (node, &[x, y, z]) in mesh.nodes().iter().enumerate() {
             // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
-            let [x_displacement, y_displacement, z_displacement] =
+            let [x_displacement, y_displacement, upward_displacement] =
                 [Direction::X, Direction::Y, up_direction]
                     .map(|direction| model.row(node, direction).unwrap_or_default());
             points.push(if mesh.has_depth() {
                 ShapePoint::in_space(
                     [x, y, z - surface],
-                    [x_displacement, y_displacement, z_displacement],
+                    [x_displacement, y_displacement, upward_displacement],
                 )
             } else {
-                ShapePoint::in_plane([x, y - surface], x_displacement, z_displacement)
+                ShapePoint::in_plane([x, y - surface], x_displacement, upward_displacement)
             });
         }
         Self {
@@ -120,9 +122,9 @@ impl DeformedShape {
     /// let shape = DeformedShape::of_block(&body, 10.0)?;
     /// let top = shape.points()[6].clone();
     /// assert_eq!((top.position, top.away), ([4.0, 10.0], 3.0));
-    /// // A turn by 0.01 about x moves it to the front and up: right, up, along y.
-    /// let moved = shape.displacements(&[0.0, 0.0, 0.0, 0.01, 0.0, 0.0])?[6];
-    /// assert!((moved[2] + 0.1).abs() < 1e-14 && (moved[1] - 0.03).abs() < 1e-14);
+    /// // A rotation by 0.01 about x moves this point to the front and up.
+    /// let [_, up, along_y] = shape.displacements(&[0.0, 0.0, 0.0, 0.01, 0.0, 0.0])?[6];
+    /// assert!((along_y + 0.1).abs() < 1e-14 && (up - 0.03).abs() < 1e-14);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -250,7 +252,7 @@ impl DeformedShape {
         &self.grid
     }
 
-    /// Whether cells of three and more points hide those behind them.
+    /// Whether cells of three and more points hide the cells behind them.
     #[cfg(feature = "plot")]
     pub(crate) fn has_faces(&self) -> bool {
         self.has_faces
@@ -338,7 +340,7 @@ fn add_prism(
     let node_count = face.len();
     points.extend(face.iter().map(point_at));
     for node in face {
-        let displacements = BaseNode::carried(face, node.place(), height);
+        let displacements = BaseNode::rigid_displacements(face, node.place(), height);
         points.push(ShapePoint::in_space([node.x, node.y, height], displacements));
     }
     add_outline(cells, first_point, node_count);
@@ -357,7 +359,7 @@ fn add_outline(cells: &mut Vec<Vec<usize>>, first_point: usize, point_count: usi
     }
 }
 
-/// Largest number of columns drawn between two floors.
+/// Largest number of columns drawn between two floors: more lines would hide each other.
 const MAX_COLUMNS: usize = 8;
 
 /// Adds lines from points of one polygon to the points of the next, at most [`MAX_COLUMNS`].

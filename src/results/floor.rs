@@ -12,20 +12,21 @@ impl TimeSeries {
     /// which does not affect a spectrum. A floor's vibration should have ten steps or more in its period.
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if no probe has this name; [`Error::Scene`](crate::Error::Scene) if the probe contains displacements or
-    /// velocities, or if not every step is kept; as for [`Record::new`].
+    /// [`Error::Name`](crate::Error::Name) if no probe has this name; [`Error::Scene`](crate::Error::Scene) if the
+    /// probe contains displacements or velocities, or if not every step is kept; as for [`Record::new`].
     pub fn acceleration_record(&self, probe: &str) -> Result<Record> {
         let index = self.probe_index(probe)?;
         let Probe { displacement, velocity, acceleration, .. } = &self.probes[index];
         let quantity = "floor spectrum";
         let has_acceleration_only =
             displacement.is_empty() && velocity.is_empty() && !acceleration.is_empty();
-        let needed = "the probe must be one of acceleration, and nothing else";
+        let needed = "the probe must contain accelerations only";
         require_part(quantity, has_acceleration_only, needed)?;
         let keeps_every_step = self.recorder.every == 1;
         require_part(quantity, keeps_every_step, "the recorder must keep every step")?;
         let recorded_duration = (self.times().len().max(1) - 1) as f64 * self.time_step;
         let run_duration = self.sequence.end() - self.times()[0];
+        // A missing step makes a difference of at least one time step.
         let is_complete = (recorded_duration - run_duration).abs() <= 0.5 * self.time_step;
         require_part(quantity, is_complete, "every step of the run must have been recorded")?;
         Record::new(self.time_step, self.probe_values[index].clone())
@@ -95,20 +96,20 @@ pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<Spe
     }
     Ok(spectrum
         .iter()
-        .map(|centre| broadened_ordinate(spectrum, centre, fraction))
+        .map(|center| broadened_ordinate(spectrum, center, fraction))
         .collect())
 }
 
 /// The largest values of a spectrum in a band around one of its ordinates.
 fn broadened_ordinate(
     spectrum: &[SpectralOrdinate],
-    centre: &SpectralOrdinate,
+    center: &SpectralOrdinate,
     fraction: f64,
 ) -> SpectralOrdinate {
-    let min_period = centre.period * (1.0 - fraction);
-    let max_period = centre.period * (1.0 + fraction);
+    let min_period = center.period * (1.0 - fraction);
+    let max_period = center.period * (1.0 + fraction);
     let mut band_maximum = SpectralOrdinate {
-        period: centre.period,
+        period: center.period,
         displacement: 0.0,
         pseudo_velocity: 0.0,
         pseudo_acceleration: 0.0,

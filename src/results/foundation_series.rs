@@ -60,14 +60,14 @@ impl FoundationSeries {
         }
     }
 
-    /// Series of a quantity of a foundation; `None` if the whole base has the same.
+    /// Series of a quantity of a foundation; `None` if the whole base has the same series.
     ///
-    /// Empty in the plane for quantities of three directions.
+    /// The series is empty in the plane for quantities that exist only in plan.
     pub(super) fn find(&self, foundation: usize, quantity: Quantity) -> Result<Option<&[f64]>> {
         in_bounds("foundation", foundation, self.count)?;
         let quantity_count = self.lists.len() / self.count;
         if quantity_count == 0 {
-            let needed = "kept: tell the recorder to keep `foundations`, for there are several or a \
+            let needed = "kept: set `foundations` of the recorder, since there are several foundations or a \
                           moment center is set";
             require_part("time series of a foundation", self.is_whole_base, needed)?;
             return Ok(None);

@@ -11,7 +11,7 @@ use crate::interface::{ContactState, Mode};
 pub struct ContactFrame<'a> {
     /// Time, s.
     pub time: f64,
-    /// Opening and total traction of each element.
+    /// Gap, slip and total tractions of each element.
     pub states: &'a [ContactState],
     /// Mode of each element.
     pub modes: &'a [Mode],
@@ -74,7 +74,7 @@ impl ContactFrames {
         size_of::<f64>() + element_count * (size_of::<ContactState>() + size_of::<Mode>())
     }
 
-    /// Whether these are frames of `element_count` elements each.
+    /// Whether the lists have a number for each of `element_count` elements in each frame.
     #[cfg(feature = "serde")]
     pub(super) fn is_whole(&self, element_count: usize) -> bool {
         let needed_length = self.times.len().checked_mul(element_count);
@@ -146,10 +146,11 @@ impl MotionFrames {
 
     /// Bytes of a frame of `dof_count` degrees of freedom.
     pub(super) fn frame_bytes(dof_count: usize) -> usize {
+        // Time and three components of the free field; displacements and velocities.
         (4 + 2 * dof_count) * size_of::<f64>()
     }
 
-    /// Whether these are frames of `dof_count` degrees of freedom each.
+    /// Whether the lists have a number for each of `dof_count` degrees of freedom in each frame.
     #[cfg(feature = "serde")]
     pub(super) fn is_whole(&self, dof_count: usize) -> bool {
         let needed_length = self.times.len().checked_mul(dof_count);
@@ -170,7 +171,7 @@ impl MotionFrames {
             let displacement = &self.displacement[range.clone()];
             let velocity = &self.velocity[range];
             let free_field = self.free_field[k];
-            // Files of earlier versions have none.
+            // Files of earlier versions have no motion along y.
             let free_field_across = self.free_field_across.get(k).copied().unwrap_or(0.0);
             MotionFrame { time, displacement, velocity, free_field, free_field_across }
         })
@@ -178,7 +179,8 @@ impl MotionFrames {
 
     pub(super) fn bytes(&self) -> usize {
         let lengths = [&self.static_displacement, &self.displacement, &self.velocity].map(Vec::len);
-        8 * (4 * self.times.len() + lengths.iter().sum::<usize>())
+        // Each frame has its time and three components of the free field.
+        size_of::<f64>() * (4 * self.times.len() + lengths.iter().sum::<usize>())
     }
 }
 

@@ -37,7 +37,7 @@
 //! let fractions = run.energy_balance.fractions().unwrap_or_default();
 //! assert!((fractions.iter().map(|(_, fraction)| fraction).sum::<f64>() - 1.0).abs() < 1e-9);
 //!
-//! // A history, and the response spectrum of the roof.
+//! // A time series, and the response spectrum of the roof.
 //! assert_eq!(time_series.series(Quantity::BaseShear).len(), 501);
 //! let floor = time_series.floor_spectrum("roof", &log_spaced(0.1, 2.0, 20)?, 0.05)?;
 //! assert_eq!(floor.len(), 20);
@@ -54,15 +54,16 @@
 //!
 //! # Memory
 //!
-//! Results that are not requested use no memory. Scalar time series take 27 numbers and one per probe at every kept
-//! step (216 kB for 1000 steps). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
-//! them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores numbers per element and the
-//! slip events. Its peaks, envelopes and events cover all steps, even if the time series keep only some.
+//! Results that are not requested use no memory. Scalar time series take 28 numbers, in plan 39, and one per probe at
+//! every kept step (224 kB for 1000 steps in the plane). Contact and motion frames are off by default, see
+//! [`TimeSeries::bytes`]. All of them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores
+//! numbers per element and the slip events. Its peaks, envelopes and events cover all steps, even if the time series
+//! keep only some.
 //!
 //! # Conventions
 //!
-//! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs to the end of
-//! its step. The base moment is the total moment, static part included.
+//! Forces act on the soil, per metre of thickness (in plan in total), as in [`crate::coupled::State`]. A value belongs
+//! to the end of its step. The base moment is the total moment, static part included.
 
 mod columns;
 mod comparison;
@@ -72,6 +73,7 @@ mod deformed_shape;
 mod floor;
 mod foundation_series;
 mod frames;
+mod joint_series;
 #[cfg(feature = "npz")]
 mod npz;
 mod recorder;
@@ -93,6 +95,7 @@ pub use csv::spectrum_csv;
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
+pub use joint_series::JointQuantity;
 pub use recorder::Recorder;
 pub use rocking::{Rocking, equivalent_damping};
 pub use time_series::TimeSeries;

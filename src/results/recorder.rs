@@ -47,10 +47,11 @@ impl Recorder {
         Self { motion: Some(steps), ..self }
     }
 
-    /// Keeps scalars of each foundation too, where there are several or a moment center is set.
+    /// Keeps scalars of each foundation too.
     ///
-    /// They are kept at the steps of the other scalars. Each foundation takes as much memory as the whole base. See
-    /// [`TimeSeries::foundation_series`](super::TimeSeries::foundation_series).
+    /// This is needed if there are several foundations or a moment center is set; otherwise the scalars of the whole
+    /// base are those of the foundation. They are kept at the steps of the other scalars. Each foundation takes as much
+    /// memory as the whole base. See [`TimeSeries::foundation_series`](super::TimeSeries::foundation_series).
     #[must_use]
     pub fn foundations(self) -> Self {
         Self { foundations: true, ..self }

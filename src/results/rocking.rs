@@ -12,7 +12,7 @@ use crate::error::{Error, Result, at_least, finite, require, require_part, same_
 const MAX_OPEN_FRACTION: f64 = 0.25;
 /// Distance from an extreme of the rotation within which a cycle turns, over the range of the cycle.
 ///
-/// Smaller reversals in between are no cycles.
+/// Smaller reversals between the extremes do not count as cycles.
 const TURN_FRACTION: f64 = 0.25;
 /// Fraction of the times at the ends of a window that counts as rounding.
 const TIME_ROUNDING: f64 = 1e-9;
@@ -42,11 +42,11 @@ impl TimeSeries {
     /// Time series of a quantity of one foundation at [`TimeSeries::times`].
     ///
     /// Foundations are numbered from 0, in the order of [`Run::foundations`](super::Run::foundations); their moments are
-    /// about their middles. Empty in the plane for quantities of three directions.
+    /// about their middles. The series is empty in the plane for quantities that exist only in plan.
     ///
     /// # Errors
-    /// [`Error::Index`] if there is no such foundation. [`Error::Scene`] where the whole base has another series,
-    /// with several foundations or a moment center, unless [`Recorder::foundations`](super::Recorder::foundations)
+    /// [`Error::Index`] if there is no such foundation. With several foundations or a moment center, [`Error::Scene`]
+    /// unless [`Recorder::foundations`](super::Recorder::foundations)
     /// was called.
     pub fn foundation_series(&self, foundation: usize, quantity: Quantity) -> Result<&[f64]> {
         let foundation_values = self.foundations.find(foundation, quantity)?;
@@ -101,7 +101,7 @@ impl TimeSeries {
     /// # Errors
     /// As for [`TimeSeries::foundation_series`], and [`Error::Scene`] in the plane.
     pub fn rocking_across(&self, foundation: usize) -> Result<Rocking<'_>> {
-        let needed = "a ground of three directions: in the plane a base rocks about one axis";
+        let needed = "a ground in plan: in the plane a base rocks about one axis";
         require_part("rocking about the axis along x", self.in_plan(), needed)?;
         self.rocking_about_axis(
             foundation,
@@ -175,9 +175,9 @@ impl Rocking<'_> {
 
 /// Equivalent viscous damping ratio of one measured cycle of rotations (rad) and moments, ξ = E/(2π M θ).
 ///
-/// E is the area of the polygon with these corners, positive if its corners follow clockwise in a diagram of
-/// the moment over the rotation; M and θ are half the ranges. Moments may have any unit. Compare
-/// [`Rocking::equivalent_damping`].
+/// E is the area of the polygon of the measured points, positive if the points run clockwise in a diagram of moment
+/// over rotation. M and θ are half the ranges. Moments may have any unit. [`Rocking::equivalent_damping`] computes the
+/// damping of a simulated cycle.
 ///
 /// ```
 /// use basemat::results::equivalent_damping;
@@ -250,7 +250,7 @@ fn closed_range(quantity: &'static str, values: &[f64]) -> Result<f64> {
 
 /// Number of rises of periodic values from near the minimum to near the maximum.
 ///
-/// After the last value the first one follows again.
+/// The values repeat: the first value follows the last one.
 fn cycle_count(values: &[f64]) -> usize {
     let min_value = values.iter().copied().fold(f64::INFINITY, f64::min);
     let max_value = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -54,23 +54,25 @@ impl WaveField {
     }
 }
 
-/// Bound of a term, relative to the field, at which the series of an exponential ends: rounding.
+/// Bound of a term of the exponential's series, relative to the field, below which the series ends.
+///
+/// It is below the rounding of the sum.
 const SERIES_TOLERANCE: f64 = 1e-17;
 
 /// Soil for waves of one s and one horizontal slowness.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FieldMedium {
-    /// ρ.
+    /// Density ρ, kg/m³.
     density: f64,
-    /// p.
+    /// Horizontal slowness p, s/m.
     slowness: f64,
-    /// 1/μ.
+    /// 1/μ, 1/Pa.
     shear_compliance: Complex,
-    /// 1/c.
+    /// 1/c, 1/Pa.
     pressure_compliance: Complex,
     /// λ/c.
     lateral_ratio: f64,
-    /// E.
+    /// Modulus E = 4μ(λ + μ)/c, Pa.
     plane_strain_modulus: Complex,
 }
 
@@ -114,7 +116,7 @@ impl FieldMedium {
         let total_phase = s.abs() * depth_step * max_slowness;
         let mut remaining_phase = total_phase;
         while remaining_phase > 0.0 {
-            // The series of the exponential converges fast for phases of at most one.
+            // For phases of at most one the series of the exponential converges fast.
             let phase_step = remaining_phase.min(1.0);
             let s_depth_step = s.scale(depth_step * (phase_step / total_phase));
             let mut term = field;

@@ -16,7 +16,7 @@ use crate::soil::{
     Bedrock, Elastic, GeneralizedMaxwell, ResolvedCurves, SoilProfile, StrainCurves,
 };
 
-/// Motion cut off, relative to the peak, above which a warning says so.
+/// Motion outside the duration of the record, relative to the peak, above which the result has a warning.
 const CUT_OFF_LIMIT: f64 = 0.01;
 
 /// Strain-compatible properties of one layer, and its strains.
@@ -45,19 +45,19 @@ pub struct EquivalentLinear {
     pub profile: SoilProfile,
     /// Motion of the free surface, the input of a simulation.
     ///
-    /// For [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`. Use this record:
-    /// `profile` disperses, and the peak of the surface motion computed with it ([`SoilColumn::to_surface`]) differs by
+    /// It is the record for [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`. Waves disperse
+    /// in `profile`, so that the peak of a surface motion computed with `profile` ([`SoilColumn::to_surface`]) differs by
     /// up to 5 %.
     pub surface: Record,
     /// Properties and strains from the surface down.
     pub layers: Vec<LayerResponse>,
-    /// Acceleration (m/s²) at the tops of all layers and of the base (within).
+    /// Acceleration (m/s²) within the profile, at the tops of all layers and of the base.
     ///
-    /// Each has as many samples as the motion.
+    /// Each of them has as many samples as the motion.
     pub accelerations: Vec<Vec<f64>>,
     /// Largest absolute acceleration at each of these tops, m/s².
     pub peak_accelerations: Vec<f64>,
-    /// Number of linear calculations.
+    /// Number of iterations, each a linear calculation.
     pub iterations: usize,
     /// Estimated largest relative change of a modulus or damping ratio by all further iterations.
     pub last_change: f64,
@@ -71,18 +71,18 @@ impl SoilColumn {
     /// The properties follow from linear calculations, repeated until they converge. `curves` has one entry for
     /// each layer. The damping laws of the layers are not used; the base's law is used.
     ///
-    /// The strain of a layer is the strain in its middle: waves A up and B down at the layer's top give du/dz =
-    /// κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c. Divide layers in which the strain varies. Curves are read at a
-    /// fraction of the largest strain. The calculation is in the frequency domain, s = iω, with the
-    /// [`ComplexModulus`](super::ComplexModulus) of the options, G(1 + 2iξ) by default.
+    /// The strain of a layer is the strain in its middle: with the amplitudes A of the upward and B of the downward wave
+    /// at the layer's top, du/dz = κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c. Divide layers in which the strain varies. The
+    /// curves are evaluated at a fraction of the largest strain. The calculation is in the frequency domain, s = iω,
+    /// with the [`ComplexModulus`](super::ComplexModulus) of the options, G(1 + 2iξ) by default.
     ///
-    /// The resulting profile has [`GeneralizedMaxwell::constant_q`] instead, with the same modulus at its first
-    /// frequency; below the layers too, if the base's law cannot be used in the time domain. This law disperses:
-    /// motions that [`SoilColumn::to_surface`] computes with it differ from `surface` by some per cent. Poisson's
-    /// ratio stays constant, so pressure waves slow down with shear waves (below the water table they would not).
+    /// The layers of the resulting profile have [`GeneralizedMaxwell::constant_q`] instead, with the same modulus at its
+    /// first frequency. The base has this law if its own law cannot be used in the time domain. With this law waves
+    /// disperse: motions that [`SoilColumn::to_surface`] computes differ from `surface` by some per cent. Poisson's ratio
+    /// is constant, so that pressure waves become slower with shear waves (below the water table they would not).
     ///
-    /// The observer counts the largest number of iterations as the total, and jumps to the end after the last
-    /// iteration.
+    /// The total of the observer's progress is the largest number of iterations. After the last iteration the progress is
+    /// complete.
     ///
     /// ```
     /// use basemat::{Soil, unobserved};
@@ -97,9 +97,9 @@ impl SoilColumn {
     /// let curves = vec![StrainCurves::VuceticDobry { plasticity_index: 30.0 }; 4];
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// let options = EquivalentLinearOptions::of_magnitude(6.9);
-    /// let found = column.equivalent_linear(&el_centro_1940(), &curves, &options, &mut unobserved)?;
-    /// assert!(found.last_change < 1e-3 && found.layers[3].modulus_ratio < 0.9);
-    /// println!("{found}");
+    /// let response = column.equivalent_linear(&el_centro_1940(), &curves, &options, &mut unobserved)?;
+    /// assert!(response.last_change < 1e-3 && response.layers[3].modulus_ratio < 0.9);
+    /// println!("{response}");
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -185,7 +185,7 @@ impl SoilColumn {
 }
 
 impl EquivalentLinear {
-    /// Adds the warnings.
+    /// Adds warnings about large strains, extrapolated curves, missing convergence, and motion that is cut off.
     fn warn(&mut self, tolerance: f64, curves: &[ResolvedCurves], cut_off_ratio: f64) {
         for (index, (response, curves)) in self.layers.iter().zip(curves).enumerate() {
             let layer = index + 1;

@@ -15,14 +15,12 @@ use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
 use crate::soil::{Bedrock, Soil, SoilProfile};
 
-/// A plane SV, P or SH wave at an angle below a soil profile.
+/// Plane SV, P or SH wave from the half-plane below a soil profile, at an angle.
 ///
-/// It comes from the half-plane below the layers.
-///
-/// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px): each
-/// frequency is refracted and reflected in all layers, and the surface moves horizontally and vertically. At
-/// vertical incidence the wave is a [`SoilColumn`](super::SoilColumn), without layers a [`PlaneWave`]. A damped
-/// base has a complex speed, but p stays real, so the wave is equally strong everywhere along the surface.
+/// With the horizontal slowness p = sin θ/c from the base's elastic constants, all layers move as f(t − px). The wave is
+/// refracted and reflected in all layers, and the surface moves horizontally and vertically. At vertical incidence the
+/// surface moves as that of a [`SoilColumn`](super::SoilColumn), without layers as under a [`PlaneWave`]. The wave speed
+/// of a damped base is complex, but p is real, so that the amplitude is the same everywhere along the surface.
 ///
 /// ```
 /// use basemat::Soil;
@@ -61,19 +59,19 @@ pub struct InclinedWave {
 impl InclinedWave {
     /// SV wave below `profile`, at `angle` (rad) from the vertical in the base.
     ///
-    /// It runs to the right if the angle is positive.
+    /// The wave runs to the right if the angle is positive.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
-    /// [`Error::Scene`](crate::Error::Scene).
+    /// [`Error::Scene`](crate::Error::Scene) for rigid bedrock.
     pub fn sv(profile: SoilProfile, angle: f64) -> Result<Self> {
         Self::new(profile, angle, WaveKind::Sv)
     }
 
     /// SH wave, as for [`InclinedWave::sv`], for a ground in plan.
     ///
-    /// Its horizontal motion is across its direction, away from the reader if it runs to the right; it has no
-    /// vertical motion. A mat under it twists.
+    /// Its horizontal motion is perpendicular to its direction: along y if it runs along x. It has no vertical motion. A
+    /// mat under which it passes twists.
     ///
     /// ```
     /// use basemat::Soil;
@@ -110,7 +108,7 @@ impl InclinedWave {
     fn new(profile: SoilProfile, angle: f64, wave_kind: WaveKind) -> Result<Self> {
         let Bedrock::HalfPlane { soil: base, .. } = *profile.bedrock() else {
             let needed = "waves at an angle come from a half-plane below the layers, not from rigid bedrock \
-                          (site::SoilColumn takes the motion of rigid bedrock to the surface)";
+                          (site::SoilColumn computes the surface motion from that of rigid bedrock)";
             return Err(Error::Scene { quantity: "inclined wave", needed });
         };
         let outcrop = match wave_kind {
@@ -160,12 +158,12 @@ impl InclinedWave {
 
     /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x.
     ///
-    /// Samples are `time_step` seconds apart: displacement, velocity or acceleration. The ground is at rest at
-    /// first. It still moves after the end of `motion`, as in a [`SoilColumn`](super::SoilColumn).
+    /// The samples, `time_step` seconds apart, are displacements, velocities or accelerations. The ground is initially at
+    /// rest. It still moves after the end of `motion`, as in a [`SoilColumn`](super::SoilColumn).
     ///
     /// # Errors
     /// As for [`InclinedWave::transfer`] and [`SoilColumn::to_surface`](super::SoilColumn::to_surface);
-    /// [`SoilError::BeyondCritical`] where waves are out of phase and so have no first arrival.
+    /// [`SoilError::BeyondCritical`] if waves are evanescent in a layer, so that they have no first arrival.
     pub fn to_surface(
         &self,
         control: InclinedControl,
@@ -185,7 +183,7 @@ impl InclinedWave {
         Ok(components)
     }
 
-    /// Motion of the surface, also after the end of the samples.
+    /// Motion of the surface during and after the samples of `motion`.
     fn filtered(
         &self,
         control: InclinedControl,
@@ -209,8 +207,8 @@ impl InclinedWave {
     /// The free field in which `record` is the motion of `control` below `origin` (m).
     ///
     /// `origin` is the edge of the base that the wave reaches first. The motion continues after the record's end
-    /// until the layers are at rest. [`InclinedWave::to_surface`] returns how much of it is near the highest
-    /// frequency or before t = 0.
+    /// until the layers are at rest. [`InclinedWave::to_surface`] returns the parts of the motion near the highest
+    /// frequency and before t = 0.
     ///
     /// # Errors
     /// As for [`InclinedWave::to_surface`]; [`Error::Input`](crate::Error::Input) for an origin that is not finite.

@@ -14,7 +14,7 @@ use crate::soil::{
     SoilProfile, StrainCurves, layer_name,
 };
 
-/// Smallest effective strain of the iteration, in place of zero.
+/// Smallest effective strain of the iteration, whose unknowns are logarithms of strains.
 const MIN_EFFECTIVE_STRAIN: f64 = 1e-12;
 /// Upper limit, excluded, of ξ for [`ComplexModulus::Magnitude`].
 ///
@@ -38,11 +38,11 @@ pub struct EquivalentLinearOptions {
     pub most_iterations: usize,
     /// Frequencies (Hz) over which the damping of the resulting profile is constant.
     pub band: [f64; 2],
-    /// Complex modulus of the layers by their shear modulus and damping ratio.
+    /// Convention for the complex modulus of the layers.
     pub complex_modulus: ComplexModulus,
 }
 
-/// Complex modulus of a layer from its shear modulus G and damping ratio ξ.
+/// Convention for the complex modulus of a layer with shear modulus G and damping ratio ξ.
 ///
 /// The stiffness of the two forms differs by 2ξ². Peaks at the surface therefore differ by some per cent above about
 /// 10 % damping. Use the convention of the program with which you compare results.
@@ -67,7 +67,7 @@ pub(super) struct LayerProperties {
 }
 
 impl ComplexModulus {
-    /// The G' and ξ' for which G'(1 + 2iξ') is the complex modulus of a layer.
+    /// Properties G' and ξ' for which G'(1 + 2iξ') is the complex modulus of a layer.
     ///
     /// `layer_index`: from 0, for errors.
     fn equivalent(
@@ -94,7 +94,7 @@ impl ComplexModulus {
     }
 }
 
-/// A motion of the rock outcrop, and the complex modulus G(1 + 2iξ).
+/// Defaults: a motion of the rock outcrop, and the complex modulus G(1 + 2iξ).
 ///
 /// The effective strain is 0.65 of the largest one, the tolerance 1e-3 in at most 50 iterations, the band 0.1 to 30 Hz.
 impl Default for EquivalentLinearOptions {
@@ -127,7 +127,7 @@ impl EquivalentLinearOptions {
             needed,
         )?;
         let iterations = self.most_iterations;
-        require("most iterations of a site", iterations as f64, iterations > 0, "at least 1")?;
+        require("largest number of iterations", iterations as f64, iterations > 0, "at least 1")?;
         positive("tolerance of strain-compatible properties", self.tolerance)?;
         GeneralizedMaxwell::constant_q(0.0, self.band, self.band[0]).map(drop)
     }
@@ -136,7 +136,7 @@ impl EquivalentLinearOptions {
 impl SoilColumn {
     /// Profile whose layers have these properties.
     ///
-    /// `law_of_ratio`: makes the damping law of a layer from its damping ratio.
+    /// `law_of_ratio`: returns the damping law of a layer for its damping ratio.
     pub(super) fn compatible_profile<L: Relaxation + 'static>(
         &self,
         properties: &[LayerProperties],
@@ -179,7 +179,7 @@ pub(super) struct ConvergedProperties {
     pub(super) strains: Vec<f64>,
     /// Number of linear calculations.
     pub(super) iterations: usize,
-    /// Relative change of the properties in the last iteration.
+    /// Estimated largest relative change of a property by all further iterations.
     pub(super) last_change: f64,
 }
 
@@ -192,7 +192,7 @@ pub(super) struct ColumnAccelerations {
 }
 
 impl<'a> Iteration<'a> {
-    /// Iteration with one of the `curves` for each layer.
+    /// Checks the arguments, and prepares the iteration; `curves` has one entry for each layer.
     pub(super) fn new(
         column: &'a SoilColumn,
         motion: &'a Record,
@@ -335,6 +335,7 @@ impl<'a> Iteration<'a> {
 struct Aitken {
     /// Residual of the last iteration.
     residual: Vec<f64>,
+    /// Relaxation factor of the last iteration.
     relaxation_factor: f64,
 }
 
@@ -383,9 +384,9 @@ fn relative_change(old: f64, new: f64) -> f64 {
     if old == new { 0.0 } else { (new - old).abs() / new }
 }
 
-/// The error of a layer, with its name.
+/// Adds the name of a layer to an error.
 ///
-/// `index`: of the layer, from 0. The error of a damping ratio that no law represents states the ratio.
+/// `index`: of the layer, from 0. An error of accuracy is replaced by one that states the damping ratio.
 fn layer_error(index: usize, damping_ratio: f64, error: Error) -> Error {
     let has_no_damping_law = matches!(error, Error::Accuracy { .. });
     let quantity = "strain-compatible damping ratio";

@@ -1,8 +1,8 @@
 //! Site response: waves from the base of a layered ground to its surface.
 //!
-//! [`SoilColumn`] computes vertically travelling waves up and down, and finds strain-compatible properties
-//! ([`SoilColumn::equivalent_linear`]). [`InclinedWave`] computes a free field from SV, P and SH waves at an
-//! angle. A [`SiteMotion`] also states how much of a motion its samples do not contain.
+//! [`SoilColumn`] computes vertical waves up and down, and strain-compatible properties
+//! ([`SoilColumn::equivalent_linear`]). [`InclinedWave`] computes a free field from SV, P and SH waves at an angle. A
+//! [`SiteMotion`] contains the samples of a motion and the magnitudes of the parts that they do not contain.
 
 #[cfg(feature = "embedded")]
 mod below_surface;
@@ -58,13 +58,13 @@ pub enum SiteWarning {
     NotConverged {
         /// Estimated largest relative change by all further iterations.
         change: f64,
-        /// Iterations made.
+        /// Number of iterations.
         iterations: usize,
     },
     /// Motion of the surface outside the record's time above 1 % of its peak.
     ///
-    /// The record needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more
-    /// damping.
+    /// The remedy is quiet time before and after the record ([`Record::padded`](crate::motion::Record::padded)), or more
+    /// damping of the site.
     CutOff {
         /// Largest acceleration cut off, relative to the peak.
         share: f64,
@@ -79,7 +79,7 @@ pub enum SiteWarning {
 }
 
 impl SiteWarning {
-    /// Largest strain within the method's range.
+    /// Largest shear strain for which one modulus during the whole motion is a good approximation.
     pub(crate) const STRAIN_LIMIT: f64 = 5e-3;
 }
 

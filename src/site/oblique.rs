@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Soil, SoilProfile};
 
-/// Motion that is prescribed under an inclined wave, at the top of the base.
+/// Motion at the top of the base that is prescribed for an inclined wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InclinedControl {
     /// Horizontal motion of the base as a free surface without layers: rock outcrop.
@@ -20,8 +20,8 @@ pub enum InclinedControl {
     OutcropVertical,
     /// The incident wave itself.
     ///
-    /// SV is positive to the right (and down, if it runs to the right), P up (and to the right), SH away from the
-    /// reader.
+    /// Its displacement is positive to the right for SV (and down, if the wave runs to the right), up for P (and to the
+    /// right), and along y for SH.
     Incident,
 }
 
@@ -156,7 +156,7 @@ struct UnitResponse<C> {
     unit_amplitude: C,
 }
 
-/// Response to SH.
+/// Response to an incident SH wave.
 #[inline(always)]
 fn sh_response<C: ComplexArithmetic>(
     layers: &[InclinedLayerWaves<C>],
@@ -171,7 +171,7 @@ fn sh_response<C: ComplexArithmetic>(
     }
 }
 
-/// Response to P (`wave_index` 0) or SV (`wave_index` 1).
+/// Response to an incident P wave (`wave_index` 0) or SV wave (`wave_index` 1).
 ///
 /// A unit amplitude displaces by the vector (p, a) or (b, p), whose length is 1/c.
 #[inline(always)]

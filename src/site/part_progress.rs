@@ -1,11 +1,11 @@
-//! Progress of the equal parts of a call through a site.
+//! Progress reports of a site computation that consists of equal parts.
 
 use crate::error::{ProgressReporter, Result};
 
-/// Fraction of a part's progress at which its spectra are filtered; inverse transforms follow.
+/// Progress of a part after its spectra are filtered; the inverse transforms take as long.
 pub(super) const FILTER_PROGRESS_FRACTION: f64 = 0.5;
 
-/// Progress of a part whose spectra are filtered, from the finished fraction of its inverse transforms.
+/// Progress of a part during its inverse transforms, of which a `fraction` is finished.
 pub(super) fn after_filter(fraction: f64) -> f64 {
     FILTER_PROGRESS_FRACTION + (1.0 - FILTER_PROGRESS_FRACTION) * fraction
 }

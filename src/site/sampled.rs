@@ -1,15 +1,15 @@
 //! Layers modified so that sampled motions can pass through them.
 //!
 //! At their highest frequency, π/Δt, samples cannot represent a delay that is not a multiple of the time step: e^(iωτ)
-//! must be real there. Otherwise the response to one sample alternates for ever, before it as well as after
+//! must be real there. Otherwise the response to one sample alternates without end, before the sample and after it
 //! (Oppenheim & Schafer 2010, § 4.5). Layers are therefore unmodified up to a fraction
 //! [`BAND_FRACTION`](super::transform::BAND_FRACTION) below that frequency. Within the band they change smoothly, until
 //! at its end
 //!
 //! * travel times from the surface to any depth are multiples of Δt, with an error of at most half a step,
-//! * moduli are real: their values for growth at the same rate, s = π/Δt.
+//! * moduli are real: their values at the real s = π/Δt.
 //!
-//! Each layer is still passive, so a motion can pass through the site and back.
+//! Each modified layer is passive, so that a motion can be computed through the site and back.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -20,7 +20,7 @@ use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic, Lanes, Simd, WithSimd, vectorized};
 use crate::soil::SoilProfile;
 
-/// Points on the contour, one in each lane.
+/// Points on the contour, one in each lane of the processor's vectors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContourLanes<C> {
     /// Laplace variable.
@@ -91,7 +91,7 @@ impl<const WAVES: usize> NyquistLayers<WAVES> {
     ) -> Result<Self> {
         let mut moduli = vec![];
         profile.moduli(contour_end, &mut moduli)?;
-        // Phase of the travel to each depth, in half turns. The rounded phases of layers have the rounded phase as sum.
+        // Phase from the surface to each depth, in half turns. The phases of the layers add up to its rounded value.
         let mut half_turns = [0.0_f64; WAVES];
         let mut round_phase = |wave: usize, phase: Complex| {
             let previous_half_turns = half_turns[wave].round();
@@ -141,7 +141,7 @@ impl<const WAVES: usize> NyquistLayers<WAVES> {
 
 /// Functions of s that describe the waves through a layered ground.
 pub(super) trait SiteFunctions {
-    /// Intermediate values of a layer, which a caller keeps from call to call.
+    /// Intermediate values of a layer, which the caller stores from call to call.
     type LayerValues<C: ComplexArithmetic>;
 
     /// Profile of the ground.
@@ -185,7 +185,7 @@ pub(super) fn evaluate(
     Ok(())
 }
 
-/// Arguments of [`evaluate`], for a processor with these vectors.
+/// Arguments of [`evaluate`], compiled for the vectors of the processor.
 struct Evaluation<'a, F> {
     functions: &'a F,
     points: &'a [ContourPoint],

@@ -1,34 +1,34 @@
-//! Motions that have passed through a site.
+//! Motion computed through a site, and the magnitudes of its lost parts.
 
 use std::fmt;
 
 use super::SiteWarning;
 use crate::linalg::{Complex, largest};
 
-/// Ratio to the input motion above which a motion counts as amplified: it is mostly noise then.
+/// Ratio to the input motion above which a motion counts as amplified, because it is then mostly noise.
 const AMPLIFICATION_LIMIT: f64 = 100.0;
 
-/// A motion that has passed through a site, and the magnitudes of its lost parts.
+/// Motion computed through a site, and the magnitudes of its lost parts.
 ///
-/// It has the times of the input motion. Motions count as zero outside their samples, so a part that is cut off
-/// here is missing on the way back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record
-/// with quiet time around it passes through a site and returns to 1e-9 of its peak, whatever its frequencies, if
-/// [`SiteMotion::is_whole`] on both ways.
+/// Its samples have the times of the input motion. Motions are zero outside their samples, so that a part that is cut off
+/// here is missing in the computation back: [`Record::padded`](crate::motion::Record::padded) adds time for it. A record
+/// that is computed through a site and back equals the original within 1e-9 of its peak, at all frequencies, if both
+/// motions are whole ([`SiteMotion::is_whole`]).
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct SiteMotion {
     /// Samples of the motion.
     pub samples: Vec<f64>,
-    /// Largest sample cut off before the first: motion at depth precedes motion of the surface.
+    /// Largest sample cut off before the first one, because motion at depth precedes motion of the surface.
     pub before: f64,
-    /// Largest sample cut off after the last: waves that have not yet reached the surface.
+    /// Largest sample cut off after the last one, because waves have not yet reached the surface.
     pub after: f64,
     /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt.
     ///
-    /// Layers delay these frequencies by whole time steps, with an error of at most half a step from the surface
-    /// to any depth. The error of the motion is this number to a factor of four.
+    /// Layers delay these frequencies by whole time steps, with an error of at most half a step from the surface to any
+    /// depth. The error of the motion is between a quarter of this number and four times this number.
     pub near_nyquist: f64,
-    /// Estimated rounding, which is large if deconvolution through damped layers amplifies high frequencies.
+    /// Estimated rounding error, which is large if deconvolution through damped layers amplifies high frequencies.
     pub rounding: f64,
     /// Lowest frequency (Hz) at which the motion is more than a hundred times the input motion.
     ///
@@ -37,7 +37,7 @@ pub struct SiteMotion {
 }
 
 impl SiteMotion {
-    /// Fraction of the peak below which motion counts as rest.
+    /// Fraction of the peak below which a motion counts as zero.
     pub const MAX_REST_RATIO: f64 = 1e-9;
 
     /// Largest sample.
@@ -45,7 +45,7 @@ impl SiteMotion {
         largest(&self.samples)
     }
 
-    /// Whether nothing above [`SiteMotion::MAX_REST_RATIO`] of the peak is cut off or rounded away.
+    /// Whether all lost parts and rounding errors are at most [`SiteMotion::MAX_REST_RATIO`] of the peak.
     pub fn is_whole(&self) -> bool {
         self.before.max(self.after).max(self.rounding) <= Self::MAX_REST_RATIO * self.peak()
     }
@@ -69,13 +69,13 @@ impl SiteMotion {
     ///     .with_damping(GeneralizedMaxwell::constant_q(0.1, [0.2, 30.0], 1.0)?);
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// let record = el_centro_1940().padded(10.0, 20.0)?;
-    /// let down = |record: &basemat::motion::Record| {
+    /// let outcrop_motion = |record: &basemat::motion::Record| {
     ///     column.from_surface(ControlPoint::Outcrop, record.time_step(), record.accelerations(), &mut unobserved)
     /// };
-    /// let found = down(&record)?;
-    /// assert!(found.warning().is_some() && found.peak() > 100.0);
-    /// let found = down(&record.low_pass(4.0, 8)?)?;
-    /// assert!(found.warning().is_none() && found.peak() < 20.0);
+    /// let amplified = outcrop_motion(&record)?;
+    /// assert!(amplified.warning().is_some() && amplified.peak() > 100.0);
+    /// let smooth = outcrop_motion(&record.low_pass(4.0, 8)?)?;
+    /// assert!(smooth.warning().is_none() && smooth.peak() < 20.0);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn warning(&self) -> Option<SiteWarning> {
@@ -131,8 +131,8 @@ pub(super) struct SpectrumSums {
 impl SpectrumSums {
     /// Adds the next frequency, ω in rad/s.
     pub(super) fn add(&mut self, filter: Complex, product: Complex, omega: f64) {
-        let squared_gain = filter.square();
-        let power = product.square();
+        let squared_gain = filter.squared_modulus();
+        let power = product.squared_modulus();
         self.squared_gain += squared_gain;
         self.power += power;
         if squared_gain > AMPLIFICATION_LIMIT * AMPLIFICATION_LIMIT {

@@ -22,13 +22,13 @@ use crate::soil::Soil;
 
 /// Smallest squared vertical slowness of a layer, relative to the value at vertical incidence.
 ///
-/// At zero, the waves up and down are the same. Results are even in a and b, so this limit changes them by its value.
-/// Rounding divided by the square root of the limit is not larger.
+/// At zero, the upward and the downward wave are the same. Results are even in a and b, so that the limit changes them by
+/// about its value. The rounding errors, divided by the square root of the limit, are not larger.
 const MIN_GRAZING_SLOWNESS_RATIO: f64 = 4e-11;
-/// Relative magnitude of a real part below which its sign is rounding.
+/// Relative magnitude of a real part below which its sign depends on rounding.
 const SIGN_TOLERANCE: f64 = 1e-12;
 
-/// Incident wave in the base, by its elastic constants.
+/// Incident wave in the base, with the wave speed of the elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct IncidentWave {
     /// 1/c of the wave, s/m.
@@ -40,13 +40,17 @@ pub(super) struct IncidentWave {
 /// A layer or half-plane for waves of one slowness p, with one s in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WaveMedium<C> {
-    /// μ.
+    /// Complex shear modulus μ, Pa.
     modulus: C,
-    /// ρ.
+    /// Density ρ, kg/m³.
     density: f64,
+    /// Horizontal slowness, s/m.
     p: f64,
+    /// Vertical slowness of P waves, s/m.
     a: C,
+    /// Vertical slowness of S waves, s/m.
     b: C,
+    /// g = b² − p², s²/m².
     g: C,
     /// 1/c₂².
     pub(super) squared_s_slowness: C,
@@ -137,7 +141,7 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         scaled([mixed, b * g, a * g, -mixed], scale)
     }
 
-    /// r.
+    /// Rayleigh's function r.
     #[inline(always)]
     fn rayleigh(&self) -> C {
         self.g * self.g + (self.a * self.b).scale(4.0 * self.p * self.p)
@@ -154,7 +158,7 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         scaled([p_due_to_p, p_due_to_sv, sv_due_to_p, -p_due_to_p], scale)
     }
 
-    /// Displacements (x, z) and stresses due to waves (P, SV) up and down.
+    /// Displacements (x, z) and stresses due to upward and downward waves (P, SV).
     #[inline(always)]
     fn state(&self, up: [C; 2], down: [C; 2]) -> [C; 4] {
         let Self { modulus, p, a, b, g, .. } = *self;
@@ -168,7 +172,7 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         ]
     }
 
-    /// Amplitudes A and B of a state of displacements and stresses, times (a, b).
+    /// Amplitudes A and B, times (a, b), of the waves with these displacements and stresses.
     #[inline(always)]
     fn waves(&self, [x, z, shear, normal]: [C; 4]) -> [[C; 2]; 2] {
         let Self { modulus, p, a, b, g, .. } = *self;
@@ -221,7 +225,7 @@ struct SurfaceTransfer<C> {
     medium: WaveMedium<C>,
     /// Motion of the surface due to unit P and unit SV upwards.
     surface: Square<C>,
-    /// R.
+    /// Reflection R.
     reflection: Square<C>,
 }
 

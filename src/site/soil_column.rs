@@ -15,10 +15,10 @@ use crate::soil::SoilProfile;
 /// Number of frequencies of a transfer function between two reports of progress.
 const FREQUENCIES_PER_BLOCK: usize = 256;
 
-/// A soil profile as a column for vertical waves.
+/// Soil column: a profile under vertical waves of one kind.
 ///
-/// Simulations use the motion of the free *surface*. A column computes it from a motion at depth, or the motion at
-/// depth from the surface (deconvolution).
+/// Simulations use the motion of the free *surface*. A column computes this motion from a motion at depth, or a motion at
+/// depth from the motion of the surface (deconvolution).
 ///
 /// ```
 /// use basemat::Soil;
@@ -29,9 +29,9 @@ const FREQUENCIES_PER_BLOCK: usize = 256;
 ///     .with_layer(soil, 10.0)?
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.5, 50.0], 5.0)?);
 /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
-/// // At the first frequency, 5 Hz, about 2/(πξ).
-/// let found = column.transfer(ControlPoint::Within, 5.0)?.abs();
-/// assert!((found - 12.7).abs() < 0.2);
+/// // At the first frequency, 5 Hz, the amplification is about 2/(πξ).
+/// let amplification = column.transfer(ControlPoint::Within, 5.0)?.abs();
+/// assert!((amplification - 12.7).abs() < 0.2);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -54,9 +54,11 @@ impl SoilColumn {
 
     /// Motion of the surface per unit motion e^(iωt) of `control` at `frequency` (Hz).
     ///
+    /// Infinite at a resonance without damping.
+    ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws
-    /// that are not passive; infinite at a resonance without damping.
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; an error for damping laws
+    /// that are not passive.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
         let functions = ColumnFunctions::exact(
@@ -75,7 +77,8 @@ impl SoilColumn {
 
     /// Motion of the surface per unit motion e^(iωt) of `control`, at many frequencies.
     ///
-    /// `frequencies`: Hz. With an observer; faster than [`transfer`](SoilColumn::transfer) for each frequency.
+    /// `frequencies`: Hz. This method is faster than [`transfer`](SoilColumn::transfer) for each frequency, and has an
+    /// observer.
     ///
     /// ```
     /// # use basemat::Soil;
@@ -85,9 +88,9 @@ impl SoilColumn {
     /// let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0)?;
     /// let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 10.0)?;
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
-    /// let found = column.transfers(ControlPoint::Within, &[1.0, 2.5], &mut |_| Continue(()))?;
+    /// let transfers = column.transfers(ControlPoint::Within, &[1.0, 2.5], &mut |_| Continue(()))?;
     /// // 1/cos(ωh/c), at 2.5 Hz with ωh/c = π/4.
-    /// assert!((found[1].abs() - 2.0_f64.sqrt()).abs() < 1e-12);
+    /// assert!((transfers[1].abs() - 2.0_f64.sqrt()).abs() < 1e-12);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -128,12 +131,12 @@ impl SoilColumn {
 
     /// Motion of the surface from `motion` at `control`.
     ///
-    /// Samples are `time_step` seconds apart: displacement, velocity or acceleration. The column is at rest at
-    /// first. It still moves after the end of `motion`: add quiet time there if this part matters, as it does on
-    /// the way back.
+    /// The samples, `time_step` seconds apart, are displacements, velocities or accelerations. The column is initially at
+    /// rest. It still moves after the end of `motion`: add quiet time there if this part is needed, as it is for a
+    /// deconvolution of the result.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite,
+    /// [`Error::Input`](crate::Error::Input) for a time step that is not positive or samples that are not finite,
     /// [`Error::Size`](crate::Error::Size) for none, [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for
     /// hysteretic damping, [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn to_surface(
@@ -150,9 +153,9 @@ impl SoilColumn {
 
     /// Motion at `control` from `motion` of the surface (deconvolution).
     ///
-    /// Motion at depth precedes motion of the surface. The record should therefore begin and end with rest for as
-    /// long as waves take through the layers: outside the record the surface counts as still. On the way down
-    /// damped layers amplify high frequencies, so remove noise from the record before.
+    /// Motion at depth precedes motion of the surface. The record should therefore begin and end with rest for as long
+    /// as waves take through the layers: outside the record the motion of the surface is zero. In deconvolution damped
+    /// layers amplify high frequencies. Remove noise from the record first.
     ///
     /// ```
     /// # use basemat::{Soil, unobserved};
@@ -164,14 +167,14 @@ impl SoilColumn {
     ///     .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 15.0)?
     ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
     /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
-    /// // Room for what comes before and after.
+    /// // Time for the motion before and after the record.
     /// let record = el_centro_1940().padded(30.0, 30.0)?;
     /// let samples = record.accelerations();
     /// let surface = column.to_surface(ControlPoint::Outcrop, 0.02, samples, &mut unobserved)?;
     /// let back = column.from_surface(ControlPoint::Outcrop, 0.02, &surface.samples, &mut unobserved)?;
     /// assert!(surface.is_whole() && back.is_whole(), "{surface}; {back}");
-    /// for (found, given) in back.samples.iter().zip(record.accelerations()) {
-    ///     assert!((found - given).abs() < 1e-9 * record.peaks().acceleration);
+    /// for (computed, original) in back.samples.iter().zip(record.accelerations()) {
+    ///     assert!((computed - original).abs() < 1e-9 * record.peaks().acceleration);
     /// }
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -192,9 +195,8 @@ impl SoilColumn {
 
     /// Motion of the surface of `profile` in three directions from `motion` of `control`.
     ///
-    /// Shear waves carry the components along x and y, pressure waves the vertical one. Each component continues
-    /// after its record's end until the layers are at rest. Other losses are as for
-    /// [`to_surface`](SoilColumn::to_surface).
+    /// The components along x and y are shear waves, the vertical one is a pressure wave. Each component continues after
+    /// its record's end until the layers are at rest. Other losses are as for [`to_surface`](SoilColumn::to_surface).
     ///
     /// ```
     /// use basemat::{Soil, unobserved};
@@ -335,7 +337,7 @@ impl SoilColumn {
     }
 }
 
-/// Filter of a motion, from the inverse transfer function without its factor e^x, and x.
+/// Function that returns a filter from the inverse transfer function without its factor e^x, and from x.
 type Filter = fn(Complex, Complex) -> Complex;
 
 /// Surface motion per control motion.

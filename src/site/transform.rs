@@ -1,8 +1,9 @@
-//! Motions through transfer functions, by Fourier transform.
+//! Filters motions by transfer functions, with Fourier transforms.
 //!
-//! All transforms run at Re s = η > 0. The window e^(−ηt) makes wrap-around negligible, and undamped profiles have
-//! finite values there. The transform has four times the samples of the motion. The window therefore reduces the last
-//! sample of the motion by e^(−6), and its removal increases the transform's rounding by e^6.
+//! Transforms run along Re s = η > 0, except for damping laws that exist only at real frequencies, for which η is zero.
+//! The window e^(−ηt) makes wrap-around negligible, and the transfer functions of undamped profiles are finite for
+//! η > 0. The transform has four times the samples of the motion. The window therefore reduces the last sample of the
+//! motion by e^(−6), and the removal of the window increases the transform's rounding errors by e^6.
 //!
 //! The response of a filter ends in time if the filter is real at the highest frequency, and if all its derivatives along
 //! the contour are even about that frequency. Responses of other filters alternate and, without the window, grow.
@@ -17,9 +18,9 @@ use super::site_motion::{SiteMotion, SpectrumSums};
 use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::{Complex, largest};
 
-/// ηT: wrap-around is reduced to e^(−24).
+/// Exponent ηT of the window at the end of the transform, which reduces wrap-around to e^(−24).
 const WINDOW_EXPONENT: f64 = 24.0;
-/// Length of the transform, relative to the number of samples of the motion.
+/// Number of samples of the transform for each sample of the motion, so that three quarters of the transform are quiet.
 const LENGTH_PER_SAMPLE: usize = 4;
 /// Largest number of samples of a motion, and of time steps of waves through a site.
 ///
@@ -29,17 +30,17 @@ const MAX_SAMPLES: usize = 1 << 24;
 ///
 /// The transfer function is exact only below this band. A narrower band would make responses last longer.
 pub(super) const BAND_FRACTION: f64 = 0.02;
-/// Exponent β of the transition's slope, e^(β(√(1 − x²) − 1)) over the band.
+/// Exponent β of the transition's slope, which is e^(β(√(1 − x²) − 1)) over the band.
 ///
-/// Its transform is e^(−β) from 2β/(π · band) samples on (Barnett, Magland & af Klinteberg 2019).
+/// The transform of the slope is about e^(−β) after 2β/(π · band) samples (Barnett, Magland & af Klinteberg 2019).
 const TRANSITION_SHARPNESS: f64 = 24.0;
-/// Frequency in place of zero, in frequency steps of the transform: small beside the lowest frequency.
+/// Frequency in place of zero, in frequency steps of the transform; it is small beside the next frequency.
 const ZERO_FREQUENCY_STEPS: f64 = 1e-3;
 /// Number of frequencies in one call of a filter, whose values stay in the processor's cache.
 const FREQUENCIES_PER_BLOCK: usize = 64;
 /// Bytes of a filtered spectrum, and of one value of the filters, for each sample of the transform.
 const BYTES_PER_FILTERED_SAMPLE: f64 = 12.0;
-/// Number of samples after which responses of the transition end.
+/// Number of samples after which the responses of the transition band end.
 const TRANSITION_SAMPLES: usize = 2000;
 
 /// A point on the contour of a transform.
@@ -67,9 +68,9 @@ pub(super) struct Contour {
     time_step: f64,
     /// Number of samples of the transform.
     length: usize,
-    /// ηT.
+    /// Exponent ηT of the window.
     window_exponent: f64,
-    /// η, 1/s.
+    /// Decay rate η of the window, 1/s.
     decay_rate: f64,
 }
 
@@ -100,12 +101,12 @@ impl Contour {
 
     /// This contour along real frequencies, for filters that exist only there.
     ///
-    /// Motion that lasts longer than the quiet three quarters of the transform wraps around.
+    /// A motion that lasts longer than the quiet three quarters of the transform wraps around.
     pub(super) fn at_real_frequencies(self) -> Self {
         Self { window_exponent: 0.0, decay_rate: 0.0, ..self }
     }
 
-    /// The s (1/s) of the highest frequency, at which the contour ends.
+    /// Laplace variable (1/s) at the end of the contour, of the highest frequency.
     pub(super) fn end(&self) -> Result<Complex> {
         let highest =
             finite("highest frequency of a motion", std::f64::consts::PI / self.time_step)?;
@@ -163,7 +164,7 @@ impl Contour {
     }
 }
 
-/// Filters a motion: its spectrum along a contour, and the products with functions of s.
+/// Spectrum of a motion along a contour, and its products with functions of s.
 pub(super) struct Transform {
     contour: Contour,
     /// Number of samples of the motion.
@@ -266,7 +267,7 @@ impl Transform {
             }
             progress.report(FILTER_PROGRESS_FRACTION * stop as f64 / (last_index + 1) as f64)?;
         }
-        // The two values are real in theory; this removes rounding.
+        // The first and the last value are real except for rounding errors, which are removed here.
         for spectrum in &mut self.filtered_spectra {
             spectrum[0].im = 0.0;
             spectrum[last_index].im = 0.0;

@@ -62,7 +62,7 @@ struct DepthMotion {
     lead_time: f64,
     /// Velocity (m/s) of the padded record at the beginning of the surface's motion.
     ///
-    /// The motion at depth is corrected by it.
+    /// The motion at depth is corrected by this velocity.
     drift_velocity: f64,
     /// Records for the elements of a wall, from the surface down, and for the base.
     records_by_level: Vec<LevelRecords>,
@@ -71,7 +71,7 @@ struct DepthMotion {
 impl TrenchMotion {
     /// Vertical waves around the trench of `ground`, from the `motion` of the surface without it.
     ///
-    /// Shear waves carry the horizontal record, pressure waves the vertical one.
+    /// The horizontal record is that of shear waves, the vertical record that of pressure waves.
     ///
     /// # Errors
     /// [`Error::Scene`](crate::Error::Scene) for a ground with backfill;
@@ -134,8 +134,8 @@ impl TrenchMotion {
     /// // Acceleration of a pulse of one hertz.
     /// let pulse = |t: f64| (std::f64::consts::TAU * t).cos() * (-(t / 3.0).powi(2)).exp();
     /// let samples = (0..4000).map(|k| 0.01 * k as f64 - 20.0);
-    /// let second = |t: f64| (pulse(t + 0.01) - 2.0 * pulse(t) + pulse(t - 0.01)) / 1e-4;
-    /// let record = Record::new(0.01, samples.map(second).collect())?;
+    /// let second_derivative = |t: f64| (pulse(t + 0.01) - 2.0 * pulse(t) + pulse(t - 0.01)) / 1e-4;
+    /// let record = Record::new(0.01, samples.map(second_derivative).collect())?;
     /// let wave = PlaneWave::rayleigh(soil).field_from_horizontal(&record, -6.0)?;
     /// let motion = TrenchMotion::travelling(&ground, &wave, &mut unobserved)?;
     /// let [mut displacement, mut impulse] = [vec![0.0; 20], vec![0.0; 20]];
@@ -150,7 +150,7 @@ impl TrenchMotion {
     ///
     /// # Errors
     /// [`Error::Scene`](crate::Error::Scene) for a wave without records or with motion along y;
-    /// [`Error::Input`](crate::Error::Input) for one slower than surface waves; as for [`new`](Self::new).
+    /// [`Error::Input`](crate::Error::Input) for a wave that is slower than surface waves; as for [`new`](Self::new).
     pub fn travelling(
         ground: &TrenchGround,
         wave: &TravellingWave,

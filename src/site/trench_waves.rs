@@ -1,7 +1,7 @@
 //! Waves of one horizontal slowness at the depths of a trench's faces.
 //!
 //! A motion of the surface is transformed to Laplace's s, multiplied by the fields [below the surface](super::below_surface)
-//! and transformed back: accelerations of the soil, and stresses, which are rates of their impulses.
+//! and transformed back. The results are accelerations of the soil, and stresses, which are the rates of their impulses.
 
 use std::f64::consts::PI;
 
@@ -23,15 +23,15 @@ pub(super) type LevelRecords = [Option<Record>; VALUES_PER_LEVEL];
 
 /// Number of mean values of a level, with a record each.
 pub(super) const VALUES_PER_LEVEL: usize = 4;
-/// Rest before and after a record, in travel times of waves between base and surface: waves travel up and down.
+/// Rest before and after a record, in travel times of waves between base and surface: one time up and one down.
 const REST_TRAVEL_TIMES: f64 = 2.0;
-/// Rest before and after a record beyond the travel time, in samples, in which filters respond.
+/// Further rest before and after a record, in samples, for the response of the filters.
 const REST_SAMPLE_COUNT: f64 = 32.0;
-/// Number of Gauss points in each soil of a level: fields vary as exponentials over its depth.
+/// Number of Gauss points in each soil of a level; over its depth fields vary as exponentials.
 const POINTS_PER_PIECE: usize = 4;
 /// Bytes of a sample of a record with its integrals, and of temporary copies.
 const BYTES_PER_SAMPLE: f64 = 40.0;
-/// Fraction of a record's length over which motion before and after it fades.
+/// Duration in which motion before and after a record fades, relative to the record's duration.
 const FADING_FRACTION: f64 = 0.5;
 /// Smallest velocity along the surface, relative to the lowest shear wave speed.
 ///

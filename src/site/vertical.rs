@@ -5,7 +5,7 @@
 //!
 //! Aⱼ₊₁ = ½ Aⱼ(1+aⱼ) e^(κh) + ½ Bⱼ(1−aⱼ) e^(−κh),   Bⱼ₊₁ = ½ Aⱼ(1−aⱼ) e^(κh) + ½ Bⱼ(1+aⱼ) e^(−κh)
 //!
-//! the outcrop of the base moves by 2Aₙ, the base under the layers by Aₙ + Bₙ, the surface by 2. Amplitudes are computed
+//! The outcrop of the base moves by 2Aₙ, the base under the layers by Aₙ + Bₙ, the surface by 2. Amplitudes are computed
 //! without the factor e^(Σκh) of the layers above, which may exceed the range of f64.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
@@ -53,16 +53,18 @@ pub(super) enum ColumnQuantity {
 /// Speed of a wave in a soil, and its reciprocal.
 #[derive(Clone, Copy)]
 pub(super) struct WaveSpeed<C> {
+    /// Complex speed c, m/s.
     speed: C,
+    /// 1/c, s/m.
     slowness: C,
 }
 
 /// Amplitudes of the waves up and down at one depth.
 #[derive(Clone, Copy)]
 pub(super) struct WavePair<C> {
-    /// A.
+    /// Amplitude A of the upward wave.
     up: C,
-    /// B.
+    /// Amplitude B of the downward wave.
     down: C,
 }
 
@@ -79,7 +81,7 @@ impl<C: ComplexArithmetic> WavePair<C> {
     }
 }
 
-/// Intermediate values of a layer, or of the base, which has a speed only.
+/// Intermediate values of a layer, or of the base, of which only the speed is used.
 #[derive(Clone, Copy)]
 pub(super) struct ColumnLayer<C> {
     /// Speed in the unmodified soil.
@@ -108,7 +110,7 @@ impl<C: Copy> ColumnLayer<C> {
 /// Properties of a soil for one kind of wave.
 #[derive(Debug)]
 struct ColumnSoil {
-    /// ρ.
+    /// Density ρ, kg/m³.
     density: f64,
     /// Squared wave speed per shear modulus: M/(μρ), with the wave's stiffness M.
     squared_speed_per_modulus: f64,

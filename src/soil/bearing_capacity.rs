@@ -35,8 +35,9 @@ enum FootingOutline {
 
 /// Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D.
 ///
-/// Characteristic values, without partial factors. Annex D has no factors of depth and of sloping ground; sliding needs a
-/// separate check. The drained pressure is the bearing pressure of [`Yielding`](crate::interface::Yielding).
+/// All values are characteristic, without partial factors. Annex D has no factors for depth and for sloping ground;
+/// sliding needs a separate check. The drained pressure can be the bearing pressure of
+/// [`Yielding`](crate::interface::Yielding).
 ///
 /// ```
 /// use basemat::soil::{ShallowFooting, SoilStrength};
@@ -204,10 +205,10 @@ impl ShallowFooting {
         positive("bearing pressure of drained soil", pressure)
     }
 
-    /// Growth of the drained bearing pressure as the base sinks, Pa/m: γ N_q b_q s_q i_q.
+    /// Increase of the drained bearing pressure with depth as the base sinks, Pa/m.
     ///
-    /// The soil beside the base then presses on a level that lies deeper. Without the factors of tilt, shape and
-    /// inclination it is γ N_q.
+    /// The increase is γ N_q b_q s_q i_q, because the pressure of the soil beside the base grows by γ times the settlement.
+    /// Without the factors of tilt, shape and inclination it is γ N_q.
     ///
     /// ```
     /// use basemat::soil::{ShallowFooting, SoilStrength};
@@ -270,7 +271,7 @@ impl ShallowFooting {
         let needed = "at most the bearing pressure times the area of the base";
         require("vertical force on a footing", vertical, contact_ratio <= 1.0, needed)?;
         let arms = match self.outline {
-            // Also of an endless strip.
+            // An infinite side times zero would be NaN.
             FootingOutline::Rectangle if contact_ratio == 1.0 => [0.0; 2],
             FootingOutline::Rectangle => self.sides.map(|side| 0.5 * side * (1.0 - contact_ratio)),
             FootingOutline::Circle => [0.5 * self.sides[0] * segment_arm(contact_ratio); 2],
@@ -278,6 +279,7 @@ impl ShallowFooting {
         Ok(RockingCapacity { contact_ratio, moments: arms.map(|arm| vertical * arm) })
     }
 
+    /// Products of the factors b, s and i of drained soil (EN 1997-1:2004, D.4).
     fn drained_products(
         &self,
         strength: &SoilStrength,
@@ -318,7 +320,7 @@ impl ShallowFooting {
         })
     }
 
-    /// H/(V + A′ c cot φ).
+    /// Horizontal force over its drained resistance, H/(V + A′ c cot φ).
     fn mobilization(&self, strength: &SoilStrength, horizontal: f64) -> Result<f64> {
         if horizontal == 0.0 {
             return Ok(0.0);

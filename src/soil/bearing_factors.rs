@@ -42,6 +42,7 @@ impl BearingFactors {
         Self::of(&SoilStrength::new(friction_angle)?)
     }
 
+    /// Factors for the friction angle of `strength`.
     pub(super) fn of(strength: &SoilStrength) -> Result<Self> {
         let slope = strength.friction_angle().tan();
         // ln tan(π/4 + φ/2) = asinh(tan φ): no digits are lost in N_q − 1 at small angles.

@@ -1,4 +1,4 @@
-//! Damping laws in serde's formats, by name.
+//! Damping laws in serialized scenes, by their names.
 
 use std::any::Any;
 use std::sync::Arc;

@@ -1,11 +1,11 @@
-//! Modulus reduction and damping by the backbone of a soil.
+//! Modulus reduction and damping curves computed from the backbone of a soil.
 
 use std::f64::consts::{FRAC_2_PI, LN_10};
 
 use super::strain_curves::StrainCurves;
 use crate::error::{Result, at_least, positive, require};
 
-/// Rows of the table in a decade of strain: curves between them are straight to 0.2 %.
+/// Rows of the table in a decade of strain: interpolation between them errs by at most 0.2 %.
 const ROWS_PER_DECADE: f64 = 20.0;
 /// Upper limit, excluded, of the small-strain damping: with the largest Masing damping, 2/π, the ratio stays below one.
 const MAX_SMALL_STRAIN_DAMPING: f64 = 0.3;
@@ -16,11 +16,11 @@ impl StrainCurves {
     /// Curves of a soil whose stress–strain loops follow Masing's rules on a backbone.
     ///
     /// `points`: shear strain (engineering) and shear stress (Pa) of the backbone, which is straight from the origin to the
-    /// first point and between points, and constant beyond the last one. Such are the
-    /// [points of Iwan's model](crate::fem::Iwan::points): a column of these curves is the equivalent-linear approximation
-    /// of that material. With the area A under the backbone up to the strain γ and its stress τ, the damping ratio is
-    /// `small_strain_damping` + (2/π)(2A/(γτ) − 1) (Kramer 1996, Geotechnical Earthquake Engineering, § 6.4.2). Soils have
-    /// small-strain damping of 0.005 to 0.02, which Masing's loops lack.
+    /// first point and between points, and constant beyond the last one. The
+    /// [points of Iwan's model](crate::fem::Iwan::points) are such a backbone: a column of these curves is the
+    /// equivalent-linear approximation of that material. With the area A under the backbone up to the strain γ and its
+    /// stress τ, the damping ratio is `small_strain_damping` + (2/π)(2A/(γτ) − 1) (Kramer 1996, Geotechnical Earthquake
+    /// Engineering, § 6.4.2). Soils have a small-strain damping of 0.005 to 0.02, which Masing's loops do not include.
     ///
     /// ```
     /// use basemat::soil::StrainCurves;
@@ -69,7 +69,7 @@ impl StrainCurves {
     }
 }
 
-/// Stress of a backbone at a strain, Pa, and the area below the backbone up to it, J/m³.
+/// Stress of a backbone at a strain (Pa), and the area below the backbone up to this strain (J/m³).
 fn stress_and_area(points: &[[f64; 2]], strain: f64) -> (f64, f64) {
     let mut area = 0.0;
     let mut start_strain = 0.0;
@@ -92,7 +92,7 @@ fn stress_and_area(points: &[[f64; 2]], strain: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// The loop of an elastic–perfectly plastic spring has the area 4 τ (γ − γ_y), the triangle below it ½ τ γ.
+    /// Damping from areas: 4 τ (γ − γ_y) of the elastic–perfectly plastic loop, ½ τ γ of the secant's triangle.
     #[test]
     fn damping_is_the_area_of_the_loop() {
         let curves = StrainCurves::masing(&[[0.001, 20.0e3]], 0.01).unwrap();
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_backbones_are_refused() {
+    fn invalid_backbones_are_errors() {
         assert!(StrainCurves::masing(&[], 0.0).is_err());
         for points in [
             [[0.0, 1.0], [1.0, 2.0]],

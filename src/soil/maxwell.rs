@@ -1,4 +1,4 @@
-//! Nearly constant damping over a band of frequencies, causal and passive.
+//! Generalised Maxwell body: nearly constant damping over a band of frequencies.
 
 use super::nonnegative_least_squares::nonnegative_least_squares;
 use super::relaxation::{DampingKind, Relaxation, rounded};
@@ -7,11 +7,11 @@ use crate::linalg::{Complex, ComplexArithmetic, Lanes, Simd, WithSimd, vectorize
 
 /// Nearly constant damping over a band: a generalised Maxwell body.
 ///
-/// A spring in parallel with springs in series with dashpots: μ(s)/μ₀ = m (1 + Σ yᵢ s/(s + ωᵢ)), passive for
-/// yᵢ ≥ 0 (Emmerich & Korn 1987).
+/// The body is a spring in parallel with mechanisms, each a spring in series with a dashpot: μ(s)/μ₀ = m (1 + Σ yᵢ
+/// s/(s + ωᵢ)). It is causal, and passive for yᵢ ≥ 0 (Emmerich & Korn 1987).
 ///
-/// It is the usual choice for soil in the time domain. The long-term modulus m is below 1: static response is
-/// softer than waves at the reference frequency.
+/// It is the usual choice for soil in the time domain. The long-term modulus ratio m of a fitted body is below 1: the
+/// static response is softer than waves at the reference frequency.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "GeneralizedMaxwellForm"))]
@@ -22,7 +22,7 @@ pub struct GeneralizedMaxwell {
     ratios: Vec<f64>,
     /// Relaxation rates ωᵢ of the mechanisms, 1/s.
     rates: Vec<f64>,
-    /// Damping ratio and band (Hz), if the body was fitted to them.
+    /// Damping ratio, and lowest and highest frequency (Hz), to which the body was fitted; `None` for other bodies.
     fitted: Option<[f64; 3]>,
 }
 
@@ -37,7 +37,7 @@ validated! {
     => GeneralizedMaxwell::new(long_term, ratios, rates).map(|body| Self { fitted: fitted.filter(is_band), ..body })
 }
 
-/// Whether the three numbers are a damping ratio and a band.
+/// Whether the three numbers are a damping ratio and an ascending band of frequencies.
 #[cfg(feature = "serde")]
 fn is_band([ratio, low, high]: &[f64; 3]) -> bool {
     *ratio >= 0.0 && *low > 0.0 && low < high && (ratio + high).is_finite()
@@ -51,8 +51,10 @@ const FIT_FREQUENCIES: usize = 120;
 const MECHANISMS_PER_DECADE: f64 = 2.0;
 /// Factor by which the relaxation rates extend beyond the band at both ends.
 const BAND_EXTENSION_FACTOR: f64 = 1.8;
-/// Largest deviation from the damping ratio in the band, relative.
+/// Largest relative deviation from the damping ratio in the band with which a fit is accepted.
 const MAX_DAMPING_DEVIATION: f64 = 0.15;
+/// Largest ratio of the band's frequencies: soil needs no more, and the number of mechanisms is at most 14.
+const MAX_BAND_RATIO: f64 = 1e6;
 
 impl GeneralizedMaxwell {
     /// Body with the long-term modulus ratio m, the ratios yᵢ and the relaxation rates ωᵢ (1/s).
@@ -73,7 +75,8 @@ impl GeneralizedMaxwell {
     /// Body with the damping `ratio` ξ over `band` (lowest and highest frequency, Hz).
     ///
     /// Re μ = μ₀ at the frequency `reference` (Hz). Im μ = 2ξ Re μ is fitted by nonnegative least squares,
-    /// with two mechanisms per decade and two more. The damping ratio is within a few per cent of ξ.
+    /// with two mechanisms per decade and two more. The damping ratio is usually within a few per cent of ξ; a fit with
+    /// an error above 15 % is not returned.
     ///
     /// ```
     /// use basemat::soil::GeneralizedMaxwell;
@@ -97,7 +100,7 @@ impl GeneralizedMaxwell {
         require(
             quantity,
             band_ratio,
-            band_ratio > 1.0 && band_ratio <= 1e6,
+            band_ratio > 1.0 && band_ratio <= MAX_BAND_RATIO,
             "above 1 and at most 1e6",
         )?;
         if ratio == 0.0 {

@@ -1,12 +1,12 @@
-//! Least squares with unknowns that are not negative.
+//! Least-squares solution with unknowns that are not negative.
 
-/// Largest number of passes of nonnegative least squares, per column.
+/// Largest number of passes, per column.
 ///
-/// Each pass frees one unknown; some unknowns are fixed and freed again.
+/// Each pass frees one unknown. Some unknowns are fixed and freed again, so that more passes than columns are possible.
 const MAX_PASSES_PER_COLUMN: usize = 10;
 /// Smallest gradient along a fixed unknown that frees it, relative to the norms of its column and of the right-hand side.
 const GRADIENT_TOLERANCE: f64 = 1e-12;
-/// Largest value of a decreasing unknown that counts as zero.
+/// Largest value of a decreasing unknown that counts as zero: above its rounding, below any ratio of interest.
 const ZERO_TOLERANCE: f64 = 1e-14;
 
 /// x ≥ 0 that minimises |A x − b| (Lawson & Hanson 1974, ch. 23).
@@ -33,13 +33,13 @@ pub(super) fn nonnegative_least_squares(
             gradients[j] = column(matrix, column_count, j).zip(&residual).map(|(a, b)| a * b).sum();
             column_norms[j] = column(matrix, column_count, j).map(|a| a * a).sum::<f64>().sqrt();
         }
-        let steepest = (0..column_count)
+        let steepest_column = (0..column_count)
             .filter(|&j| {
                 !is_free[j] && gradients[j] > GRADIENT_TOLERANCE * rhs_norm * column_norms[j]
             })
             .max_by(|&i, &j| gradients[i].total_cmp(&gradients[j]));
-        let Some(steepest) = steepest else { break };
-        is_free[steepest] = true;
+        let Some(steepest_column) = steepest_column else { break };
+        is_free[steepest_column] = true;
         loop {
             let trial_solution = free_least_squares(matrix, column_count, rhs, &is_free);
             let step_fraction = (0..column_count)
@@ -113,6 +113,7 @@ fn free_least_squares(
     x
 }
 
+/// Scalar product, summed in order.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -123,7 +124,7 @@ mod tests {
 
     #[test]
     fn unknowns_that_would_be_negative_are_zero() {
-        // [[1, 1], [1, −1]]: free solutions (2, 1), (2, −1) and (−2, 1).
+        // The matrix [[1, 1], [1, −1]]; without the bound the solutions are (2, 1), (2, −1) and (−2, 1).
         let matrix = [1.0, 1.0, 1.0, -1.0];
         for (rhs, expected) in
             [([3.0, 1.0], [2.0, 1.0]), ([1.0, 3.0], [2.0, 0.0]), ([-1.0, -3.0], [0.0, 1.0])]

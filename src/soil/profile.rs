@@ -1,4 +1,4 @@
-//! Horizontally layered ground.
+//! Profile of horizontal soil layers on a half-plane or on rigid bedrock.
 
 use std::fmt;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::error::{Result, SoilError, at_least, positive, require, require_part}
 pub struct SoilLayer {
     /// Elastic constants.
     ///
-    /// The moduli apply at the frequency where the damping law is 1.
+    /// The moduli are those at the frequency where the modulus ratio μ/μ₀ of the damping law is 1.
     pub soil: Soil,
     /// Thickness, m.
     pub thickness: f64,
@@ -42,8 +42,8 @@ pub enum Bedrock {
 
 /// Horizontal layers, from the surface down, on a half-plane or rigid bedrock.
 ///
-/// With the feature `serde`, profiles with the crate's damping laws can be written and read. Writing a
-/// damping law that the user wrote returns an error.
+/// With the feature `serde`, profiles with the crate's damping laws can be serialized and deserialized. Serializing a
+/// user's damping law returns an error.
 ///
 /// ```
 /// use basemat::Soil;
@@ -74,17 +74,17 @@ validated! {
     => SoilProfile::new(layers, bedrock)
 }
 
-/// Largest number of layers of a profile.
+/// Largest number of layers of a profile, far above that of any sounding: a longer list is a mistake.
 const MAX_LAYERS: usize = 1000;
 
 impl SoilProfile {
-    /// A half-plane of an elastic soil, without layers so far.
+    /// Creates a profile without layers on a half-plane of an elastic soil.
     pub fn on_half_plane(soil: Soil) -> Self {
         let bedrock = Bedrock::HalfPlane { soil, damping: Arc::new(Elastic) };
         Self { layers: vec![], bedrock, has_damping_before_layers: false }
     }
 
-    /// Rigid bedrock without layers so far; add at least one.
+    /// Creates a profile without layers on rigid bedrock; add at least one layer.
     pub fn on_rigid_bedrock() -> Self {
         Self { layers: vec![], bedrock: Bedrock::Rigid, has_damping_before_layers: false }
     }
@@ -103,7 +103,7 @@ impl SoilProfile {
 
     /// Adds a layer below all others.
     ///
-    /// It is elastic until [`with_damping`](SoilProfile::with_damping) is called.
+    /// The layer is elastic until [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
     /// [`Error::Item`](crate::Error::Item) for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
@@ -214,6 +214,7 @@ impl SoilProfile {
         at_least("list of soil layers", self.soils().count(), 1)
     }
 
+    /// Error for too many layers, and for thicknesses or a depth that are not finite and positive.
     fn check_depth(&self) -> Result<()> {
         let layer_count = self.layers.len();
         require(
@@ -255,7 +256,7 @@ impl SoilProfile {
         })
     }
 
-    /// The part above a depth (m), on rigid bedrock.
+    /// Profile of the soils above a depth (m), on rigid bedrock at this depth.
     pub(crate) fn above(&self, depth: f64) -> Self {
         let mut remaining = depth;
         let mut layers = Vec::new();

@@ -4,9 +4,9 @@ use super::SoilProfile;
 use crate::error::{Result, SoilError};
 use crate::linalg::Complex;
 
-/// Largest |Re(μ/s)|/|μ/s| that counts as zero: rounding of the modulus.
+/// Largest |Re(μ/s)|/|μ/s| that counts as zero, because the modulus has rounding errors.
 const PASSIVITY_TOLERANCE: f64 = 1e-12;
-/// Square of Re(μ/s)/|μ/s| above which a modulus is passive in spite of rounding.
+/// Square of Re(μ/s)/|μ/s| above which a modulus is passive without the exact check.
 const MIN_SQUARED_PASSIVITY: f64 = 1e-20;
 /// Values of |μ|² |s|² for which no product overflows or loses digits.
 const SAFE_SQUARE_RANGE: std::ops::RangeInclusive<f64> = 1e-280..=1e280;
@@ -40,12 +40,12 @@ impl SoilProfile {
             let first_modulus = moduli.len();
             moduli.extend_from_slice(&modulus_ratios);
             let soil_moduli = &mut moduli[first_modulus..];
-            // Where Re(μ/s) is clearly positive and nothing overflows, the exact check is not needed.
+            // Where Re(μ/s) is clearly positive and no product overflows, the exact check is not needed.
             let mut are_clearly_passive = true;
             for (modulus, s) in soil_moduli.iter_mut().zip(s) {
                 *modulus = modulus.scale(soil.shear_modulus());
                 let power = modulus.re * s.re + modulus.im * s.im;
-                let square = modulus.square() * s.square();
+                let square = modulus.squared_modulus() * s.squared_modulus();
                 are_clearly_passive &= power > 0.0
                     && power * power > MIN_SQUARED_PASSIVITY * square
                     && SAFE_SQUARE_RANGE.contains(&square);

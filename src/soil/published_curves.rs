@@ -1,4 +1,4 @@
-//! Published strain curves as tables: the digitized values of pystrata 0.5.4.
+//! Tables of published strain curves, as digitized in pystrata 0.5.4.
 
 /// Strains of the curves of Seed & Idriss and of Vucetic & Dobry.
 pub(super) const NINE_STRAINS: [f64; 9] =
@@ -9,7 +9,7 @@ pub(super) const SEVENTEEN_STRAINS: [f64; 17] = [
     3.162e-4, 5.623e-4, 1e-3, 1.778e-3, 3.162e-3, 5.623e-3, 1e-2,
 ];
 
-/// Modulus and damping of the mean, modulus of the upper bound, damping of the lower bound.
+/// Seed & Idriss: modulus and damping of the mean, modulus of the upper bound, damping of the lower bound.
 pub(super) const SEED_IDRISS_CURVES: [[f64; 9]; 4] = [
     [1.0, 0.99, 0.96, 0.88, 0.74, 0.52, 0.29, 0.15, 0.06],
     [0.0057, 0.0086, 0.017, 0.031, 0.055, 0.095, 0.155, 0.211, 0.246],
@@ -17,7 +17,7 @@ pub(super) const SEED_IDRISS_CURVES: [[f64; 9]; 4] = [
     [0.005, 0.006, 0.008, 0.014, 0.028, 0.053, 0.1, 0.158, 0.215],
 ];
 
-/// A published curve.
+/// Published curves of modulus and damping for one value of a parameter.
 pub(super) struct DrawnCurve<const N: usize> {
     /// Plasticity index (per cent) or depth (m) for which the curve was drawn.
     pub(super) parameter: f64,
@@ -35,7 +35,7 @@ const fn drawn_curve<const N: usize>(
     DrawnCurve { parameter, reduction, damping }
 }
 
-/// Curves for plasticity indices, per cent.
+/// Curves of Vucetic & Dobry for plasticity indices, per cent.
 pub(super) const VUCETIC_DOBRY_CURVES: [DrawnCurve<9>; 6] = [
     drawn_curve(
         0.0,
@@ -69,7 +69,7 @@ pub(super) const VUCETIC_DOBRY_CURVES: [DrawnCurve<9>; 6] = [
     ),
 ];
 
-/// Curves for the depths (m) down to which they hold.
+/// Curves of EPRI for ranges of depth; the parameter is the lower end of the range, m.
 pub(super) const EPRI_CURVES: [DrawnCurve<17>; 6] = [
     drawn_curve(
         6.096,

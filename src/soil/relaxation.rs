@@ -1,4 +1,4 @@
-//! Damping of soil: shear moduli that depend on frequency.
+//! Damping laws of soil: shear moduli that depend on frequency.
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -44,8 +44,8 @@ pub trait Relaxation: Any + Debug + Send + Sync {
 
     /// Overwrites `moduli` with μ(s)/μ₀ at each of `s`, slices of one length.
     ///
-    /// Site response calls it for many frequencies at once. The default calls [`modulus`](Relaxation::modulus) for
-    /// each. A law may compute many moduli in another way, with results equal to those of `modulus` within rounding.
+    /// Site response calls this method for many frequencies at once. The default calls [`modulus`](Relaxation::modulus)
+    /// for each. A law may compute many moduli in another way, with results equal to those of `modulus` within rounding.
     fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
         for (modulus, s) in moduli.iter_mut().zip(s) {
             *modulus = self.modulus(*s);
@@ -64,7 +64,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
 
     /// Numbers that identify the law, so that grounds with equal laws can share convolution weights.
     ///
-    /// The first number must distinguish kinds of laws. `None` (the default) if the law cannot be identified.
+    /// The first number must differ for each kind of law. `None` (the default) for a law without such numbers.
     fn identity(&self) -> Option<Vec<f64>> {
         None
     }
@@ -115,6 +115,7 @@ impl Relaxation for Elastic {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "KelvinVoigtForm"))]
 pub struct KelvinVoigt {
+    /// Relaxation time η, s.
     time: f64,
 }
 
@@ -175,7 +176,9 @@ impl Relaxation for KelvinVoigt {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "KjartanssonForm"))]
 pub struct Kjartansson {
+    /// Exponent 2γ.
     exponent: f64,
+    /// Circular reference frequency ω₀, rad/s.
     reference: f64,
 }
 
@@ -197,7 +200,7 @@ impl Kjartansson {
         Ok(Self { exponent, reference: std::f64::consts::TAU * reference })
     }
 
-    /// Law from the exponent 2γ and the circular frequency ω₀ (rad/s), as serde stores it.
+    /// Law from its serialized numbers: exponent 2γ and circular frequency ω₀ (rad/s).
     #[cfg(feature = "serde")]
     fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
         positive("reference frequency of a damping law", reference)?;
@@ -228,13 +231,14 @@ impl Relaxation for Kjartansson {
 
 /// Hysteretic damping μ₀(1 + 2iξ sgn ω), the usual damping of the frequency domain.
 ///
-/// The law is not analytic in s, so it is not causal. Grounds in the time domain return an error for it;
-/// [`GeneralizedMaxwell`](super::GeneralizedMaxwell) is close to it and causal.
+/// The law is not analytic in s, and therefore not causal: grounds in the time domain return an error. A
+/// [`GeneralizedMaxwell`](super::GeneralizedMaxwell) body is causal, and close to this law over its band.
 /// [Impedances](crate::bem::ElasticGround::impedances) accept it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "HystereticForm"))]
 pub struct Hysteretic {
+    /// Damping ratio ξ.
     ratio: f64,
 }
 

@@ -4,13 +4,15 @@ use super::strain_curves::{ResolvedCurves, StrainCurves};
 use crate::error::{Result, positive, require};
 use crate::fem::Iwan;
 
-/// Strains at which a backbone follows curves that are equations: four a decade.
+/// Strains of the backbone's points for curves that are equations: four in each decade.
 const BACKBONE_STRAINS: [f64; 17] = [
     1e-6, 1.778e-6, 3.162e-6, 5.623e-6, 1e-5, 1.778e-5, 3.162e-5, 5.623e-5, 1e-4, 1.778e-4,
     3.162e-4, 5.623e-4, 1e-3, 1.778e-3, 3.162e-3, 5.623e-3, 1e-2,
 ];
 
-/// Stress below a concave backbone over the stress: published curves have up to 0.0005 by the rounding of their digits.
+/// Largest deficit of a stress below a concave backbone, relative to the stress.
+///
+/// Published curves have deficits up to 0.0005, because their digits are rounded.
 const CONCAVITY_TOLERANCE: f64 = 1e-3;
 
 impl StrainCurves {
@@ -18,8 +20,8 @@ impl StrainCurves {
     ///
     /// `shear_modulus`: G_max, Pa. `strength`: largest shear stress, Pa. `poisson` and `density` (kg/m³) are those of
     /// [`Iwan::new`]. The backbone τ = G_max (G/G_max) γ passes through the points of the curves (Darendeli's: 17 strains
-    /// from 10⁻⁶ to 1 %) and is straight between them. It ends where it reaches the strength; curves that end below the
-    /// strength go on with their last slope. The curves of damping have no part in it: damping follows from Masing's rules.
+    /// from 10⁻⁶ to 1 %) and is straight between them. It ends where it reaches the strength. Curves that end below the
+    /// strength are continued with their last slope. The damping curves are not used: damping follows from Masing's rules.
     ///
     /// ```
     /// use basemat::soil::StrainCurves;
@@ -62,7 +64,7 @@ impl StrainCurves {
     }
 }
 
-/// Adds a point, and removes those before it that lie below the concave curve by no more than the tolerance.
+/// Adds a point, and removes preceding points that are below a concave curve by no more than the tolerance.
 fn add_concave(points: &mut Vec<[f64; 2]>, point: [f64; 2]) {
     while let Some(&last_point) = points.last() {
         let start = points.len().checked_sub(2).map_or([0.0; 2], |index| points[index]);
@@ -83,7 +85,7 @@ fn end_at_strength(points: &mut Vec<[f64; 2]>, shear_modulus: f64, strength: f64
         points.truncate(index + 1);
     } else if let [.., start, end] = points[..] {
         let slope = (end[1] - start[1]) / (end[0] - start[0]);
-        // The constructor of the model refuses a descending curve with the number of its point.
+        // The constructor of the model returns an error for a descending curve, with the number of the point.
         if slope < 0.0 {
             return Ok(());
         }
@@ -166,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_without_a_backbone_are_refused() {
+    fn curves_without_a_backbone_are_errors() {
         let convex =
             vec![[1e-4, 0.5, 0.01], [1e-3, 0.5, 0.1], [2e-3, 0.48, 0.2], [3e-3, 0.475, 0.2]];
         let descending = vec![[1e-4, 1.0, 0.01], [1e-3, 0.5, 0.1], [1e-2, 0.01, 0.2]];
@@ -181,9 +183,9 @@ mod tests {
             assert!(text.contains(part), "{text}");
         }
         let curves = StrainCurves::SeedIdrissMean;
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(curves.iwan(bad, 1.0e4, 0.3, 0.0).is_err());
-            assert!(curves.iwan(1.0e8, bad, 0.3, 0.0).is_err());
+        for invalid_value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(curves.iwan(invalid_value, 1.0e4, 0.3, 0.0).is_err());
+            assert!(curves.iwan(1.0e8, invalid_value, 0.3, 0.0).is_err());
         }
         assert!(curves.iwan(1.0e8, 1.0e4, 0.5, 0.0).is_err());
         assert!(StrainCurves::Table(vec![]).iwan(1.0e8, 1.0e4, 0.3, 0.0).is_err());

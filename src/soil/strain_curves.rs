@@ -7,9 +7,9 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive,
 
 /// Secant shear modulus and damping ratio of a soil as functions of the shear strain's amplitude.
 ///
-/// Published curves are drawings; the numbers here are the digitized values of pystrata 0.5.4. Darendeli's
-/// curves are computed from his equations. Between points both quantities are linear in the logarithm of
-/// strain. Outside the points they keep the value at the end. Strains are plain numbers: 0.01 is 1 %.
+/// Published curves are drawings; their numbers are the digitized values of pystrata 0.5.4. Darendeli's curves are
+/// computed from his equations. Between points both quantities are linear in the logarithm of strain. Outside the range
+/// of the points both are constant. Strains are plain numbers: 0.01 is 1 %.
 ///
 /// ```
 /// use basemat::soil::StrainCurves;
@@ -85,6 +85,8 @@ const HYPERBOLA_CURVATURE: f64 = 0.919;
 const MAX_DAMPING_STRAIN_RATIO: f64 = 55.45;
 /// Strain over the reference strain below which the exact loop area loses digits by cancellation.
 const MIN_EXACT_STRAIN_RATIO: f64 = 1e-5;
+/// Lowest frequency of Darendeli's curves (Hz), below which the small-strain damping turns negative.
+const MIN_DARENDELI_FREQUENCY: f64 = 0.05;
 /// Largest strain of Darendeli's curves.
 const MAX_DARENDELI_STRAIN: f64 = 0.01;
 /// Atmospheric pressure, Pa.
@@ -100,7 +102,7 @@ impl StrainCurves {
         Ok(self.resolved()?.at(strain))
     }
 
-    /// Checks the parameters of these curves and applies them.
+    /// Checks the parameters of these curves, and returns the curves for evaluation.
     pub(crate) fn resolved(&self) -> Result<ResolvedCurves> {
         let rows = match self {
             Self::Linear { damping } => {
@@ -204,7 +206,7 @@ fn darendeli_reduction(strain_ratio: f64) -> f64 {
     1.0 / (1.0 + strain_ratio.powf(HYPERBOLA_CURVATURE))
 }
 
-/// Parameters of Darendeli's model, by its means (2001).
+/// Curves of Darendeli's model with the mean values of its parameters (2001).
 fn darendeli(
     plasticity_index: f64,
     overconsolidation_ratio: f64,
@@ -215,7 +217,7 @@ fn darendeli(
     not_negative("plasticity index", plasticity_index)?;
     positive("overconsolidation ratio", overconsolidation_ratio)?;
     let stress_ratio = positive("mean effective stress (Pa)", mean_stress)? / ATMOSPHERIC_PRESSURE;
-    let is_in_range = frequency >= 0.05 && frequency.is_finite();
+    let is_in_range = frequency >= MIN_DARENDELI_FREQUENCY && frequency.is_finite();
     let quantity = "frequency of Darendeli's curves (Hz)";
     require(quantity, frequency, is_in_range, "finite and at least 0.05")?;
     let is_cycle_count = cycles >= 1.0 && cycles.is_finite();

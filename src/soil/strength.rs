@@ -64,8 +64,8 @@ impl SoilStrength {
 
     /// Sets the friction angle (rad) between soil and wall, from 0 to the friction angle of the soil.
     ///
-    /// Plane wedges overestimate the passive pressure from about a third of the soil's angle on, where slip surfaces
-    /// are curved (Terzaghi 1943): take no larger angle, unless the wall's friction is certain to act.
+    /// If the angle is above about a third of the soil's angle, slip surfaces are curved, and plane wedges overestimate
+    /// the passive pressure (Terzaghi 1943). Use no larger angle.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an angle below zero, above the soil's, or so large that no plane wedge
@@ -100,9 +100,9 @@ impl SoilStrength {
 
     /// Active and passive horizontal pressure over the vertical pressure, without cohesion.
     ///
-    /// K = (cos φ/(1 ± √(sin(φ + δ) sin φ/cos δ)))²: the components across the wall of Coulomb's thrust (1776, in the
-    /// form of Müller-Breslau 1906), which is inclined at δ and larger by the factor 1/cos δ. Without wall
-    /// friction tan²(π/4 ∓ φ/2) (Rankine 1857).
+    /// K = (cos φ/(1 ± √(sin(φ + δ) sin φ/cos δ)))² is the component of Coulomb's thrust normal to the wall (1776, in the
+    /// form of Müller-Breslau 1906). The thrust is inclined at δ, and larger by the factor 1/cos δ. Without wall friction
+    /// K = tan²(π/4 ∓ φ/2) (Rankine 1857).
     pub fn pressure_ratios(&self) -> [f64; 2] {
         let coulomb_root = self.coulomb_root();
         [1.0 + coulomb_root, 1.0 - coulomb_root]

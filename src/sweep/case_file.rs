@@ -13,11 +13,12 @@ use crate::error::{Error, Result, SweepError, require_part, same_length};
 use crate::text::check_sum::CheckSum;
 use crate::text::file::{make_folder_of, replace_file, write_error};
 
-/// A file of a sweep's cases for a program that runs them itself: rows are appended, and a later process continues.
+/// A file of a sweep's cases, to which a program appends rows and from which a later process continues.
 ///
 /// While cases run, their rows are in the file with `.part` at the end of its name, as for
-/// [`Sweep::table_in`](super::Sweep::table_in). A column of results is there once a case has it, and `warnings` if a
-/// case has some; a result that a case does not have is NaN. Two processes must not append to the same file.
+/// [`Sweep::table_in`](super::Sweep::table_in). The file has a column for each result of any case, and a column
+/// `warnings` if any case has warnings. A result that a case does not have is NaN. Two processes must not append to the
+/// same file.
 ///
 /// ```
 /// use basemat::sweep::{Parameter, Sweep};
@@ -153,7 +154,7 @@ impl CaseFile {
         })
     }
 
-    /// Adds columns that are not there; returns whether there were such.
+    /// Adds the missing columns; returns whether a column was missing.
     fn extend_columns(&mut self, new_columns: &Columns) -> Result<bool> {
         let mut all_columns = self.columns.clone();
         for name in &new_columns.names {
@@ -271,7 +272,7 @@ impl CaseFile {
 
     /// Writes the whole file at once, removes the file of rows, and returns the table.
     ///
-    /// A file that was whole before is left as it is.
+    /// A file that was already complete stays unchanged.
     ///
     /// # Errors
     /// [`SweepError::Missing`] if a case has no row; [`SweepError::Unwritten`] if the file cannot be written.

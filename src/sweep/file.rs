@@ -220,17 +220,17 @@ fn table_row(
 ) -> std::result::Result<TableRow, FileFault> {
     let cells: Vec<_> = record.iter().collect();
     let cell_count = heading(grid, columns).len();
-    let [case_text, cells @ .., reason] = &cells[..] else {
+    if cells.len() != cell_count {
+        return Err(FileFault::count("cells", cells.len(), cell_count.to_string()));
+    }
+    let [case_text, inner_cells @ .., reason] = &cells[..] else {
         return Err(FileFault::count("cells", cells.len(), cell_count.to_string()));
     };
-    if cells.len() + 2 != cell_count {
-        return Err(FileFault::count("cells", cells.len() + 2, cell_count.to_string()));
-    }
     let results_begin = grid.parameters.len();
     let results_end = results_begin + columns.names.len();
-    let parameters = &cells[..results_begin];
-    let results = &cells[results_begin..results_end];
-    let warnings = cells[results_end..].concat();
+    let parameters = &inner_cells[..results_begin];
+    let results = &inner_cells[results_begin..results_end];
+    let warnings = inner_cells[results_end..].concat();
     let has_only_digits = case_text.bytes().all(|byte| byte.is_ascii_digit());
     let case = case_text.parse().ok().filter(|&case| has_only_digits && is_expected_case(case));
     let case = case.ok_or_else(|| {

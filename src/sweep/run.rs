@@ -114,9 +114,9 @@ impl<'a> Sweep<'a> {
     /// one case.
     ///
     /// # Errors
-    /// [`Error::DuplicateName`] if two parameters have the same name, or one is called `case`, `warnings` or
-    /// `error`; [`Error::Sweep`] for a parameter without a name or values, and for a value that occurs twice,
-    /// is not finite or is an empty text; [`Error::Memory`] for more cases than a table holds.
+    /// [`Error::DuplicateName`] if two parameters have the same name, or one is called `case`, `warnings` or `error`;
+    /// [`Error::Scene`] for a parameter without a name; [`Error::Item`] for a parameter without values, and for a value
+    /// that occurs twice, is not finite or is an empty text; [`Error::Memory`] for more cases than a table holds.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
         Ok(Self::over_grid(CaseGrid::new(parameters.into_iter().collect())?))
     }

@@ -16,11 +16,11 @@ impl Sweep<'_> {
     /// A process that was killed and started again continues where it stopped; if the table is complete, it
     /// is only read.
     ///
-    /// While cases run, their rows are in the file `path` with `.part` at its end. When all rows are there,
-    /// `path` itself is written at once and the other file removed. Cases with a row in either file are not
-    /// run again, nor are failed cases. To run a case again, delete its row and the check sum in the first line of
-    /// `path`. After a change of the computation itself, delete both files. Two processes must not use the same
-    /// file. Progress ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
+    /// While cases run, their rows are in a file whose name is `path` with `.part` at its end. When it has all rows,
+    /// `path` itself is written at once and the other file removed. Cases with a row in either file are not run again,
+    /// nor are failed cases. To run a case again, delete its row and the check sum in the first line of `path`. After a
+    /// change of the computation itself, delete both files. Two processes must not use the same file. Progress
+    /// ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
     ///
     /// # Errors
     /// As for [`Sweep::table`]; [`Error::File`](crate::Error::File) if the file of rows cannot be opened.
@@ -107,7 +107,7 @@ impl Sweep<'_> {
     }
 }
 
-/// Largest number of missing shards that an error lists; above, it lists cases.
+/// Largest number of missing shards that an error lists; for more shards it lists cases.
 const MAX_LISTED_SHARDS: usize = 256;
 
 /// The shards `[index, shard_count]` whose cases are exactly the missing ones, if there are such.
@@ -162,16 +162,16 @@ mod tests {
     use super::*;
 
     /// The cases of a shard of ten cases.
-    fn shard(index: usize, of: usize) -> Vec<usize> {
-        (index..10).step_by(of).collect()
+    fn shard(index: usize, shard_count: usize) -> Vec<usize> {
+        (index..10).step_by(shard_count).collect()
     }
 
     #[test]
     fn shards_that_are_missing() {
         assert_eq!(missing_shards(&shard(1, 4), 10, 3), [[1, 4]]);
-        let mut two = [shard(0, 4), shard(3, 4)].concat();
-        two.sort_unstable();
-        assert_eq!(missing_shards(&two, 10, 2), [[0, 4], [3, 4]]);
+        let mut missing_positions = [shard(0, 4), shard(3, 4)].concat();
+        missing_positions.sort_unstable();
+        assert_eq!(missing_shards(&missing_positions, 10, 2), [[0, 4], [3, 4]]);
         // One case more, one case less, and no files.
         assert!(missing_shards(&[1, 2, 5, 9], 10, 3).is_empty());
         assert!(missing_shards(&[1, 5], 10, 3).is_empty());

@@ -292,7 +292,7 @@ fn five_figures(value: f64) -> String {
 
 impl fmt::Display for CaseTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let columns = self.columns.names.len();
+        let result_count = self.columns.names.len();
         let results = Columns::of_results(self.columns.names.clone());
         let mut heading = heading(&self.grid, &results);
         heading.pop();
@@ -301,7 +301,7 @@ impl fmt::Display for CaseTable {
             cells.extend(parameter_cells(&self.grid, row.case));
             match &row.outcome {
                 Ok(results) => cells.extend(results.iter().map(|&value| five_figures(value))),
-                Err(_) => cells.extend(std::iter::repeat_n("failed".to_owned(), columns)),
+                Err(_) => cells.extend(std::iter::repeat_n("failed".to_owned(), result_count)),
             }
             cells
         });

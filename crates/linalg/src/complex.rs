@@ -51,7 +51,7 @@ impl Complex {
     /// Absolute value.
     #[inline]
     pub fn abs(self) -> f64 {
-        let square = self.square();
+        let square = self.squared_modulus();
         // `hypot` is slower, but its intermediate results stay in the range of f64.
         if square.is_normal() { square.sqrt() } else { self.re.hypot(self.im) }
     }
@@ -59,7 +59,7 @@ impl Complex {
     /// |x|².
     #[doc(hidden)]
     #[inline]
-    pub fn square(self) -> f64 {
+    pub fn squared_modulus(self) -> f64 {
         self.re * self.re + self.im * self.im
     }
 
@@ -83,13 +83,13 @@ impl Complex {
     #[must_use]
     #[inline]
     pub fn inverse(self) -> Self {
-        let square = self.square();
+        let square = self.squared_modulus();
         if square.is_normal() {
             return self.conj().scale(1.0 / square);
         }
         let magnitude = self.re.abs().max(self.im.abs());
         let scaled = self.scale(1.0 / magnitude);
-        scaled.conj().scale(1.0 / scaled.square()).scale(1.0 / magnitude)
+        scaled.conj().scale(1.0 / scaled.squared_modulus()).scale(1.0 / magnitude)
     }
 
     /// Square root with a real part not below zero.
@@ -151,13 +151,13 @@ impl Complex {
         if self.im == 0.0 {
             return Self::real(re);
         }
-        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - self.square()))
+        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - self.squared_modulus()))
     }
 
     /// This number in the type of transforms and matrices.
     #[doc(hidden)]
     #[inline]
-    pub fn inner(self) -> Complex64 {
+    pub fn to_complex64(self) -> Complex64 {
         Complex64::new(self.re, self.im)
     }
 
@@ -212,7 +212,7 @@ impl Div for Complex {
     type Output = Self;
     #[inline]
     fn div(self, other: Self) -> Self {
-        let square = other.square();
+        let square = other.squared_modulus();
         if square.is_normal() {
             return (self * other.conj()).scale(1.0 / square);
         }

@@ -1,14 +1,15 @@
 //! Condition numbers from factors.
 //!
 //! The matrix A is first scaled by the roots of its diagonal to S A S with sᵢ = |aᵢᵢ|^−½. The condition number of S A S
-//! does not depend on units (a degree of freedom may be a length or an angle). For a positive definite matrix of order n
-//! it is at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969). It bounds the
+//! does not depend on units (a degree of freedom may be a length or an angle). For a positive definite matrix of order
+//! n it is at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969). It bounds the
 //! error of a Cholesky solve, with and without scaling (Higham 2002, theorem 10.6 with § 10.1.1).
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
-/// Largest number of iterations of the estimator, as in LAPACK's dlacn2: more seldom improve it.
-const MAX_ESTIMATOR_PRODUCTS: usize = 5;
+/// Largest number of iterations of the estimator, as in LAPACK's dlacn2: further iterations seldom improve the
+/// estimate.
+const MAX_ESTIMATOR_ITERATIONS: usize = 5;
 
 /// Estimate of the norm ‖B‖₁ of a matrix from its products.
 ///
@@ -16,12 +17,12 @@ const MAX_ESTIMATOR_PRODUCTS: usize = 5;
 ///
 /// Hager's algorithm with Higham's refinements (Higham 2002, algorithm 15.4; LAPACK's dlacn2): a
 /// lower bound, nearly always within a factor of three. Infinite if a product is not finite.
-fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
+fn estimated_one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
     let mut x = vec![1.0 / order as f64; order];
     let mut signs = vec![0.0; order];
     let mut estimate = 0.0_f64;
     let mut unit_index = usize::MAX;
-    for iteration in 0..MAX_ESTIMATOR_PRODUCTS {
+    for iteration in 0..MAX_ESTIMATOR_ITERATIONS {
         multiply(&mut x, false);
         let norm: f64 = x.iter().map(|x| x.abs()).sum();
         if !norm.is_finite() {
@@ -88,7 +89,7 @@ pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     if !factor.factor(&scaled, order) {
         return f64::INFINITY;
     }
-    norm * one_norm(order, &mut |x, is_transposed| {
+    norm * estimated_one_norm(order, &mut |x, is_transposed| {
         if is_transposed { factor.solve_transposed(x) } else { factor.solve(x) }
     })
 }
@@ -103,12 +104,12 @@ pub fn condition_by_products(
 ) -> f64 {
     let roots = roots_of_diagonal(diagonal.iter().copied());
     let reciprocals: Vec<f64> = roots.iter().map(|root| root.recip()).collect();
-    let norm = one_norm(diagonal.len(), &mut |x, is_transposed| {
+    let norm = estimated_one_norm(diagonal.len(), &mut |x, is_transposed| {
         scale_by(x, &reciprocals);
         multiply(x, is_transposed);
         scale_by(x, &reciprocals);
     });
-    norm * one_norm(diagonal.len(), &mut |x, is_transposed| {
+    norm * estimated_one_norm(diagonal.len(), &mut |x, is_transposed| {
         scale_by(x, &roots);
         solve(x, is_transposed);
         scale_by(x, &roots);
@@ -124,7 +125,7 @@ pub fn sparse_condition(matrix: &SparseMatrix, factor: &SparseFactor) -> f64 {
         column_sums[column] += value.abs() / (roots[row] * roots[column]);
     }
     let norm = column_sums.into_iter().fold(0.0, f64::max);
-    norm * one_norm(order, &mut |x, is_transposed| {
+    norm * estimated_one_norm(order, &mut |x, is_transposed| {
         scale_by(x, &roots);
         if is_transposed {
             factor.solve_transposed(x);

@@ -1,4 +1,4 @@
-//! Factors of dense matrices: LU, and Cholesky's factors of low rank.
+//! Factors of dense matrices: LU, and pivoted Cholesky factors of low rank.
 
 #![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
 
@@ -12,9 +12,9 @@ pub struct DenseFactor<T = f64> {
     order: usize,
     /// L and U, column by column.
     values: Vec<T>,
-    /// Row permutation, and its inverse.
-    forward: Vec<usize>,
-    inverse: Vec<usize>,
+    /// Row of the matrix that each row of the factors comes from.
+    row_permutation: Vec<usize>,
+    inverse_permutation: Vec<usize>,
     /// Number of row exchanges of the last factorization.
     pub(super) exchange_count: usize,
     buffer: MemBuffer,
@@ -33,8 +33,8 @@ impl<T: MatrixScalar> DenseFactor<T> {
         Self {
             order: 0,
             values: Vec::with_capacity(capacity * capacity),
-            forward: Vec::with_capacity(capacity),
-            inverse: Vec::with_capacity(capacity),
+            row_permutation: Vec::with_capacity(capacity),
+            inverse_permutation: Vec::with_capacity(capacity),
             exchange_count: 0,
             buffer: MemBuffer::new(T::lu_scratch(capacity, column_count)),
             permuted_side: Vec::with_capacity(capacity),
@@ -59,15 +59,19 @@ impl<T: MatrixScalar> DenseFactor<T> {
         self.order = order;
         self.values.clear();
         (0..order).for_each(|column| append_column(column, &mut self.values));
-        self.forward.clear();
-        self.forward.resize(order, 0);
-        self.inverse.clear();
-        self.inverse.resize(order, 0);
+        self.row_permutation.clear();
+        self.row_permutation.resize(order, 0);
+        self.inverse_permutation.clear();
+        self.inverse_permutation.resize(order, 0);
         if order == 0 {
             return true;
         }
-        self.exchange_count =
-            T::lu_factor(&mut self.values, &mut self.forward, &mut self.inverse, &mut self.buffer);
+        self.exchange_count = T::lu_factor(
+            &mut self.values,
+            &mut self.row_permutation,
+            &mut self.inverse_permutation,
+            &mut self.buffer,
+        );
         self.pivots().all(|pivot| T::is_finite_impl(&pivot) && pivot != T::zero_impl())
     }
 
@@ -82,21 +86,26 @@ impl<T: MatrixScalar> DenseFactor<T> {
         if order == 0 {
             return;
         }
-        let columns = rhs.len() / order;
-        self.solve_in(MatMut::from_column_major_slice_mut(rhs, order, columns));
+        let column_count = rhs.len() / order;
+        self.solve_in(MatMut::from_column_major_slice_mut(rhs, order, column_count));
     }
 
-    /// Overwrites the `columns` columns of the row-major `rhs` with A⁻¹ rhs.
-    pub fn solve_columns(&mut self, rhs: &mut [T], columns: usize) {
+    /// Overwrites the `column_count` columns of the row-major `rhs` with A⁻¹ rhs.
+    pub fn solve_columns(&mut self, rhs: &mut [T], column_count: usize) {
         let order = self.order;
         if order == 0 {
             return;
         }
-        self.solve_in(MatMut::from_row_major_slice_mut(rhs, order, columns));
+        self.solve_in(MatMut::from_row_major_slice_mut(rhs, order, column_count));
     }
 
     fn solve_in(&mut self, rhs: MatMut<'_, T>) {
-        let factors = LuFactors::new(self.order, &self.values, &self.forward, &self.inverse);
+        let factors = LuFactors::new(
+            self.order,
+            &self.values,
+            &self.row_permutation,
+            &self.inverse_permutation,
+        );
         T::lu_solve(factors, rhs, &mut self.buffer);
     }
 
@@ -105,7 +114,12 @@ impl<T: MatrixScalar> DenseFactor<T> {
         if self.order == 0 {
             return;
         }
-        let factors = LuFactors::new(self.order, &self.values, &self.forward, &self.inverse);
+        let factors = LuFactors::new(
+            self.order,
+            &self.values,
+            &self.row_permutation,
+            &self.inverse_permutation,
+        );
         T::lu_solve_transposed(factors, MatMut::from_column_major_slice_mut(rhs, self.order, 1));
     }
 }
@@ -113,11 +127,11 @@ impl<T: MatrixScalar> DenseFactor<T> {
 impl DenseFactor {
     /// Overwrites `rhs` with A⁻¹ rhs, faster than [`DenseFactor::solve`] for small matrices.
     ///
-    /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes ten
-    /// times as long.
+    /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes
+    /// ten times as long.
     pub fn solve_small(&mut self, rhs: &mut [f64]) {
         self.permuted_side.clear();
-        self.permuted_side.extend(self.forward.iter().map(|&row| rhs[row]));
+        self.permuted_side.extend(self.row_permutation.iter().map(|&row| rhs[row]));
         vectorized(Substitution { lu_columns: &self.values, x: &mut self.permuted_side });
         rhs.copy_from_slice(&self.permuted_side);
     }
@@ -184,7 +198,7 @@ fn solve_upper<'a>(column: impl Fn(usize) -> &'a [f64], x: &mut [f64]) {
     }
 }
 
-/// Largest negative value of a remaining diagonal that counts as a rounding error, over the tolerance.
+/// Largest magnitude of a negative remainder of the diagonal that counts as rounding, relative to the tolerance.
 const MAX_NEGATIVE_FACTOR: f64 = 10.0;
 
 /// Columns of L with V = L Lᵀ for a positive semi-definite matrix V of low rank.

@@ -28,8 +28,8 @@ pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
 ///
 /// With M = L Lᵀ, λ are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ is L⁻ᵀ times its eigenvectors.
 pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Option<Eigenpairs> {
-    let factor = dense(mass).llt(Side::Lower).ok()?;
-    let mut reduced = dense(stiffness);
+    let factor = dense_copy(mass).llt(Side::Lower).ok()?;
+    let mut reduced = dense_copy(stiffness);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
     let SymmetricEigen { values, mut vectors } = symmetric_eigen(&reduced)?;
@@ -64,12 +64,12 @@ struct SymmetricEigen {
 }
 
 /// Dense copy of a sparse matrix.
-fn dense(matrix: &SparseMatrix) -> Mat<f64> {
-    let mut dense = Mat::<f64>::zeros(matrix.order(), matrix.order());
+fn dense_copy(matrix: &SparseMatrix) -> Mat<f64> {
+    let mut dense_copy = Mat::<f64>::zeros(matrix.order(), matrix.order());
     for (row, column, value) in matrix.entries() {
-        dense[(row, column)] = value;
+        dense_copy[(row, column)] = value;
     }
-    dense
+    dense_copy
 }
 
 /// The entries of a matrix, row-major.
@@ -87,8 +87,8 @@ fn symmetric_eigen(matrix: &Mat<f64>) -> Option<SymmetricEigen> {
     }
     let mut values = Diag::<f64>::zeros(n);
     let mut vectors = Mat::<f64>::zeros(n, n);
-    // From order 128 on, faer uses divide and conquer by default. Its residuals were 6e-7 of the largest force (order
-    // 308, the containment of the examples). The residuals of the QR iteration are rounding errors.
+    // From order 128 on, faer uses divide and conquer by default. Its residuals reach 6e-7 of the largest force at
+    // order 308. The residuals of the QR iteration are rounding errors.
     let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
     parameters.recursion_threshold = usize::MAX;
     let scratch =

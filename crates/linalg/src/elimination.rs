@@ -29,7 +29,7 @@ const MIN_CONDENSATION_RATIO: usize = 4;
 
 /// Order of elimination that all matrices of one structure share.
 ///
-/// It is empty until the first factor with many entries chooses it. Smaller factors do not need it.
+/// It is empty until the first factor with many entries determines it. Smaller factors do not need it.
 #[derive(Debug, Clone, Default)]
 pub struct Elimination(Arc<OnceLock<EliminationOrder>>);
 
@@ -75,32 +75,33 @@ impl Elimination {
 
     /// Symbolic factor in the shared order, or in the order of minimum degree before an order is chosen.
     ///
-    /// The first factor with many entries chooses the shared order: nested dissection if it gives fewer entries, else
-    /// minimum degree.
+    /// The first factor with many entries determines the shared order: nested dissection if it gives fewer entries,
+    /// else minimum degree.
     pub(super) fn analyse(&self, pattern: Pattern<'_>) -> Option<SymbolicCholesky<usize>> {
         if let Some(order) = self.0.get().filter(|order| order.rows.len() == pattern.ncols()) {
             return symbolic_factor(pattern, order.sorted_by_parts(pattern).as_symmetric());
         }
-        let degree_factor = symbolic_factor(pattern, SymmetricOrdering::Amd)?;
-        if degree_factor.len_val() < MIN_DISSECTION_ENTRIES {
-            return Some(degree_factor);
+        let min_degree_factor = symbolic_factor(pattern, SymmetricOrdering::Amd)?;
+        if min_degree_factor.len_val() < MIN_DISSECTION_ENTRIES {
+            return Some(min_degree_factor);
         }
-        let Some(dissection_order) = EliminationOrder::by_dissection(pattern) else {
-            return Some(degree_factor);
+        let Some(dissection_order) = EliminationOrder::from_dissection(pattern) else {
+            return Some(min_degree_factor);
         };
         let dissection_factor = symbolic_factor(pattern, dissection_order.as_symmetric())?;
-        let is_dissection_better = dissection_factor.len_val() < degree_factor.len_val();
-        let order = if is_dissection_better {
+        let has_dissection_fewer_entries =
+            dissection_factor.len_val() < min_degree_factor.len_val();
+        let order = if has_dissection_fewer_entries {
             let entry_count = dissection_factor.len_val();
             Some(EliminationOrder { entry_count, ..dissection_order })
         } else {
-            EliminationOrder::of_factor(&degree_factor)
+            EliminationOrder::of_factor(&min_degree_factor)
         };
         if let Some(order) = order {
             // If another thread has set an order in the meantime, that order is kept.
             let _ = self.0.set(order);
         }
-        Some(if is_dissection_better { dissection_factor } else { degree_factor })
+        Some(if has_dissection_fewer_entries { dissection_factor } else { min_degree_factor })
     }
 }
 
@@ -127,7 +128,7 @@ impl EliminationOrder {
     }
 
     /// Order of nested dissection.
-    fn by_dissection(pattern: Pattern<'_>) -> Option<Self> {
+    fn from_dissection(pattern: Pattern<'_>) -> Option<Self> {
         let rows = dissection(
             pattern.ncols(),
             |column| pattern.row_idx_of_col_raw(column),
@@ -145,8 +146,8 @@ impl EliminationOrder {
 
     /// This order, with the uncoupled parts of the matrix one after the other.
     ///
-    /// The mass matrix of bricks does not couple directions: if columns of different directions alternate, its factor has
-    /// no dense blocks.
+    /// The mass matrix of bricks does not couple directions: if columns of different directions alternate, its factor
+    /// has no dense blocks.
     fn sorted_by_parts(&self, pattern: Pattern<'_>) -> Self {
         let mut parts = Partition::new(self.rows.len());
         for column in 0..self.rows.len() {
@@ -203,7 +204,7 @@ pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
     SparseColMat::new(pattern, values)
 }
 
-/// Index by columns of each entry by rows.
+/// Position, in storage by columns, of each entry in storage by rows.
 pub(super) fn column_indices(matrix: &SparseMatrix) -> Vec<usize> {
     // Index of the next entry of each column.
     let mut next_index = column_starts(matrix);
@@ -215,7 +216,7 @@ pub(super) fn column_indices(matrix: &SparseMatrix) -> Vec<usize> {
     matrix.entries().map(next).collect()
 }
 
-/// Index by columns of the first entry of each column, then the number of entries.
+/// Position, in storage by columns, of the first entry of each column, then the number of entries.
 fn column_starts(matrix: &SparseMatrix) -> Vec<usize> {
     let mut starts = vec![0; matrix.order() + 1];
     matrix.entries().for_each(|(_, column, _)| starts[column + 1] += 1);
@@ -269,8 +270,9 @@ mod tests {
         let order = elimination.0.get().unwrap();
         assert_eq!((order.rows.len(), entry_counts[0]), (8000, entry_counts[1]));
         let columns = by_columns(&matrix);
-        let degree_factor = symbolic_factor(columns.symbolic(), SymmetricOrdering::Amd).unwrap();
-        let degree_count = degree_factor.len_val();
+        let min_degree_factor =
+            symbolic_factor(columns.symbolic(), SymmetricOrdering::Amd).unwrap();
+        let degree_count = min_degree_factor.len_val();
         assert!(degree_count > MIN_DISSECTION_ENTRIES, "{degree_count}");
         assert!(5 * entry_counts[0] < 4 * degree_count, "{entry_counts:?}");
         // A matrix of another size chooses another order.
@@ -282,39 +284,39 @@ mod tests {
     fn factors_are_condensed_on_their_last_rows() {
         let matrix = cube(20, 2.0);
         let elimination = Elimination::for_matrix(&matrix);
-        let last: Vec<usize> = (0..400).map(|k| k * k % 20 + 20 * k).collect();
-        let ending = elimination.ending_with(&last).unwrap();
-        let factor = SparseFactor::with_elimination("cube", &matrix, &ending).unwrap();
-        let condensed = factor.condensed(&last).unwrap();
+        let last_rows: Vec<usize> = (0..400).map(|k| k * k % 20 + 20 * k).collect();
+        let ending_elimination = elimination.ending_with(&last_rows).unwrap();
+        let factor = SparseFactor::with_elimination("cube", &matrix, &ending_elimination).unwrap();
+        let condensed = factor.condensed(&last_rows).unwrap();
         let force: Vec<f64> = (0..400).map(|i| f64::from(i).cos()).collect();
         let mut displacement = vec![0.0; 8000];
-        last.iter().zip(&force).for_each(|(row, force)| displacement[*row] = *force);
+        last_rows.iter().zip(&force).for_each(|(row, force)| displacement[*row] = *force);
         SparseFactor::with_elimination("cube", &matrix, &Elimination::default())
             .unwrap()
             .solve(&mut displacement);
-        let last_displacement: Vec<f64> = last.iter().map(|row| displacement[*row]).collect();
+        let last_displacement: Vec<f64> = last_rows.iter().map(|row| displacement[*row]).collect();
         let computed = SparseMatrix::from_dense(400, condensed.clone()).times(&last_displacement);
         assert!(computed.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
-        // Another condensed matrix, which couples all last rows.
+        // Another condensed matrix, which couples all last_rows rows.
         let shift = |k: usize| if k.is_multiple_of(401) { 0.5 } else { 1e-3 };
         let shifted = condensed.iter().enumerate().map(|(k, value)| value + shift(k));
         let shifted: Vec<f64> = shifted.collect();
         let x: Vec<f64> = (0..8000).map(|i| f64::from(i).sin()).collect();
         let mut solution = matrix.times(&x);
-        for (k, row) in last.iter().enumerate() {
+        for (k, row) in last_rows.iter().enumerate() {
             let shift_products =
-                last.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
+                last_rows.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
             solution[*row] += shift_products.sum::<f64>();
         }
-        factor.with_condensed(&last, &shifted).unwrap().solve(&mut solution);
+        factor.with_condensed(&last_rows, &shifted).unwrap().solve(&mut solution);
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
-        let factor = SparseFactor::with_elimination("cube", &matrix, &ending).unwrap();
-        // Other rows are not the last ones, and for too many rows condensation costs more than a solve.
-        assert!(factor.condensed(&last[1..]).is_none_or(|matrix| matrix.len() == 399 * 399));
-        assert!(factor.condensed(&[last[0]]).is_none());
-        assert!(factor.with_condensed(&last, &vec![0.0; 160_000]).is_none());
+        let factor = SparseFactor::with_elimination("cube", &matrix, &ending_elimination).unwrap();
+        // Other rows are not the last_rows ones, and for too many rows condensation costs more than a solve.
+        assert!(factor.condensed(&last_rows[1..]).is_none_or(|matrix| matrix.len() == 399 * 399));
+        assert!(factor.condensed(&[last_rows[0]]).is_none());
+        assert!(factor.with_condensed(&last_rows, &vec![0.0; 160_000]).is_none());
         assert!(elimination.ending_with(&(0..4000).collect::<Vec<_>>()).is_none());
-        assert!(Elimination::default().ending_with(&last).is_none());
+        assert!(Elimination::default().ending_with(&last_rows).is_none());
     }
 
     /// Three uncoupled cubes with alternating rows: the order of three coupled cubes eliminates them one by one.

@@ -148,7 +148,8 @@ pub fn rule_for(ellipse_size: f64) -> Option<&'static Rule> {
 #[inline]
 pub fn ellipse_size(point: [f64; 2], low: f64, high: f64) -> f64 {
     if point[1] == 0.0 {
-        // The squares of the formula below underflow to zero for tiny slownesses; pieces would then be halved endlessly.
+        // For intervals of tiny slownesses, the squares of the formula below underflow to zero, and pieces would be
+        // halved endlessly.
         return ((point[0] - low).abs() + (point[0] - high).abs()) / (high - low);
     }
     let square = point[1] * point[1];

@@ -121,7 +121,7 @@ impl<S: Simd> Lanes<S> {
 
     /// |x|².
     #[inline(always)]
-    fn square(self) -> S::f64s {
+    fn squared_modulus(self) -> S::f64s {
         let simd = self.simd;
         simd.mul_add_e_f64s(self.re, self.re, simd.mul_f64s(self.im, self.im))
     }
@@ -255,7 +255,7 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     #[inline(always)]
     fn inverse(self) -> Self {
         let simd = self.simd;
-        let square = self.square();
+        let square = self.squared_modulus();
         let reciprocal = simd.div_f64s(simd.splat_f64s(1.0), square);
         // Adding zero times the square makes the result NaN if the square is infinite.
         let checked_reciprocal =
@@ -270,7 +270,8 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     fn sqrt(self) -> Self {
         let simd = self.simd;
         let half = simd.splat_f64s(0.5);
-        let sum = simd.add_f64s(simd.sqrt_f64s(self.square()), Self::absolute(simd, self.re));
+        let sum =
+            simd.add_f64s(simd.sqrt_f64s(self.squared_modulus()), Self::absolute(simd, self.re));
         let larger_part = simd.sqrt_f64s(simd.mul_f64s(half, sum));
         // NaN for the number zero.
         let smaller_part = simd.div_f64s(simd.mul_f64s(half, self.im), larger_part);
@@ -297,7 +298,7 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     #[inline(always)]
     fn at_least(self, minimum: Self) -> Self {
         let simd = self.simd;
-        let is_less = simd.less_than_f64s(self.square(), minimum.square());
+        let is_less = simd.less_than_f64s(self.squared_modulus(), minimum.squared_modulus());
         self.with(
             Self::select(simd, is_less, minimum.re, self.re),
             Self::select(simd, is_less, minimum.im, self.im),
@@ -307,7 +308,7 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     #[inline(always)]
     fn negated_where_negative(self, other: Self, fraction: f64) -> Self {
         let simd = self.simd;
-        let magnitude = simd.sqrt_f64s(other.square());
+        let magnitude = simd.sqrt_f64s(other.squared_modulus());
         let limit = simd.mul_f64s(magnitude, simd.splat_f64s(-fraction));
         let is_negative = simd.less_than_f64s(other.re, limit);
         self.with(

@@ -15,7 +15,7 @@ use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 /// Largest difference of blocks of equal offset, relative to the largest entry: rounding errors of an integral.
 const OFFSET_BLOCK_TOLERANCE: f64 = 1e-14;
 
-/// Matrix of 3 × 3 blocks between cells, equal for equal offsets, times factors of the sources.
+/// Matrix of 3 × 3 blocks between cells, times a factor of each source; cells of equal offset have equal blocks.
 pub struct LatticeProduct {
     /// Column and row of each cell.
     cells: Vec<[usize; 2]>,
@@ -70,9 +70,9 @@ impl LatticeProduct {
         factors: &[f64],
         block: impl Fn(usize, usize) -> [[f64; 3]; 3],
     ) -> Option<Self> {
-        let counts =
+        let cell_counts =
             [0, 1].map(|axis| cells.iter().fold(0, |largest, cell| largest.max(cell[axis] + 1)));
-        let transform_lengths = counts.map(|count| next_smooth_even(2 * count - 1));
+        let transform_lengths = cell_counts.map(|count| next_smooth_even(2 * count - 1));
         let OffsetBlocks { blocks, max_entry } =
             OffsetBlocks::new(cells, transform_lengths, block)?;
         let mut real_planner = RealPlanner::new();
@@ -83,7 +83,7 @@ impl LatticeProduct {
             lattice_indices: cells.iter().map(|[i, j]| j * x_length + i).collect(),
             source_factors: factors.to_vec(),
             transform_lengths,
-            row_count: counts[1],
+            row_count: cell_counts[1],
             x_transform: XTransform {
                 forward: real_planner.plan_fft_forward(x_length),
                 inverse: real_planner.plan_fft_inverse(x_length),

@@ -17,7 +17,10 @@
 extern crate basemat_base;
 
 mod block;
+mod block_lu;
 mod complex;
+mod complex_arithmetic;
+mod compressed_matrix;
 mod condition;
 mod dense;
 mod dissection;
@@ -36,17 +39,17 @@ mod matrix_market;
 mod matrix_market_reader;
 mod matrix_scalar;
 mod matrix_values;
-mod number;
 pub mod orthonormal;
 mod partition;
 mod product;
 mod sparse;
 mod symmetry;
-mod thinned;
 mod triplets;
 
 pub use block::ComplexBlock;
 pub use complex::Complex;
+pub use complex_arithmetic::ComplexArithmetic;
+pub use compressed_matrix::CompressedMatrix;
 pub use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
 pub use dense::{DenseFactor, pivoted_cholesky};
 pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
@@ -54,10 +57,9 @@ pub use elimination::Elimination;
 pub use hermitian::hermitian_range;
 pub use lanes::Lanes;
 pub use lattice_product::{LatticeProduct, LatticeScratch, next_smooth_even};
-pub use lowest_modes::lowest_modes;
+pub use lowest_modes::{ModeLimit, lowest_modes};
 pub use matrix::SparseMatrix;
 pub use matrix_scalar::MatrixScalar;
-pub use number::ComplexArithmetic;
 pub use partition::Partition;
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
@@ -65,7 +67,6 @@ pub use product::{
     transposed_multiply_add, vectorized, weighted_dot,
 };
 pub use sparse::{ChangingFactor, SparseFactor, indefinite_row};
-pub use thinned::CompressedMatrix;
 pub use triplets::Triplets;
 
 use basemat_base::error;

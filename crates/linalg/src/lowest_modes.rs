@@ -7,8 +7,8 @@
 //! | H | Vᵀ M A V |
 //!
 //! Every new vector is orthogonalised with respect to all earlier vectors, twice unless a large residual is allowed
-//! (Parlett 1998, § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it has
-//! vectors.
+//! (Parlett 1998, § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it
+//! has vectors.
 
 use super::eigen::{Eigenpairs, symmetric_modes};
 use super::orthonormal::{MinRemainder, OrthonormalRows};
@@ -34,28 +34,38 @@ const MAX_LIMITED_BASIS_SIZE: usize = 800;
 /// Fraction of a vector's length that must remain after its orthogonalisation: less is a rounding error.
 const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
+/// Limit at which a search for modes ends, even if it has found fewer modes than requested.
+#[derive(Debug, Clone, Copy)]
+pub struct ModeLimit {
+    /// The search ends at the first eigenvalue λ above this one, which is the last returned eigenvalue.
+    pub eigenvalue: f64,
+    /// Largest residual of a converged mode, relative to θ.
+    ///
+    /// It may be large if the caller uses only the space that the modes span, because the error of that space is the
+    /// square of the modes' error.
+    pub residual_tolerance: f64,
+}
+
 /// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
 ///
-/// `limit`: an eigenvalue, and the residual's tolerance relative to θ. The search ends at the first eigenvalue above
-/// the limit, which is the last returned eigenvalue. The tolerance may be large if the caller uses only the space that
-/// the modes span, because its error is the square of the modes' error.
+/// With a `limit` the search may end earlier, at the first eigenvalue above that limit.
 ///
 /// Each eigenvector is a row of the returned matrix, with φ·M φ = 1. K is positive definite and passed as its factor; M
 /// is positive semi-definite. Fewer pairs are returned if the rank of M is lower. `None` if the iteration fails, or if
-/// 800 vectors do not contain all modes below `limit`.
+/// 800 vectors do not contain all modes below the limit.
 pub fn lowest_modes(
     stiffness: &SparseFactor,
     mass: &SparseMatrix,
     count: usize,
-    limit: Option<(f64, f64)>,
+    limit: Option<ModeLimit>,
 ) -> Option<Eigenpairs> {
-    let tolerance = limit.map_or(DEFAULT_RESIDUAL_TOLERANCE, |(_, tolerance)| tolerance);
-    let limit = limit.map_or(f64::INFINITY, |(eigenvalue, _)| eigenvalue);
+    let tolerance = limit.map_or(DEFAULT_RESIDUAL_TOLERANCE, |limit| limit.residual_tolerance);
+    let max_eigenvalue = limit.map_or(f64::INFINITY, |limit| limit.eigenvalue);
     let basis = OrthonormalRows::new(mass, BASIS_ROUNDING_FACTOR * tolerance);
     let mut krylov =
         KrylovSpace { stiffness, order: mass.order(), basis, columns: Vec::new(), random_state: 1 };
     let count = count.min(krylov.order);
-    let mut next_search_size = if limit.is_finite() { 0 } else { count };
+    let mut next_search_size = if max_eigenvalue.is_finite() { 0 } else { count };
     loop {
         let applied_count = krylov.columns.len();
         if applied_count == krylov.basis.count() {
@@ -63,19 +73,19 @@ pub fn lowest_modes(
             // modes are missing if a frequency has more of them than a block has vectors.
             krylov.extend_at_random();
             if applied_count == krylov.basis.count() {
-                return krylov.modes(&krylov.approximations(count, limit)?);
+                return krylov.modes(&krylov.approximations(count, max_eigenvalue)?);
             }
         }
         krylov.extend();
         let applied_count = krylov.columns.len();
         if applied_count >= next_search_size {
-            let approximations = krylov.approximations(count, limit)?;
+            let approximations = krylov.approximations(count, max_eigenvalue)?;
             let exceeds_limit =
-                approximations.theta.last().is_some_and(|theta| theta * limit < 1.0);
+                approximations.theta.last().is_some_and(|theta| theta * max_eigenvalue < 1.0);
             if (exceeds_limit || applied_count >= count) && approximations.residual <= tolerance {
                 return krylov.modes(&approximations);
             }
-            if limit.is_finite() && applied_count > MAX_LIMITED_BASIS_SIZE {
+            if max_eigenvalue.is_finite() && applied_count > MAX_LIMITED_BASIS_SIZE {
                 return None;
             }
             next_search_size = applied_count + applied_count / SEARCH_INTERVAL_DIVISOR;
@@ -122,8 +132,8 @@ impl KrylovSpace<'_> {
         self.columns.extend(products.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
-    /// Approximations of the lowest `count` modes in this space, up to the first mode above `limit`.
-    fn approximations(&self, count: usize, limit: f64) -> Option<Approximations> {
+    /// Approximations of the lowest `count` modes in this space, up to the first mode with λ above `max_eigenvalue`.
+    fn approximations(&self, count: usize, max_eigenvalue: f64) -> Option<Approximations> {
         let m = self.columns.len();
         // H, with zeros for the rows that a column does not have.
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
@@ -147,7 +157,7 @@ impl KrylovSpace<'_> {
             approximations.residual = approximations.residual.max(residual);
             approximations.theta.push(theta);
             approximations.coordinates.push(y);
-            if theta * limit < 1.0 {
+            if theta * max_eigenvalue < 1.0 {
                 break;
             }
         }
@@ -192,7 +202,7 @@ mod tests {
 
     impl Chains {
         /// The lowest `count` eigenvalues, up to the first one above a limit.
-        fn lowest_values(&self, count: usize, limit: Option<(f64, f64)>) -> Vec<f64> {
+        fn lowest_values(&self, count: usize, limit: Option<ModeLimit>) -> Vec<f64> {
             lowest_modes(&self.factor, &self.mass, count, limit).unwrap().values
         }
     }
@@ -262,10 +272,11 @@ mod tests {
     #[test]
     fn searches_end_above_their_limit() {
         let chains = chains(100, 2, 0);
-        for (limit, count_below) in
+        for (eigenvalue, count_below) in
             [(0.5 * exact_eigenvalue(100, 1), 0), (1.01 * exact_eigenvalue(100, 7), 14)]
         {
-            let values = chains.lowest_values(200, Some((limit, 1e-5)));
+            let limit = ModeLimit { eigenvalue, residual_tolerance: 1e-5 };
+            let values = chains.lowest_values(200, Some(limit));
             assert_eq!(values.len(), count_below + 1);
             for (k, value) in values.iter().enumerate() {
                 assert!((value / exact_eigenvalue(100, k / 2 + 1) - 1.0).abs() < 1e-9, "mode {k}");

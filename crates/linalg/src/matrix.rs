@@ -72,14 +72,14 @@ impl SparseMatrix {
             row_entries[next_indices[row]] = (column, value);
             next_indices[row] += 1;
         }
-        Ok(Self::by_rows(order, |row, entries| {
+        Ok(Self::from_rows(order, |row, entries| {
             entries.extend_from_slice(&row_entries[row_starts[row]..row_starts[row + 1]]);
         }))
     }
 
     /// Sum Σ factor · A of matrices up to this order.
     pub fn sum(name: &'static str, order: usize, terms: &[(f64, &Self)]) -> Result<Self> {
-        let sum = Self::by_rows(order, |row, entries| {
+        let sum = Self::from_rows(order, |row, entries| {
             for (factor, matrix) in terms.iter().filter(|(_, matrix)| row < matrix.order) {
                 entries.extend(matrix.row(row).map(|(column, value)| (column, factor * value)));
             }
@@ -96,7 +96,7 @@ impl SparseMatrix {
     }
 
     /// Matrix whose rows `fill` writes as (column, value); entries with equal indices are summed.
-    pub(super) fn by_rows(
+    pub(super) fn from_rows(
         order: usize,
         mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>),
     ) -> Self {
@@ -244,7 +244,7 @@ impl Matrix {
         match self {
             Self::Sparse(matrix) => Arc::clone(matrix),
             Self::Diagonal(values) => {
-                Arc::new(SparseMatrix::by_rows(values.len(), |row, entries| {
+                Arc::new(SparseMatrix::from_rows(values.len(), |row, entries| {
                     entries.push((row, values[row]));
                 }))
             }

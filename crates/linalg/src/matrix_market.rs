@@ -1,7 +1,7 @@
-//! Reads and writes Matrix Market files.
+//! Reading and writing of Matrix Market files.
 //!
-//! The part of the format of Boisvert, Pozo & Remington (NIST IR 5935, 1996) for structural matrices: coordinate or
-//! array, real or integer, general or symmetric.
+//! The supported part of the format (Boisvert, Pozo & Remington, NIST IR 5935, 1996) is sufficient for structural
+//! matrices: coordinate or array, real or integer, general or symmetric.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -56,8 +56,9 @@ impl Triplets {
     /// numbers. Needs the feature `io`.
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) or [`Error::Input`](crate::Error::Input) for an entry out of range or not finite, [`Error::Memory`](crate::Error::Memory) for
-    /// more rows than fit into memory, [`Error::File`](crate::Error::File) when the file cannot be written.
+    /// [`Error::Index`](crate::Error::Index) or [`Error::Input`](crate::Error::Input) for an entry out of range or not
+    /// finite, [`Error::Memory`](crate::Error::Memory) for more rows than fit into memory,
+    /// [`Error::File`](crate::Error::File) when the file cannot be written.
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let mut text = Vec::new();

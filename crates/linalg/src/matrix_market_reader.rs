@@ -159,11 +159,11 @@ fn index(field: &str, order: usize) -> FieldResult<usize> {
 fn read_coordinates(
     lines: &mut Lines,
     header: &MatrixMarketHeader,
-    needed: usize,
+    entry_count: usize,
     matrix: &mut Triplets,
 ) -> LineResult<()> {
-    for found in 0..needed {
-        let line = required_data_line(lines, wrong_entry_count(found, needed))?;
+    for read_count in 0..entry_count {
+        let line = required_data_line(lines, wrong_entry_count(read_count, entry_count))?;
         let (row, column, value) =
             lines.with_line_number(coordinate_entry(&line, matrix.order()))?;
         if header.is_symmetric && row < column {
@@ -173,7 +173,7 @@ fn read_coordinates(
         }
         add_entry(matrix, header, row, column, value);
     }
-    check_end(lines, needed)
+    check_end(lines, entry_count)
 }
 
 /// Row and column, from 0, and value of an entry.
@@ -189,20 +189,20 @@ fn read_array(
     matrix: &mut Triplets,
 ) -> LineResult<()> {
     let order = matrix.order();
-    let needed = if header.is_symmetric { order * (order + 1) / 2 } else { order * order };
-    let mut found = 0;
+    let entry_count = if header.is_symmetric { order * (order + 1) / 2 } else { order * order };
+    let mut read_count = 0;
     for column in 0..order {
         for row in if header.is_symmetric { column } else { 0 }..order {
-            let line = required_data_line(lines, wrong_entry_count(found, needed))?;
+            let line = required_data_line(lines, wrong_entry_count(read_count, entry_count))?;
             let field = lines.with_line_number(split_fields(&line, 1))?[0];
             let value = lines.with_line_number(finite_number(field))?;
-            found += 1;
+            read_count += 1;
             if value != 0.0 {
                 add_entry(matrix, header, row, column, value);
             }
         }
     }
-    check_end(lines, needed)
+    check_end(lines, entry_count)
 }
 
 /// Adds an entry, and its mirrored entry in a symmetric matrix.
@@ -220,9 +220,9 @@ fn add_entry(
 }
 
 /// Returns an error for more entries than the size line states.
-fn check_end(lines: &mut Lines, needed: usize) -> LineResult<()> {
+fn check_end(lines: &mut Lines, entry_count: usize) -> LineResult<()> {
     match data_line(lines)? {
-        Some(_) => Err(lines.fault(wrong_entry_count(needed + 1, needed))),
+        Some(_) => Err(lines.fault(wrong_entry_count(entry_count + 1, entry_count))),
         None => Ok(()),
     }
 }

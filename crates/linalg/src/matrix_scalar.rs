@@ -17,19 +17,19 @@ use faer::{Conj, MatMut, MatRef, Par, Spec};
 pub struct LuFactors<'a, T> {
     order: usize,
     values: &'a [T],
-    /// Row permutation, and its inverse.
-    forward: &'a [usize],
-    inverse: &'a [usize],
+    /// Row of the matrix that each row of the factors comes from.
+    row_permutation: &'a [usize],
+    inverse_permutation: &'a [usize],
 }
 
 impl<'a, T> LuFactors<'a, T> {
     pub(super) fn new(
         order: usize,
         values: &'a [T],
-        forward: &'a [usize],
-        inverse: &'a [usize],
+        row_permutation: &'a [usize],
+        inverse_permutation: &'a [usize],
     ) -> Self {
-        Self { order, values, forward, inverse }
+        Self { order, values, row_permutation, inverse_permutation }
     }
 }
 
@@ -41,8 +41,8 @@ pub trait MatrixScalar: ComplexField<Real = f64> + Copy {
     /// Factors the matrix in place; returns the number of row exchanges.
     fn lu_factor(
         matrix: &mut [Self],
-        forward: &mut [usize],
-        inverse: &mut [usize],
+        row_permutation: &mut [usize],
+        inverse_permutation: &mut [usize],
         buffer: &mut MemBuffer,
     ) -> usize;
 
@@ -67,11 +67,11 @@ macro_rules! matrix_scalar {
 
             fn lu_factor(
                 matrix: &mut [Self],
-                forward: &mut [usize],
-                inverse: &mut [usize],
+                row_permutation: &mut [usize],
+                inverse_permutation: &mut [usize],
                 buffer: &mut MemBuffer,
             ) -> usize {
-                lu_factor(matrix, forward, inverse, buffer)
+                lu_factor(matrix, row_permutation, inverse_permutation, buffer)
             }
 
             fn lu_solve(
@@ -104,15 +104,15 @@ fn lu_scratch<T: ComplexField>(order: usize, column_count: usize) -> StackReq {
 
 fn lu_factor<T: ComplexField>(
     matrix: &mut [T],
-    forward: &mut [usize],
-    inverse: &mut [usize],
+    row_permutation: &mut [usize],
+    inverse_permutation: &mut [usize],
     buffer: &mut MemBuffer,
 ) -> usize {
-    let order = forward.len();
+    let order = row_permutation.len();
     let (info, _) = factor::lu_in_place(
         MatMut::from_column_major_slice_mut(matrix, order, order),
-        forward,
-        inverse,
+        row_permutation,
+        inverse_permutation,
         Par::Seq,
         MemStack::new(buffer),
         Spec::default(),
@@ -126,14 +126,16 @@ fn lu_solve<T: ComplexField>(
     buffer: &mut MemBuffer,
 ) {
     let lu = MatRef::from_column_major_slice(factors.values, factors.order, factors.order);
-    let permutation = PermRef::new_checked(factors.forward, factors.inverse, factors.order);
+    let permutation =
+        PermRef::new_checked(factors.row_permutation, factors.inverse_permutation, factors.order);
     let stack = MemStack::new(buffer);
     solve::solve_in_place_with_conj(lu, lu, permutation, Conj::No, right_side, Par::Seq, stack);
 }
 
 fn lu_solve_transposed<T: ComplexField>(factors: &LuFactors<T>, right_side: MatMut<'_, T>) {
     let lu = MatRef::from_column_major_slice(factors.values, factors.order, factors.order);
-    let permutation = PermRef::new_checked(factors.forward, factors.inverse, factors.order);
+    let permutation =
+        PermRef::new_checked(factors.row_permutation, factors.inverse_permutation, factors.order);
     let scratch = solve::solve_transpose_in_place_scratch::<usize, T>(factors.order, 1, Par::Seq);
     solve::solve_transpose_in_place_with_conj(
         lu,

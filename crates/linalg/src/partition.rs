@@ -4,7 +4,7 @@ use crate::SparseMatrix;
 
 /// Disjoint sets of the indices below an order (union–find).
 ///
-/// For each index, an index of the same set that is not larger.
+/// It stores, for each index, an index of the same set that is not larger.
 pub struct Partition(Vec<usize>);
 
 impl Partition {

@@ -305,6 +305,9 @@ pub fn magnitude(x: &[f64]) -> f64 {
     tail + sums.iter().sum::<f64>()
 }
 
+/// Number of independent sums of a scalar product: consecutive additions to one sum cannot overlap.
+const DOT_SUMS: usize = 4;
+
 /// Σ xᵢ yᵢ.
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     vectorized(Dot { weights: None, x, y })
@@ -332,14 +335,14 @@ impl WithSimd for Dot<'_> {
         let x = SimdSlice::<S>::new(&self.x[..length]);
         let y = SimdSlice::<S>::new(&self.y[..length]);
         let tail = x.tail.iter().zip(y.tail);
-        // Consecutive additions to one sum cannot overlap, so there are four sums.
-        let mut sums = [simd.splat_f64s(0.0); 4];
-        let x = x.vectors.chunks_exact(4);
-        let y = y.vectors.chunks_exact(4);
+        // Each sum adds up every fourth vector.
+        let mut sums = [simd.splat_f64s(0.0); DOT_SUMS];
+        let x = x.vectors.chunks_exact(DOT_SUMS);
+        let y = y.vectors.chunks_exact(DOT_SUMS);
         let remaining_vectors = x.remainder().iter().zip(y.remainder());
         let Some(weights) = self.weights else {
             for (x, y) in x.zip(y) {
-                for k in 0..4 {
+                for k in 0..DOT_SUMS {
                     sums[k] = simd.mul_add_e_f64s(x[k], y[k], sums[k]);
                 }
             }
@@ -350,10 +353,10 @@ impl WithSimd for Dot<'_> {
         };
         let weights = SimdSlice::<S>::new(&weights[..length]);
         let tail = weights.tail.iter().zip(tail).map(|(w, (x, y))| w * x * y);
-        let w = weights.vectors.chunks_exact(4);
+        let w = weights.vectors.chunks_exact(DOT_SUMS);
         let remaining_vectors = w.remainder().iter().zip(remaining_vectors);
         for (w, (x, y)) in w.zip(x.zip(y)) {
-            for k in 0..4 {
+            for k in 0..DOT_SUMS {
                 sums[k] = simd.mul_add_e_f64s(simd.mul_f64s(w[k], x[k]), y[k], sums[k]);
             }
         }
@@ -366,7 +369,7 @@ impl WithSimd for Dot<'_> {
 
 /// Sum of all lanes of four vectors.
 #[inline(always)]
-fn sum_of_lanes<S: Simd>(simd: S, [a, b, c, d]: [S::f64s; 4]) -> f64 {
+fn sum_of_lanes<S: Simd>(simd: S, [a, b, c, d]: [S::f64s; DOT_SUMS]) -> f64 {
     simd.reduce_sum_f64s(simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d)))
 }
 

@@ -14,12 +14,13 @@ mod changing;
 
 pub use changing::ChangingFactor;
 
+use crate::block_lu::BlockLu;
 use crate::elimination::{Elimination, by_columns};
 use crate::error::{Error, Result};
 use crate::product::symmetric_product;
 use crate::{SparseMatrix, Triplets};
 
-/// Largest number of values in the right-hand sides of one solve: a solve needs as much workspace.
+/// Largest number of values in the right-hand sides of one solve, whose workspace has as many values.
 const MAX_SOLVE_BLOCK_VALUES: usize = 1 << 22;
 
 /// Smallest number of right-hand sides in one solve, if there are more.
@@ -32,10 +33,18 @@ pub struct SparseFactor {
     buffer: MemBuffer,
 }
 
-/// Factors by one of the two methods.
+/// Factors by one of the methods.
 enum Factors {
-    Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
-    Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
+    Cholesky {
+        symbolic: SymbolicCholesky<usize>,
+        values: Vec<f64>,
+    },
+    Lu {
+        symbolic: SymbolicLu<usize>,
+        numeric: NumericLu<usize, f64>,
+    },
+    /// Of a matrix that changes.
+    BlockLu(Box<BlockLu>),
 }
 
 impl Factors {
@@ -48,6 +57,7 @@ impl Factors {
             Self::Lu { symbolic, .. } => {
                 symbolic.solve_in_place_scratch::<f64>(column_count, Par::Seq)
             }
+            Self::BlockLu(blocks) => blocks.solve_scratch(),
         }
     }
 }
@@ -119,8 +129,8 @@ impl SparseFactor {
                 Spec::default(),
             )
             .map_err(|LltError::NonPositivePivot { index }| {
-                let forward = symbolic.perm().map(|order| order.arrays().0);
-                forward.map_or(index, |rows| rows.get(index).copied().unwrap_or(0))
+                let row_permutation = symbolic.perm().map(|order| order.arrays().0);
+                row_permutation.map_or(index, |rows| rows.get(index).copied().unwrap_or(0))
             })?;
         let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         Ok(Self { order: matrix.nrows(), factors: Factors::Cholesky { symbolic, values }, buffer })
@@ -146,11 +156,12 @@ impl SparseFactor {
         Some(Self { order: matrix.nrows(), factors: Factors::Lu { symbolic, numeric }, buffer })
     }
 
-    /// Approximate number of values that a solve reads.
+    /// Number of values that a solve reads; for LU factors, the number of values of a dense matrix.
     pub fn entry_count(&self) -> usize {
         match &self.factors {
             Factors::Cholesky { values, .. } => values.len(),
             Factors::Lu { .. } => self.order * self.order,
+            Factors::BlockLu(blocks) => blocks.value_count(),
         }
     }
 
@@ -171,7 +182,7 @@ impl SparseFactor {
         self.solve_blocks(rhs, &mut buffer);
     }
 
-    /// Number of right-hand sides in one solve, of this many values in all.
+    /// Number of right-hand sides in one solve, if all right-hand sides together have `value_count` values.
     fn block_columns(&self, value_count: usize) -> usize {
         let order = self.order.max(1);
         let max_columns = (MAX_SOLVE_BLOCK_VALUES / order).max(MIN_SOLVE_BLOCK_COLUMNS);
@@ -205,8 +216,8 @@ impl SparseFactor {
 
     /// Factor of a matrix that differs only on `last_rows`, where its condensed matrix is `condensed`.
     ///
-    /// `condensed`: row-major; only the lower triangle is read. `None` where [`SparseFactor::condensed`] returns `None`,
-    /// and for a condensed matrix that is not positive definite.
+    /// `condensed`: row-major; only the lower triangle is read. `None` where [`SparseFactor::condensed`] returns
+    /// `None`, and for a condensed matrix that is not positive definite.
     pub fn with_condensed(mut self, last_rows: &[usize], condensed: &[f64]) -> Option<Self> {
         let count = last_rows.len();
         let Factors::Cholesky { symbolic, values } = &mut self.factors else {
@@ -234,8 +245,13 @@ impl SparseFactor {
         buffer: &mut MemBuffer,
     ) {
         let stack = MemStack::new(buffer);
+        if let Factors::BlockLu(blocks) = factors {
+            let columns = rhs.chunks_exact_mut(order.max(1));
+            return columns.for_each(|column| blocks.solve(column, is_transposed, stack));
+        }
         let rhs = MatMut::from_column_major_slice_mut(rhs, order, column_count);
         match factors {
+            Factors::BlockLu(_) => {}
             Factors::Cholesky { symbolic, values } => {
                 let factor = LltRef::new(symbolic, values);
                 factor.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
@@ -294,8 +310,8 @@ fn last_entries(symbolic: &SymbolicCholesky<usize>, last_rows: &[usize]) -> Opti
 /// Row at which a symmetric matrix fails to be positive semi-definite; `None` if the matrix is semi-definite.
 ///
 /// Diagonal entries between −`floor` and `floor` are rounding errors and count as `floor`. Eigenvalues of the matrix
-/// scaled to a unit diagonal may be as low as −`tolerance`. A matrix without such a row is therefore semi-definite after
-/// adding 2 `floor` to the diagonal, and `tolerance` times the diagonal. The check costs a sparse Cholesky
+/// scaled to a unit diagonal may be as low as −`tolerance`. A matrix without such a row is therefore semi-definite
+/// after adding 2 `floor` to the diagonal, and `tolerance` times the diagonal. The check costs a sparse Cholesky
 /// factorisation, or almost nothing for a diagonal matrix.
 pub fn indefinite_row(
     matrix: &SparseMatrix,
@@ -330,7 +346,7 @@ pub fn indefinite_row(
     if is_diagonal {
         return None;
     }
-    let scaled_matrix = SparseMatrix::by_rows(matrix.order(), |row, entries| {
+    let scaled_matrix = SparseMatrix::from_rows(matrix.order(), |row, entries| {
         let off_diagonal =
             matrix.row(row).filter(|(column, value)| *column != row && *value != 0.0);
         entries.extend(off_diagonal.map(|(column, value)| (column, value / scale(row, column))));

@@ -19,10 +19,11 @@ use crate::text::decimal::finite;
 ///
 /// One file has all components of a station, side by side.
 ///
-/// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line with the
-/// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`](super::Record::read_all) returns all components.
-/// An error if samples or peaks (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of
-/// acceleration other than gal. Newer files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
+/// The file has a header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`. A line with
+/// the names of the components, `N-S  E-W  U-D`, and the samples in gal follow.
+/// [`Record::read_all`](super::Record::read_all) returns all components. Reading returns an error if samples or peaks
+/// (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of acceleration other than gal. Newer
+/// files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
 ///
 /// ```
 /// use basemat::motion::{AfadFormat, Record};
@@ -95,7 +96,7 @@ impl AfadHeader {
 
 /// Reads all components of a file.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
-    let AfadHead { header, names, first_row } = read_head(lines)?;
+    let AfadPreamble { header, names, first_row } = read_preamble(lines)?;
     let time_step = header.time_step.filter(|&time_step| time_step > 0.0);
     let time_step = required(lines, time_step, "sampling interval (SAMPLING INTERVAL)")?;
     let expected_count =
@@ -116,7 +117,7 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
         let peak = lines.with_line_number(header.peak_in_gal(&name))?;
-        lines.with_line_number(agreement::peak(&samples, peak * factor))?;
+        lines.with_line_number(agreement::check_peak(&samples, peak * factor))?;
         components.push(Series { name, time_step, samples });
     }
     Ok(components)
@@ -132,8 +133,8 @@ fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
     Ok(row)
 }
 
-/// What the lines up to the first line of numbers contain.
-struct AfadHead {
+/// Contents of the lines up to the first line of numbers.
+struct AfadPreamble {
     header: AfadHeader,
     /// Names of the components.
     names: Vec<String>,
@@ -142,7 +143,7 @@ struct AfadHead {
 }
 
 /// Reads the lines up to the first line of numbers, this line included.
-fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
+fn read_preamble(lines: &mut Lines) -> LineResult<AfadPreamble> {
     let mut header = AfadHeader::default();
     let mut previous_line = String::new();
     while let Some(line) = lines.next()? {
@@ -158,7 +159,7 @@ fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
             for name in &names {
                 lines.with_line_number(check_acceleration(name, SAMPLE_UNIT))?;
             }
-            return Ok(AfadHead { header, names, first_row });
+            return Ok(AfadPreamble { header, names, first_row });
         }
         if !line.is_empty() {
             previous_line = line;

@@ -1,7 +1,7 @@
 //! Reader of text files with the values of one series along the lines, several on each.
 //!
-//! No agency defines this layout: SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`), OpenSees and
-//! scripts read and print it.
+//! No agency defines this layout: SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`), OpenSees
+//! and scripts read and print it.
 
 use std::io::Read;
 
@@ -87,24 +87,24 @@ impl RecordFormat for AlongLinesFormat {
 fn read(lines: &mut Lines, format: &AlongLinesFormat) -> LineResult<Series> {
     let mut header = HeaderLines::default();
     let mut header_format = None;
-    let mut title_may_come = true;
+    let mut may_be_title = true;
     let mut series = SeriesInLines::default();
     while let Some(line) = lines.next_indented()? {
         let text = line.trim_start();
         let is_skipped = lines.number <= format.header_lines;
         let is_comment = text.starts_with('#') && !has_spreadsheet_error(text);
         let fields = LineFields::split(text);
-        let is_title = title_may_come && !is_skipped && is_header(&fields);
+        let is_title = may_be_title && !is_skipped && is_header(&fields);
         let is_before_numbers = series.values.is_empty();
         if text.is_empty() || is_skipped || is_comment || is_title {
-            title_may_come &= text.is_empty() || is_skipped || is_comment;
+            may_be_title &= text.is_empty() || is_skipped || is_comment;
             if is_before_numbers {
                 header.add(text);
                 header_format = FortranFormat::find(text).or(header_format);
             }
             continue;
         }
-        title_may_come = false;
+        may_be_title = false;
         if is_before_numbers {
             series.begin(&line, format.layout, header_format, lines.number);
             if let Some(word) = first_word(&fields) {
@@ -155,7 +155,7 @@ struct ShortLine {
 }
 
 impl SeriesInLines {
-    /// Decides from the first line of values whether the lines have a Fortran format.
+    /// Determines from the first line of values whether the lines have a Fortran format.
     ///
     /// `format`: format that the caller states. `header_format`: format that the header names; it applies if the line
     /// matches it.
@@ -201,7 +201,7 @@ impl SeriesInLines {
         Ok(())
     }
 
-    /// Values of a line in the columns of a format; numbers of cards must rise.
+    /// Values of a line in the columns of a format; the numbers of successive cards must increase.
     fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
         let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
         if let Some(card_number) = card.card_number {
@@ -242,7 +242,7 @@ impl SeriesInLines {
     }
 }
 
-/// Whether the format decides the value of a number, which has no decimal point.
+/// Whether a field is a nonzero number without a decimal point, so that its value depends on the format.
 fn lacks_point(field: &str) -> bool {
     let is_nonzero = field.contains(|character: char| matches!(character, '1'..='9'));
     has_implied_point(field) && is_nonzero

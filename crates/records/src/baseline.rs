@@ -161,7 +161,7 @@ impl BaselineFit {
         let quantity = "number of samples under a baseline fit";
         let needed = "above the number of coefficients by two at least";
         require(quantity, samples.len() as f64, samples.len() > self.term_count + 1, needed)?;
-        let peak = samples.iter().fold(0.0, |max_so_far: f64, sample| max_so_far.max(sample.abs()));
+        let peak = samples.iter().fold(0.0, |max_sample: f64, sample| max_sample.max(sample.abs()));
         if peak == 0.0 {
             return Ok(samples.to_vec());
         }
@@ -256,9 +256,9 @@ impl FitIntegrals {
     fn new(step: f64, samples: &[f64], minimized: FitQuantity) -> Self {
         let super::integral::Integrals { velocity, displacement } =
             super::integral::integrate(step, samples);
-        let last = samples.len() - 1;
-        let mut values = Vec::with_capacity(GAUSS_POINTS.len() * last);
-        for index in 0..last {
+        let last_index = samples.len() - 1;
+        let mut values = Vec::with_capacity(GAUSS_POINTS.len() * last_index);
+        for index in 0..last_index {
             let start = super::integral::Motion {
                 acceleration: samples[index],
                 velocity: velocity[index],
@@ -274,7 +274,11 @@ impl FitIntegrals {
                 values.push(value * (weight * step).sqrt());
             }
         }
-        Self { values, end_velocity: velocity[last], end_displacement: displacement[last] }
+        Self {
+            values,
+            end_velocity: velocity[last_index],
+            end_displacement: displacement[last_index],
+        }
     }
 
     /// Velocity or displacement at the end of the record.

@@ -27,7 +27,7 @@ impl DataBlock {
         let factor = self.unit.in_metres_per_second_squared();
         let samples = multiplied(values, factor);
         if let Some(peak) = self.peak {
-            lines.with_line_number(agreement::peak(&samples, peak * factor))?;
+            lines.with_line_number(agreement::check_peak(&samples, peak * factor))?;
         }
         let next_line = line_after_block(lines, self.sample_count)?;
         Ok((samples, next_line))

@@ -5,6 +5,8 @@ use crate::error::FileFault;
 use crate::text::bounded_line::LineResult;
 use crate::text::decimal::finite;
 
+/// Number that the seconds of a time of day do not reach: a leap second has the number 60.
+const SECONDS_LIMIT: f64 = 61.0;
 /// Minutes in a day.
 const MINUTES_PER_DAY: i64 = 1440;
 /// Number of decimals of a second from which rounding of binary numbers hides the last digit.
@@ -41,7 +43,7 @@ impl Clock {
         let time_text = field.rsplit([' ', 'T']).next()?;
         let (hour_and_minute, second_text) = time_text.rsplit_once(':')?;
         let (hour_text, minute_text) = hour_and_minute.split_once(':')?;
-        let second = finite(second_text).filter(|second| (0.0..61.0).contains(second))?;
+        let second = finite(second_text).filter(|second| (0.0..SECONDS_LIMIT).contains(second))?;
         let minute = 60 * two_digits(hour_text)? + two_digits(minute_text)?;
         let first_minute = *self.first_minute.get_or_insert(minute);
         let has_passed_midnight = minute + MINUTES_PER_DAY / 2 < self.previous_minute;

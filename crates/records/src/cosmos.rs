@@ -20,16 +20,16 @@ use crate::text::decimal::finite;
 /// The reader accepts two layouts; in both, a line describes the block of numbers under it:
 ///
 /// * COSMOS 1.20: `12091 acceleration pts, approx 120 secs, units=cm/s^2 (4), Format=(8F10.5)`, with the sampling
-///   interval of the data (ms) as 62nd of the 100 real header values; if it is unknown there (−999), the 34th is
-///   used, the interval of the recorder (s);
+///   interval of the data (ms) as 62nd of the 100 real header values; if this value is unknown (−999), the 34th value
+///   is used, the interval of the recorder (s);
 /// * CSMIP (California Geological Survey):
 ///   `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`, in the 1980s
 ///   `(UNITS: CM/SEC/SEC)`, and volume 1,
 ///   `13200 Accelerogram points at 200 pts/sec in units of g .  Format: (8f9.6)`.
 ///
-/// Header and title state interval, number of points, duration, unit and peak more than once. An error if they
-/// disagree, if the block has more numbers than announced, and for raw counts (`.V0`) and uncorrected data in
-/// unequal steps.
+/// Header and title state interval, number of points, duration, unit and peak more than once. Reading returns an error
+/// if these values disagree, if the block has more numbers than announced, and for raw counts (`.V0`) and uncorrected
+/// data in unequal steps.
 ///
 /// Numbers are read in the columns of the format that the line names, in which they may touch. They are read
 /// without columns where a line does not match the format or none is named. In its column, a number without a
@@ -271,14 +271,14 @@ impl CosmosHeader {
             data_interval.or_else(|| self.positive_real(RECORDER_INTERVAL_INDEX));
         let time_step = block::positive_time_step(sampling_interval)?;
         if let Some(stated_duration) = self.positive_real(DATA_DURATION_INDEX) {
-            agreement::duration(sample_count, time_step, stated_duration, 0.0)?;
+            agreement::check_duration(sample_count, time_step, stated_duration, 0.0)?;
         }
         // `approx  120 secs`: the stated duration has no decimals.
         let approximate_duration = title.split_once("approx").and_then(|(_, text)| {
             finite(text.trim_start_matches(['.', ' ', '=']).split_whitespace().next()?)
         });
         if let Some(stated_duration) = approximate_duration {
-            agreement::duration(sample_count, time_step, stated_duration, 1.0)?;
+            agreement::check_duration(sample_count, time_step, stated_duration, 1.0)?;
         }
         Ok(DataBlock { sample_count, time_step, unit, format, peak: self.real(DATA_PEAK_INDEX) })
     }

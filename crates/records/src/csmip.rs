@@ -124,11 +124,15 @@ impl CsmipHeader {
     /// Error if header and title state different numbers of points or time steps.
     fn check(&self, sample_count: usize, time_step: f64) -> FaultResult<()> {
         if let Some(stated_count) = self.sample_count {
-            agreement::number("number of points of the title", sample_count as f64, stated_count)?;
+            agreement::check_number(
+                "number of points of the title",
+                sample_count as f64,
+                stated_count,
+            )?;
         }
         match self.time_step {
             Some(stated_step) => {
-                agreement::number("time step of the title (s)", time_step, stated_step)
+                agreement::check_number("time step of the title (s)", time_step, stated_step)
             }
             None => Ok(()),
         }
@@ -178,9 +182,8 @@ fn time_step_end(text: &str) -> usize {
 fn unit_text(title: &str) -> Option<&str> {
     if let Some((_, text)) = title.split_once("units") {
         let text = text.trim_start_matches([' ', '=', ':']);
-        let text_after_verb = ["of ", "are ", "is "]
-            .into_iter()
-            .find_map(|text_after_verb| text.strip_prefix(text_after_verb));
+        let text_after_verb =
+            ["of ", "are ", "is "].into_iter().find_map(|verb| text.strip_prefix(verb));
         return Some(text_after_verb.unwrap_or(text).trim_start());
     }
     Some(text_after_volume_2_key(title)?.split_once(" in ")?.1)

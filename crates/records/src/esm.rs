@@ -13,9 +13,9 @@ use super::{AccelerationUnit, agreement};
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
 ///
-/// A header of lines `KEY: value`, among them `SAMPLING_INTERVAL_S`, `NDATA` and `UNITS`, then the samples. An
-/// error if samples, duration (`DURATION_S`) or peak (`PGA_CM/S^2`) differ from the header, and for velocity or
-/// displacement (`DATA_TYPE`).
+/// The file has a header of lines `KEY: value`, among them `SAMPLING_INTERVAL_S`, `NDATA` and `UNITS`, then the
+/// samples. Reading returns an error if samples, duration (`DURATION_S`) or peak (`PGA_CM/S^2`) differ from the header,
+/// and for velocity or displacement (`DATA_TYPE`).
 ///
 /// ```
 /// use basemat::motion::{EsmFormat, Record};
@@ -81,9 +81,9 @@ impl EsmHeader {
     /// Error unless the samples have the stated duration and peak.
     fn check(&self, samples: &[f64], time_step: f64) -> FaultResult<()> {
         if let Some(stated_duration) = self.duration {
-            agreement::duration(samples.len(), time_step, stated_duration, 0.0)?;
+            agreement::check_duration(samples.len(), time_step, stated_duration, 0.0)?;
         }
-        agreement::peak(samples, self.peak)
+        agreement::check_peak(samples, self.peak)
     }
 }
 

@@ -5,12 +5,12 @@ use crate::error::{Error, Result, not_negative, positive, require};
 use basemat_fourier::RealPlanner;
 use basemat_fourier::num_complex::Complex;
 
-/// Highest order of a filter: steeper ones ring for long.
+/// Highest order of a filter: filters of higher order ring for long.
 const MAX_FILTER_ORDER: u32 = 8;
-/// Quiet time on either side of a filtered record, in orders of the filter per corner frequency.
+/// Quiet time on either side of a filtered record, relative to the filter's order over its corner frequency.
 const PAD_LENGTH_FACTOR: f64 = 1.5;
 
-/// Excess of the tapers over the duration, relative to it, that is rounding of their sum.
+/// Largest excess of both tapers over the duration because of rounding, relative to the duration.
 const TAPER_SUM_TOLERANCE: f64 = 1e-12;
 
 impl Record {
@@ -19,11 +19,11 @@ impl Record {
     /// A Butterworth filter of `order` (1 to 8) forwards and backwards: gain 1/(1 + (corner/f)^(2 order)), no
     /// phase.
     ///
-    /// The record gets longer. A filter without phase extends the motion to earlier times, and needs quiet time of
-    /// 1.5 order/corner on either side (Converse & Brady, *BAP: basic strong-motion accelerogram processing
-    /// software*, USGS Open-File Report 92-296A, 1992). Keep it: without it, velocity and displacement do not
-    /// return to zero (Boore, "On pads and filters: processing strong-motion data", Bull. Seism. Soc. Am. 95
-    /// (2005), 745–750). If a record does not begin or end near zero, taper it with [`Record::tapered`] before.
+    /// The record gets longer. A filter without phase extends the motion to earlier times, and needs quiet time of 1.5
+    /// order/corner on either side (Converse & Brady, *BAP: basic strong-motion accelerogram processing software*, USGS
+    /// Open-File Report 92-296A, 1992). Keep this quiet time: without it, velocity and displacement do not return to
+    /// zero (Boore, "On pads and filters: processing strong-motion data", Bull. Seism. Soc. Am. 95 (2005), 745–750). If
+    /// a record does not begin or end near zero, taper it with [`Record::tapered`] before.
     ///
     /// ```
     /// use basemat::motion::el_centro_1940;
@@ -55,8 +55,8 @@ impl Record {
     /// let record = el_centro_1940();
     /// let [low, high] = [record.low_pass(10.0, 4)?, record.high_pass(10.0, 4)?];
     /// // The two gains add up to one.
-    /// let whole = record.padded(0.6, 0.6)?;
-    /// for (k, original) in whole.accelerations().iter().enumerate() {
+    /// let padded_record = record.padded(0.6, 0.6)?;
+    /// for (k, original) in padded_record.accelerations().iter().enumerate() {
     ///     assert!((low.accelerations()[k] + high.accelerations()[k] - original).abs() < 1e-13);
     /// }
     /// # Ok::<(), basemat::Error>(())

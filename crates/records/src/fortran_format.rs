@@ -4,8 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
-use crate::text::decimal::in_field;
-use crate::text::words::unknown;
+use crate::text::decimal::fortran_field_value;
+use crate::text::words::unknown_word_error;
 
 /// Largest number of fields in a line, and largest width of a field, in a format.
 ///
@@ -77,7 +77,10 @@ impl FortranFormat {
 
     /// The numbers in the fields of a line; `None` unless all are finite.
     pub(super) fn numbers(self, fields: &[&str]) -> Option<Vec<f64>> {
-        fields.iter().map(|field| in_field(field, self.decimals, self.scale)).collect()
+        fields
+            .iter()
+            .map(|field| fortran_field_value(field, self.decimals, self.scale))
+            .collect()
     }
 
     /// Whether numbers without a point have decimals.
@@ -162,8 +165,8 @@ impl FortranFormat {
 
     /// The fields of a line of the file, without white space at its end.
     ///
-    /// `None` if the line does not match these columns: if it is longer or not ASCII, if a number contains white space, or
-    /// if its decimals show that a number continues after the end of its column.
+    /// `None` if the line does not match these columns: if it is longer or not ASCII, if a number contains white space,
+    /// or if its decimals show that a number continues after the end of its column.
     pub(super) fn fields(self, line: &str) -> Option<Vec<&str>> {
         if !line.is_ascii() || line.len() > self.repeat * self.width {
             return None;
@@ -199,7 +202,7 @@ impl FromStr for FortranFormat {
             item.strip_prefix('(').and_then(|item| item.strip_suffix(')')).unwrap_or(item);
         let examples = &["8F10.5", "1E15.6", "1P8E10.3", "10I8"];
         Self::parse(item_without_brackets)
-            .ok_or_else(|| unknown("Fortran format of one item", text, examples))
+            .ok_or_else(|| unknown_word_error("Fortran format of one item", text, examples))
     }
 }
 

@@ -20,8 +20,8 @@ use crate::text::decimal::finite;
 /// One file has all components of a station, one after the other.
 ///
 /// Samples are in mm/s² times the unit of the readings (`Raw readings in units of 1.00 mm/s/s`). The header states
-/// interval, number of points and duration in words and in numbers, which must agree, and the peak of each
-/// component. [`Record::read_all`](super::Record::read_all) returns all components. Velocity and displacement are skipped.
+/// interval, number of points and duration in words and in numbers, which must agree, and the peak of each component.
+/// [`Record::read_all`](super::Record::read_all) returns all components. Velocity and displacement are skipped.
 ///
 /// ```no_run
 /// use basemat::motion::{GeoNetFormat, Record};
@@ -120,15 +120,15 @@ impl GeoNetHeader {
     fn check(&self, samples: &[f64], time_step: f64) -> FaultResult<()> {
         let sample_count = samples.len();
         if let Some(stated_count) = self.sample_count {
-            agreement::number("number of points", sample_count as f64, stated_count)?;
+            agreement::check_number("number of points", sample_count as f64, stated_count)?;
         }
         if let Some(stated_step) = self.time_step {
-            agreement::number("time step (s)", time_step, stated_step)?;
+            agreement::check_number("time step (s)", time_step, stated_step)?;
         }
         if let Some(stated_duration) = self.duration {
-            agreement::duration(sample_count, time_step, stated_duration, 0.0)?;
+            agreement::check_duration(sample_count, time_step, stated_duration, 0.0)?;
         }
-        agreement::peak(samples, self.peak * TEXT_UNIT.in_metres_per_second_squared())
+        agreement::check_peak(samples, self.peak * TEXT_UNIT.in_metres_per_second_squared())
     }
 }
 
@@ -181,11 +181,11 @@ fn read_component(lines: &mut Lines) -> LineResult<Series> {
 
 /// Skips the lines of a block of `count` numbers, in full lines of ten.
 fn skip_numbers(lines: &mut Lines, count: f64) -> LineResult<()> {
-    let mut remaining = count;
-    while remaining > 0.0
+    let mut remaining_count = count;
+    while remaining_count > 0.0
         && let Some(line) = lines.next()?
     {
-        remaining -= if line.is_empty() { 0.0 } else { NUMBERS_PER_LINE };
+        remaining_count -= if line.is_empty() { 0.0 } else { NUMBERS_PER_LINE };
     }
     Ok(())
 }

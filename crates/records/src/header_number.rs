@@ -79,7 +79,8 @@ impl HeaderNumber {
 
     /// The value of a number or fraction with one of the units.
     fn parse(self, text: &str) -> Option<f64> {
-        // An `E` may begin the exponent or the unit; the first split with a known unit decides.
+        // An `E` may begin the exponent or the unit. The unit begins at the first letter or bracket from which on the
+        // text is a known unit.
         for (position, character) in text.char_indices() {
             if (character.is_alphabetic() || character == '(')
                 && let Some(value) = self.parse_split(text, position)

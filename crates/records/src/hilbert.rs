@@ -5,8 +5,8 @@
 //!
 //! (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
 //!
-//! exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58
-//! (1970), 585–586). The linear convolution is computed by Fourier transforms, which are so long that nothing wraps around.
+//! exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58 (1970),
+//! 585–586). The linear convolution is computed by Fourier transforms, which are so long that nothing wraps around.
 
 use std::f64::consts::PI;
 
@@ -16,14 +16,16 @@ use super::record::check_sample_memory;
 use crate::error::{Result, not_negative};
 
 impl Record {
-    /// Record with zero acceleration for at least `before` and `after` (s) around it.
+    /// Record with zero acceleration for at least `leading_time` (s) before and `trailing_time` (s) after it.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both are finite and not negative,
     /// [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
-    pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
-        let leading_count = self.quiet_sample_count("quiet time before the record", before)?;
-        let trailing_count = self.quiet_sample_count("quiet time after the record", after)?;
+    pub fn padded(&self, leading_time: f64, trailing_time: f64) -> Result<Self> {
+        let leading_count =
+            self.quiet_sample_count("quiet time before the record", leading_time)?;
+        let trailing_count =
+            self.quiet_sample_count("quiet time after the record", trailing_time)?;
         check_sample_memory((leading_count + self.len() + trailing_count) as f64)?;
         let mut padded = vec![0.0; leading_count];
         padded.extend_from_slice(self.accelerations());
@@ -88,24 +90,24 @@ mod tests {
         let step = 0.125;
         let times: Vec<f64> = (-half_count..=half_count).map(|k| f64::from(k) * step).collect();
         let samples: Vec<f64> = times.iter().map(|t| 1.0 / (1.0 + t * t)).collect();
-        let found = hilbert(&samples, 0).unwrap();
-        for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
+        let computed = hilbert(&samples, 0).unwrap();
+        for (t, computed) in times.iter().zip(&computed).filter(|(t, _)| t.abs() < 200.0) {
             // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
             // The part above the highest frequency of the samples: exp(−π/step).
             let tolerance =
                 2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
-            assert!((found - t / (1.0 + t * t)).abs() < tolerance, "{t}: {found}");
+            assert!((computed - t / (1.0 + t * t)).abs() < tolerance, "{t}: {computed}");
         }
     }
 
-    /// Against the sum itself, at the samples and around them.
+    /// REFERENCE: the sum of the definition, at the samples and around them.
     #[test]
     fn convolution_is_the_sum() {
         let samples: Vec<f64> = (0..37).map(|k| f64::from(k * k % 17) - 7.0).collect();
         for padding in [0, 1, 50] {
-            let found = hilbert(&samples, padding).unwrap();
-            assert_eq!(found.len(), 37 + 2 * padding);
-            for (k, found) in found.iter().enumerate() {
+            let computed = hilbert(&samples, padding).unwrap();
+            assert_eq!(computed.len(), 37 + 2 * padding);
+            for (k, computed) in computed.iter().enumerate() {
                 let terms = samples.iter().enumerate().map(|(j, f)| {
                     let distance = k as f64 - padding as f64 - j as f64;
                     if distance == 0.0 {
@@ -114,7 +116,7 @@ mod tests {
                         f * (1.0 - (PI * distance).cos()) / (PI * distance)
                     }
                 });
-                assert!((found - terms.sum::<f64>()).abs() < 1e-12, "{padding} {k}");
+                assert!((computed - terms.sum::<f64>()).abs() < 1e-12, "{padding} {k}");
             }
         }
     }

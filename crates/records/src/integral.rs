@@ -60,7 +60,7 @@ pub fn quadratic_roots_within(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f6
     }
     // q = c₂ times the root of larger magnitude. The other root is c₀/q, since the product of the roots is c₀/c₂.
     let q = -(c1 + discriminant.sqrt().copysign(c1)) / 2.0;
-    // q is zero only if c₁ and c₀c₂ are. A division by zero gives no root within the interval.
+    // q is zero only if c₁ and c₀c₂ are zero. A division by zero gives no root within the interval.
     let root_from_sum = Some(q / c2).filter(|&root| root > 0.0 && root < end);
     let root_from_product = Some(c0 / q).filter(|&root| root > 0.0 && root < end);
     match (root_from_sum, root_from_product) {

@@ -66,18 +66,24 @@ impl Record {
     /// Soc. Am. 65 (1975), 581–626. Linear between samples.
     ///
     /// ```
-    /// let [from, to] = basemat::motion::el_centro_1940().significant_times(0.05, 0.95)?;
-    /// assert!((from - 1.6688).abs() < 1e-4 && (to - 25.5121).abs() < 1e-4);
+    /// let [start, end] = basemat::motion::el_centro_1940().significant_times(0.05, 0.95)?;
+    /// assert!((start - 1.6688).abs() < 1e-4 && (end - 25.5121).abs() < 1e-4);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `from` ≤ `to` ≤ 1 and the record is not zero throughout.
-    pub fn significant_times(&self, from: f64, to: f64) -> Result<[f64; 2]> {
+    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `first_fraction` ≤ `second_fraction` ≤ 1 and the record is not
+    /// zero throughout.
+    pub fn significant_times(&self, first_fraction: f64, second_fraction: f64) -> Result<[f64; 2]> {
         let quantity = "fraction of the Arias intensity";
         let needed = "from 0 to 1, the second at least the first";
-        require(quantity, from, (0.0..=1.0).contains(&from), needed)?;
-        require(quantity, to, (from..=1.0).contains(&to), needed)?;
+        require(quantity, first_fraction, (0.0..=1.0).contains(&first_fraction), needed)?;
+        require(
+            quantity,
+            second_fraction,
+            (first_fraction..=1.0).contains(&second_fraction),
+            needed,
+        )?;
         let peak = positive("peak acceleration of the record", self.peak_acceleration())?;
         // Relative to the peak: squares of tiny numbers vanish.
         let squares: Vec<f64> =
@@ -88,7 +94,8 @@ impl Record {
                 .push(cumulative_sums[cumulative_sums.len() - 1] + f64::midpoint(pair[0], pair[1]));
         }
         let total = cumulative_sums[cumulative_sums.len() - 1];
-        Ok([from, to].map(|fraction| self.time_of_sum(fraction * total, &cumulative_sums)))
+        Ok([first_fraction, second_fraction]
+            .map(|fraction| self.time_of_sum(fraction * total, &cumulative_sums)))
     }
 
     /// Time (s) at which `sums`, linear between samples, reach a value.

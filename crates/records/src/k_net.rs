@@ -15,11 +15,12 @@ use crate::text::decimal::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
 ///
-/// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder. The acceleration is
-/// the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of samples must be
-/// `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak `Max. Acc. (gal)`, up to the baseline.
-/// [`KNetCsvFormat`](super::KNetCsvFormat) reads the files with commas. Counts have an offset: call
-/// [`Record::with_baseline`](super::Record::with_baseline) afterwards, at least with [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
+/// The file has seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder. The
+/// acceleration is the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of samples must be
+/// `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak must be `Max. Acc. (gal)`, up to a change of the
+/// baseline. [`KNetCsvFormat`](super::KNetCsvFormat) reads the files with commas. Counts have an offset: call
+/// [`Record::with_baseline`](super::Record::with_baseline) afterwards, at least with
+/// [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
 ///
 /// ```
 /// use basemat::motion::{KNetFormat, Record};
@@ -83,7 +84,7 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
     let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
     let samples = multiplied(counts, gal_per_count * gal);
     let peak = header.peak_in_gal.unwrap_or(0.0) * gal;
-    lines.with_line_number(agreement::peak(&samples, peak))?;
+    lines.with_line_number(agreement::check_peak(&samples, peak))?;
     Ok(Series { name: header.direction, time_step: 1.0 / frequency, samples })
 }
 

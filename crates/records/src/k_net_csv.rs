@@ -1,8 +1,8 @@
 //! Records of K-NET and KiK-net with commas.
 //!
 //! Layout: the CSV files of the National Research Institute for Earth Science and Disaster Resilience
-//! (kyoshin.bosai.go.jp), whose header has the keys of the ASCII files (`man/knetform_en.html`) behind `#`; the last line
-//! of the header names the columns, of which the first is the time of day.
+//! (kyoshin.bosai.go.jp), whose header has the keys of the ASCII files (`man/knetform_en.html`) behind `#`; the last
+//! line of the header names the columns, of which the first is the time of day.
 
 use super::clock::Clock;
 use super::column_title::check_acceleration;
@@ -26,10 +26,11 @@ const TIME_STEP_TOLERANCE: f64 = 0.01;
 ///
 /// One file has all components of a station, side by side.
 ///
-/// A header of lines `#Key,value`, among them `#Sampling Freq(Hz),100`, and one with the names of the columns,
-/// `#Time,NS,EW,UD`; then the time of day (or seconds) and the components in gal. The times must advance by the
-/// sampling interval. [`Record::read_all`](super::Record::read_all) returns all components. If the samples have an offset, call
-/// [`Record::with_baseline`](super::Record::with_baseline) afterwards. [`KNetFormat`](super::KNetFormat) reads the ASCII files.
+/// The file has a header of lines `#Key,value`, among them `#Sampling Freq(Hz),100`, and a line with the names of the
+/// columns, `#Time,NS,EW,UD`. Lines with the time of day (or seconds) and the components in gal follow. The times must
+/// advance by the sampling interval. [`Record::read_all`](super::Record::read_all) returns all components. If the
+/// samples have an offset, call [`Record::with_baseline`](super::Record::with_baseline) afterwards.
+/// [`KNetFormat`](super::KNetFormat) reads the ASCII files.
 ///
 /// ```
 /// use basemat::motion::{KNetCsvFormat, Record};
@@ -159,14 +160,14 @@ fn components(
         }
     }
     if let Some(stated_duration) = header.duration {
-        agreement::duration(times.len(), time_step, stated_duration, 0.0)?;
+        agreement::check_duration(times.len(), time_step, stated_duration, 0.0)?;
     }
     let mut components = Vec::new();
     for (index, samples) in columns.iter().enumerate() {
         let name = &header.column_names[index + 1];
         check_acceleration(name, SAMPLE_UNIT)?;
         let peak = header.peak_in_gal(index) * SAMPLE_UNIT.in_metres_per_second_squared();
-        agreement::peak(samples, peak)?;
+        agreement::check_peak(samples, peak)?;
         components.push(Series { name: name.clone(), time_step, samples: samples.clone() });
     }
     Ok(components)

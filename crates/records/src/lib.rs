@@ -13,7 +13,7 @@ extern crate basemat_base;
 // * `lines`: the lines of a file (`Lines`), their numbers (`push_numbers`, `read_numbers`), `required` values of a
 //   header;
 // * `series`: `Series`, the samples of a component, and `check_sample_count`;
-// * `format`: `read_one_component` or `read_components`, which make a `RecordFormat` of `read`;
+// * `format`: `read_one_component` or `read_components`, which implement `RecordFormat` by `read`;
 // * `fortran_format`: numbers in columns of fixed width, which may touch;
 // * `header_number`: a quantity of a header with its unit; `unit_name`: names of units of acceleration;
 // * `column_title` and `header_line`: titles of columns, and the units that they name;

@@ -12,8 +12,8 @@ const MIN_LINES_WITH_FRACTIONAL_STEPS: usize = 4;
 const MIN_LINES_FOR_MEAN: usize = 8;
 /// Ratio of differences below which a series continues from line to line.
 ///
-/// The ratio is the mean square of the differences over line ends, divided by the mean square down the columns. It is at
-/// most a quarter for a smooth series, and one for columns of one signal.
+/// The ratio is the mean square of the differences over line ends, divided by the mean square down the columns. It is
+/// at most a quarter for a smooth series, and one for columns of one signal.
 const MAX_CONTINUATION_RATIO: f64 = 0.5;
 /// Ratio of differences above which columns are different quantities; it is one for random numbers.
 const MIN_JUMP_RATIO: f64 = 4.0;
@@ -128,8 +128,8 @@ pub(super) struct EqualStepColumn {
     pub(super) step: f64,
 }
 
-fn squared_difference(from: f64, to: f64) -> f64 {
-    (to - from) * (to - from)
+fn squared_difference(first: f64, second: f64) -> f64 {
+    (second - first) * (second - first)
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Records of the PEER databases.
 //!
-//! Layout: Pacific Earthquake Engineering Research Center, *PEER Strong Motion Database* and *NGA-West2* (peer.berkeley.edu,
-//! `.AT2`): four lines of header, of which the third names the unit and the fourth number of points and time step, then
-//! five numbers a line as `5E15.7`; the headers of older files vary. Only the number of samples is stated twice.
+//! Layout: Pacific Earthquake Engineering Research Center, *PEER Strong Motion Database* and *NGA-West2*
+//! (peer.berkeley.edu, `.AT2`): four lines of header, of which the third names the unit and the fourth number of points
+//! and time step, then five numbers a line as `5E15.7`; the headers of older files vary. Only the number of samples is
+//! stated twice.
 
 use std::io::Read;
 
@@ -23,13 +24,13 @@ const GRAVITY_TOLERANCE: f64 = 1e-2;
 
 /// The `.AT2` files of the Pacific Earthquake Engineering Research Center.
 ///
-/// A header of text, then the acceleration in units of g, several to a line. The last line of the header gives the
-/// number of points and the time step, as `NPTS=  5372, DT=   .0100 SEC` or, in older files,
-/// `5372  .0100  NPTS, DT`. Numbers may touch where the second is negative. The time step is in seconds unless
-/// `MSEC` follows, and may be a fraction (`1/100 SEC`). A line of the header must state the unit g:
-/// `ACCELERATION TIME SERIES IN UNITS OF G`, with or without text after it
-/// (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or `ACCELERATION TIME HISTORY (G)`, `The units are (g)`. Errors: no
-/// such line, velocity or displacement, other units, and fewer or more numbers than the header states.
+/// The file has a header of text, then the acceleration in units of g, several values on each line. The last line of
+/// the header gives the number of points and the time step, as `NPTS=  5372, DT=   .0100 SEC` or, in older files, `5372
+/// .0100  NPTS, DT`. Two numbers may touch if the second is negative. The time step is in seconds unless `MSEC`
+/// follows, and may be a fraction (`1/100 SEC`). A line of the header must state the unit g: `ACCELERATION TIME SERIES
+/// IN UNITS OF G`, with or without text after it (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or `ACCELERATION TIME
+/// HISTORY (G)`, `The units are (g)`. Reading returns an error without such a line, for velocity or displacement, for
+/// other units, and for fewer or more numbers than the header states.
 ///
 /// ```
 /// use basemat::motion::{PeerFormat, Record};
@@ -262,7 +263,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn headers_say_what_the_numbers_are() {
+    fn headers_state_quantity_and_unit() {
         for (line, expected) in [
             ("ACCELERATION TIME SERIES IN UNITS OF G", Some(true)),
             ("ACCELERATION TIME HISTORY IN UNITS OF G.", Some(true)),

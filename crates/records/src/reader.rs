@@ -42,9 +42,9 @@ use crate::error::{FileFault, Result};
 /// columns counts, comments included; of several lines that name a unit for a column, the last one counts.
 ///
 /// [`equally_spaced`](Self::equally_spaced) reads files without a time column. All their lines must have equally many
-/// columns. Without titles the lines may be one series along the lines. To be read as columns, one column must then have
-/// counts, times or a constant, or the numbers must jump from line to line, or `samples` must be set. A file that was cut
-/// within its last number looks like a complete one: set `samples` if you know their number.
+/// columns. Without titles the lines may be one series along the lines. To be read as columns, one column must then
+/// have counts, times or a constant, or the numbers must jump from line to line, or `samples` must be set. A file that
+/// was cut within its last number looks like a complete one: set `samples` if you know their number.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -212,7 +212,7 @@ impl ColumnTable {
     ) -> LineResult<Self> {
         let mut table = Self::default();
         let mut header = HeaderLines::default();
-        let mut title_may_come = true;
+        let mut may_be_title = true;
         while let Some(text) = lines.next()? {
             let is_skipped = lines.number <= format.header_lines;
             let is_comment = text.starts_with('#') && !has_spreadsheet_error(&text);
@@ -224,8 +224,8 @@ impl ColumnTable {
                 continue;
             }
             let fields = LineFields::split(&text);
-            let is_title = title_may_come && is_header(&fields);
-            title_may_come = false;
+            let is_title = may_be_title && is_header(&fields);
+            may_be_title = false;
             if is_title {
                 header.add(&text);
                 continue;
@@ -337,6 +337,9 @@ fn acceleration_columns(
 /// Table of the El Centro record, with times in s and accelerations in g.
 const EL_CENTRO_CSV: &str = include_str!("../data/elcentro1940_NS_peknold_0319g.csv");
 
+/// Number of samples of the El Centro record.
+const EL_CENTRO_SAMPLE_COUNT: usize = 1560;
+
 /// El Centro 1940-05-18, component North–South, in the version of textbooks.
 ///
 /// 1560 samples every 0.02 s, peak 0.31882 g at 2.04 s: the digitisation by Peknold, as tabulated
@@ -351,7 +354,7 @@ const EL_CENTRO_CSV: &str = include_str!("../data/elcentro1940_NS_peknold_0319g.
 #[expect(clippy::missing_panics_doc, reason = "the embedded text is read by the tests")]
 pub fn el_centro_1940() -> Record {
     let format = ColumnFormat {
-        samples: Some(1560),
+        samples: Some(EL_CENTRO_SAMPLE_COUNT),
         ..ColumnFormat::new(AccelerationUnit::StandardGravity)
     };
     Record::from_reader("El Centro 1940", EL_CENTRO_CSV.as_bytes(), &format)

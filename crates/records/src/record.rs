@@ -9,7 +9,7 @@ use crate::text::csv::Csv;
 /// Bytes of a sample: the acceleration, its two integrals, and two temporary copies.
 const BYTES_PER_SAMPLE: f64 = 40.0;
 
-/// Error for more samples than fit into memory, with their two integrals.
+/// Returns an error for more samples, with their two integrals, than fit into memory.
 pub(super) fn check_sample_memory(sample_count: f64) -> std::result::Result<(), MemoryError> {
     memory::check("samples of the record", sample_count, BYTES_PER_SAMPLE * sample_count)
 }
@@ -52,8 +52,9 @@ impl Record {
     /// Record from its time step (s) and at least two samples of acceleration (m/s²).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the time step is positive and all slopes, velocities and displacements are finite;
-    /// [`Error::NotFinite`](crate::Error::NotFinite) for a sample that is not finite; [`Error::Size`](crate::Error::Size) for fewer than two samples.
+    /// [`Error::Input`](crate::Error::Input) unless the time step is positive and all slopes, velocities and
+    /// displacements are finite; [`Error::NotFinite`](crate::Error::NotFinite) for a sample that is not finite;
+    /// [`Error::Size`](crate::Error::Size) for fewer than two samples.
     pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
         positive("time step of the record", time_step)?;
         at_least("samples of the record", acceleration.len(), 2)?;
@@ -84,8 +85,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// As for [`Record::new`]; [`Error::Input`](crate::Error::Input) for a duration that is not positive, [`Error::Memory`](crate::Error::Memory) for more
-    /// samples than fit into memory.
+    /// As for [`Record::new`]; [`Error::Input`](crate::Error::Input) for a duration that is not positive,
+    /// [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
     pub fn from_fn(
         time_step: f64,
         duration: f64,
@@ -148,7 +149,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the step is positive, [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
+    /// [`Error::Input`](crate::Error::Input) unless the step is positive, [`Error::Memory`](crate::Error::Memory) for
+    /// more samples than fit into memory.
     pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
@@ -175,7 +177,7 @@ impl Record {
         Self::new(self.step, self.acceleration.iter().map(|a| a * factor).collect())
     }
 
-    /// Record scaled to a peak ground acceleration (m/s²), signs kept.
+    /// Record scaled to a peak ground acceleration (m/s²); the factor is positive.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940().scaled_to_peak(5.0)?;
@@ -186,7 +188,7 @@ impl Record {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `peak` is positive and the record is not zero throughout.
     pub fn scaled_to_peak(&self, peak: f64) -> Result<Self> {
-        positive("wanted peak acceleration", peak)?;
+        positive("peak acceleration of the scaled record", peak)?;
         let original_peak = positive("peak acceleration of the record", self.peak_acceleration())?;
         self.scaled(peak / original_peak)
     }
@@ -243,9 +245,9 @@ impl Record {
     }
 }
 
-/// Excess of the duration over whole intervals, in intervals, that is rounding.
+/// Largest excess of the duration over whole intervals because of rounding, in intervals.
 const INTERVAL_ROUNDING: f64 = 1e-9;
-/// Time after the last sample, in time steps, that is rounding; larger than [`INTERVAL_ROUNDING`].
+/// Largest time after the last sample because of rounding, in time steps; it is larger than [`INTERVAL_ROUNDING`].
 const END_ROUNDING: f64 = 1e-8;
 /// Largest distance of a time from a sample, in steps, that counts as rounding.
 const SAMPLE_TIME_TOLERANCE: f64 = 1e-6;

@@ -58,7 +58,7 @@ impl RecordFormat for SlistFormat {
     }
 }
 
-/// What the line before the samples of a series states.
+/// Contents of the line before the samples of a series.
 struct SlistHeader {
     name: String,
     /// Number of samples.

@@ -81,7 +81,12 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
         if let Some(time) = stated_real(&reals, index)
             && let Some(value) = stated_real(&reals, index + 1)
         {
-            lines.with_line_number(agreement::extreme(&samples, time_step, time, value * gal))?;
+            lines.with_line_number(agreement::check_extreme(
+                &samples,
+                time_step,
+                time,
+                value * gal,
+            ))?;
         }
     }
     Ok(Series { name, time_step, samples })

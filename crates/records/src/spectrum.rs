@@ -14,7 +14,7 @@ use crate::error::{Observer, ProgressReporter, Result, damping_ratio, positive, 
 
 /// Smallest number of substeps in a period: peaks between substeps are then found to 2e-6.
 const MIN_SUBSTEPS_PER_PERIOD: f64 = 40.0;
-/// Largest number of substeps for one period, some seconds of work; shorter periods are an error.
+/// Largest number of substeps for one period, some seconds of work; a period that needs more is an error.
 const MAX_SUBSTEPS: f64 = 1e9;
 
 /// Number of substeps between two reports of progress, some milliseconds of work.
@@ -94,10 +94,10 @@ impl Record {
     ///
     /// The acceleration is linear between samples, for which the oscillator's motion is known exactly (Nigam &
     /// Jennings, "Calculation of response spectra from strong-motion earthquake records", Bull. Seism. Soc. Am. 59
-    /// (1969), 909–922). Peaks between samples are found to 2e-6. Peaks of the free vibration in the period after the last
-    /// sample count too. The spectrum of a floor's acceleration is a floor spectrum. [`Record::coarse_spectrum`] warns of
-    /// periods that are too short for the record's time step. The observer's parts are samples of the record, counted
-    /// again for every period.
+    /// (1969), 909–922). Peaks between samples are found to 2e-6. Peaks of the free vibration in the period after the
+    /// last sample count too. The spectrum of a floor's acceleration is a floor spectrum. [`Record::coarse_spectrum`]
+    /// warns of periods that are too short for the record's time step. The observer's parts are samples of the record,
+    /// counted again for every period.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
@@ -139,18 +139,19 @@ impl Record {
     ) -> Result<SpectralOrdinate> {
         positive("period of a response spectrum", period)?;
         let substep_ratio = (MIN_SUBSTEPS_PER_PERIOD * self.time_step() / period).ceil().max(1.0);
-        let frequency = std::f64::consts::TAU / period;
+        let circular_frequency = std::f64::consts::TAU / period;
         let total_substeps = substep_ratio * (self.len() as f64 + period / self.time_step());
-        let is_computable = total_substeps < MAX_SUBSTEPS && (frequency * frequency).is_finite();
+        let is_computable =
+            total_substeps < MAX_SUBSTEPS && (circular_frequency * circular_frequency).is_finite();
         let needed = "a period that needs at most 1e9 substeps: neither too short nor too long";
         require("period of a response spectrum", period, is_computable, needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
         let substeps_per_step = substep_ratio as usize;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
         let free_step_count = (period / self.time_step()).ceil() as usize;
-        let mut march = OscillatorMarch {
+        let mut response = OscillatorResponse {
             oscillator: Oscillator::new(
-                frequency,
+                circular_frequency,
                 damping,
                 self.time_step() / substeps_per_step as f64,
             ),
@@ -161,24 +162,24 @@ impl Record {
             max_acceleration: 0.0,
         };
         for (index, pair) in self.accelerations().windows(2).enumerate() {
-            march.step(pair[0], pair[1] - pair[0], &mut || report(index))?;
+            response.step(pair[0], pair[1] - pair[0], &mut || report(index))?;
         }
         for _ in 0..free_step_count {
-            march.step(0.0, 0.0, &mut || report(self.len()))?;
+            response.step(0.0, 0.0, &mut || report(self.len()))?;
         }
-        let displacement = march.max_displacement;
+        let displacement = response.max_displacement;
         Ok(SpectralOrdinate {
             period,
             displacement,
-            pseudo_velocity: frequency * displacement,
-            pseudo_acceleration: frequency * frequency * displacement,
-            acceleration: march.max_acceleration,
+            pseudo_velocity: circular_frequency * displacement,
+            pseudo_acceleration: circular_frequency * circular_frequency * displacement,
+            acceleration: response.max_acceleration,
         })
     }
 }
 
 /// Motion of an oscillator through a record, and its largest responses so far.
-struct OscillatorMarch {
+struct OscillatorResponse {
     oscillator: Oscillator,
     /// Number of substeps in a time step of the record.
     substeps_per_step: usize,
@@ -191,28 +192,30 @@ struct OscillatorMarch {
     max_acceleration: f64,
 }
 
-impl OscillatorMarch {
+impl OscillatorResponse {
     /// Advances by one time step of the record.
     ///
-    /// The ground's acceleration (m/s²) is `ground` at its beginning and grows linearly by `growth`.
+    /// The ground's acceleration is `ground_acceleration` (m/s²) at the start of the step, and grows linearly by
+    /// `acceleration_growth`.
     fn step(
         &mut self,
-        ground: f64,
-        growth: f64,
+        ground_acceleration: f64,
+        acceleration_growth: f64,
         report: &mut dyn FnMut() -> Result<()>,
     ) -> Result<()> {
         let oscillator = &self.oscillator;
-        let substep_growth = growth / self.substeps_per_step as f64;
+        let substep_growth = acceleration_growth / self.substeps_per_step as f64;
         for k in 0..self.substeps_per_step {
             self.substeps_done += 1;
             if self.substeps_done.is_multiple_of(SUBSTEPS_PER_REPORT) {
                 report()?;
             }
-            let ground_at_start = ground + growth * (k as f64 / self.substeps_per_step as f64);
+            let ground_at_start = ground_acceleration
+                + acceleration_growth * (k as f64 / self.substeps_per_step as f64);
             let ground_at_end = ground_at_start + substep_growth;
             let next_motion = oscillator.next(self.motion, ground_at_start, substep_growth);
             let displacements = [self.motion, next_motion]
-                .map(|motion| [motion.displacement, oscillator.step * motion.velocity]);
+                .map(|motion| [motion.displacement, oscillator.substep * motion.velocity]);
             let accelerations = [
                 oscillator.total_acceleration(self.motion, ground_at_start),
                 oscillator.total_acceleration(next_motion, ground_at_end),
@@ -237,11 +240,11 @@ struct RelativeMotion {
 /// Oscillator with the exact recurrence of its motion over one substep.
 struct Oscillator {
     /// ω, rad/s.
-    frequency: f64,
+    circular_frequency: f64,
     /// ζ.
     damping: f64,
     /// Substep h, s.
-    step: f64,
+    substep: f64,
     /// e^{−ζωh} cos ω_d h.
     cosine: f64,
     /// e^{−ζωh} sin(ω_d h)/ω_d.
@@ -250,43 +253,50 @@ struct Oscillator {
 
 impl Oscillator {
     /// Oscillator of natural circular frequency (rad/s), damping ratio and substep (s).
-    fn new(frequency: f64, damping: f64, step: f64) -> Self {
-        let damped_frequency = frequency * (1.0 - damping * damping).sqrt();
-        let decay = (-damping * frequency * step).exp();
-        let cosine = decay * (damped_frequency * step).cos();
-        let sine = decay * (damped_frequency * step).sin() / damped_frequency;
-        Self { frequency, damping, step, cosine, sine }
+    fn new(circular_frequency: f64, damping: f64, substep: f64) -> Self {
+        let damped_frequency = circular_frequency * (1.0 - damping * damping).sqrt();
+        let decay = (-damping * circular_frequency * substep).exp();
+        let cosine = decay * (damped_frequency * substep).cos();
+        let sine = decay * (damped_frequency * substep).sin() / damped_frequency;
+        Self { circular_frequency, damping, substep, cosine, sine }
     }
 
     /// Motion one substep later.
     ///
-    /// The ground's acceleration (m/s²) is `ground` at its beginning and grows linearly by `growth`.
-    fn next(&self, motion: RelativeMotion, ground: f64, growth: f64) -> RelativeMotion {
-        let Self { frequency, damping, step, cosine, sine } = *self;
-        let squared_frequency = frequency * frequency;
-        let decay_rate = damping * frequency;
+    /// The ground's acceleration is `ground_acceleration` (m/s²) at the start of the substep, and grows linearly by
+    /// `acceleration_growth`.
+    fn next(
+        &self,
+        motion: RelativeMotion,
+        ground_acceleration: f64,
+        acceleration_growth: f64,
+    ) -> RelativeMotion {
+        let Self { circular_frequency, damping, substep, cosine, sine } = *self;
+        let squared_frequency = circular_frequency * circular_frequency;
+        let decay_rate = damping * circular_frequency;
         // Particular solution u = p + q t of the linear load, and the vibration about it.
-        let q = -growth / step / squared_frequency;
-        let p = -ground / squared_frequency - 2.0 * damping * q / frequency;
+        let q = -acceleration_growth / substep / squared_frequency;
+        let p = -ground_acceleration / squared_frequency - 2.0 * damping * q / circular_frequency;
         let u = motion.displacement - p;
         let v = motion.velocity - q;
         let damped_velocity = v + decay_rate * u;
         let displacement = cosine * u + sine * damped_velocity;
         let velocity = cosine * v - sine * (decay_rate * v + squared_frequency * u);
-        RelativeMotion { displacement: displacement + p + q * step, velocity: velocity + q }
+        RelativeMotion { displacement: displacement + p + q * substep, velocity: velocity + q }
     }
 
     /// Total acceleration, and its rate times the substep.
-    fn total_acceleration(&self, motion: RelativeMotion, ground: f64) -> [f64; 2] {
+    fn total_acceleration(&self, motion: RelativeMotion, ground_acceleration: f64) -> [f64; 2] {
         let RelativeMotion { displacement: u, velocity: v } = motion;
-        let squared_frequency = self.frequency * self.frequency;
-        let total_acceleration = -squared_frequency * u - 2.0 * self.damping * self.frequency * v;
-        let relative_acceleration = total_acceleration - ground;
+        let squared_frequency = self.circular_frequency * self.circular_frequency;
+        let total_acceleration =
+            -squared_frequency * u - 2.0 * self.damping * self.circular_frequency * v;
+        let relative_acceleration = total_acceleration - ground_acceleration;
         [
             total_acceleration,
-            -self.step
+            -self.substep
                 * (squared_frequency * v
-                    + 2.0 * self.damping * self.frequency * relative_acceleration),
+                    + 2.0 * self.damping * self.circular_frequency * relative_acceleration),
         ]
     }
 }
@@ -296,9 +306,9 @@ impl Oscillator {
 /// The cubic has the values and slopes `[value, slope]` at its two ends.
 fn max_of_cubic(ends: [[f64; 2]; 2]) -> f64 {
     let [[f0, s0], [f1, s1]] = ends;
-    let at_ends = f0.abs().max(f1.abs());
+    let max_of_ends = f0.abs().max(f1.abs());
     if s0 * s1 >= 0.0 {
-        return at_ends;
+        return max_of_ends;
     }
     // f = f0 + s0 x + b x² + c x³ has an extreme between the ends, since its slopes there differ in sign.
     let b = 3.0 * (f1 - f0) - 2.0 * s0 - s1;
@@ -307,5 +317,5 @@ fn max_of_cubic(ends: [[f64; 2]; 2]) -> f64 {
         .into_iter()
         .flatten()
         .map(|x| (f0 + x * (s0 + x * (b + x * c))).abs())
-        .fold(at_ends, f64::max)
+        .fold(max_of_ends, f64::max)
 }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use super::AccelerationUnit;
 use crate::error::{Error, Result};
 use crate::text::decimal::finite;
-use crate::text::words::unknown;
+use crate::text::words::unknown_word_error;
 
 /// Names of the second, in lower case.
 pub(super) const SECOND_NAMES: [&str; 5] = ["s", "sec", "secs", "second", "seconds"];
@@ -64,8 +64,9 @@ impl FromStr for AccelerationUnit {
     /// # Errors
     /// [`Error::Name`] with the known units.
     fn from_str(text: &str) -> Result<Self> {
-        let known = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
-        Self::named(text).ok_or_else(|| unknown("unit of acceleration", text, known))
+        let known_units = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
+        Self::named(text)
+            .ok_or_else(|| unknown_word_error("unit of acceleration", text, known_units))
     }
 }
 

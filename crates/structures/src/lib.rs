@@ -21,7 +21,6 @@ pub mod internal {
     pub use crate::fem::coincident::first_coincident_points;
     pub use crate::structure::base_node::{check_left_to_right, check_line};
     pub use crate::structure::detached::{check_attached, dof_list_text};
-    pub use crate::structure::held_base::{HeldBase, stiffest};
     pub use crate::structure::matrix_checks::{
         NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, massless,
         proportional_factors,
@@ -31,4 +30,7 @@ pub mod internal {
         restore_variables, save_variables,
     };
     pub use crate::structure::probe::{Probe, check_probes, probe_index};
+    pub use crate::structure::spring_supported_base::{
+        SpringSupportedBase, max_diagonal_stiffness,
+    };
 }

@@ -155,8 +155,8 @@ class BaseNode:
         dofs: Sequence[int],
     ) -> list[BaseNode]:
         """The face, a list of its corners, of a rigid flat base in plan: ``corners`` (list of x and y, m) from ``center``
-        (x and y, m), whose displacements along x, along y and up and rotations about these have the numbers ``dofs``
-        (six).
+        (x and y, m), whose displacements along x, along y and up and rotations about these axes have the numbers
+        ``dofs`` (six).
         """
     @property
     def x(self) -> float:
@@ -219,7 +219,7 @@ class ShallowFooting:
     load along x and y (m; (0, 0) by default). ``vertical_force`` and ``horizontal_force`` (along x and y) of a load whose
     inclination reduces the capacity (N; 0 by default). ``base_tilt`` of the base against the horizontal (rad; 0 by default).
 
-    The drained pressure is the bearing pressure of `Yielding`.
+    The result of `drained_pressure` is the ``bearing_pressure`` for `Yielding`.
     """
 
     def __new__(
@@ -263,14 +263,16 @@ class ShallowFooting:
         """Bearing pressure (Pa) of undrained soil of an ``undrained_strength`` (Pa) on the effective area."""
     def rocking_capacity(self, vertical_force: float, bearing_pressure: float) -> tuple[float, list[float]]:
         """Ratio of the critical contact area to the area of the base, and the moments (N·m) at which the footing rocks
-        along x and along y, under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2
-        (1 − A_c/A) (Gajan and Kutter 2008).
+        along x and along y, under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa). The moment of a
+        rectangle is V L/2 (1 − A_c/A) (Gajan and Kutter 2008).
         """
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class _CaseFile:
-    """The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run."""
+    """The file at ``path`` of the cases of a grid, or of its ``shard`` (its index, number of shards): rows are appended
+    while cases run.
+    """
 
     def __new__(
         cls,
@@ -329,12 +331,12 @@ class ElasticGround(Ground):
     ``soil``: a `Soil` (a half-plane) or a `SoilProfile` (layers). ``strips``: a `Strip` or a list of them, or a `Plan`
     in three dimensions.
 
-    ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a half-plane
-    under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
+    ``history``: method that sums the response to all past tractions: "auto" (the default: exponentials on a half-plane
+    under strips, otherwise transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
     ``history_tolerance``: permitted relative error of exponentials, 1e-12 to 1e-2 (unless given, 1e-12 with "auto" and
     1e-10 with "exponentials"); ``history_memory``: largest memory of the history, bytes (1 GiB unless given).
     ``kernels``: `SharedKernels` of several simulations; not shared unless given. For layers and damping: ``stages``: 2
-    or 3 Runge–Kutta stages (the rule's choice unless given); ``tolerance``: relative error of the element compliances,
+    or 3 Runge–Kutta stages (chosen by a rule unless given); ``tolerance``: relative error of the element compliances,
     1e-13 to 1e-4 (1e-10 unless given); ``kernel_file``: path of a file that stores them (none unless given).
     """
 
@@ -370,17 +372,18 @@ class ElasticGround(Ground):
 
         It has a strip of ``count`` elements under each foundation, as wide as the foundation; under a structure in plan
         a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline that is oblique to them. A
-        flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
-        ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
+        flexible base gets at least one element for each of its segments, or as many cells as it has faces; if
+        necessary, ``count`` is raised for this. ``print(ground)`` shows its number of elements, which is also
+        ``len(ground.elements)``.
 
-        ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
-        ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
-        ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
+        ``soil`` and the options are as in the class, whose defaults they have unless given: ``history``,
+        ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and ``kernels``.
+        ``grading``: "cosine" (the default: short at the edges) or "uniform".
         """
     def impedances(self, frequencies: ArrayLike, *, contact: _StripContact = "bonded") -> Any:
-        """Dynamic stiffness of all strips as one rigid body, `Impedances`, at ``frequencies`` (array
-        of shape (m,), Hz); in plan the array of `Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
-        "relaxed" (vertical motions without shear, horizontal ones without pressure).
+        """Dynamic stiffness of all strips as one rigid body, `Impedances`, at ``frequencies`` (array of shape (m,), Hz);
+        in plan the array of `Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
+        "relaxed" (vertical motions without shear, horizontal motions without pressure).
         """
 
 @final
@@ -388,8 +391,8 @@ class Plan:
     """Square contact cells under a mat, for an `ElasticGround` in plan.
 
     They are the cells that the ``faces`` of the mat cover, convex polygons by their corners (list of lists of x and y,
-    m; a single one needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique edges
-    cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
+    m; a single face needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique
+    edges cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
     """
 
     def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
@@ -398,8 +401,9 @@ class Plan:
         """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` along its diameter."""
     @staticmethod
     def masked(corner: Sequence[float], pitch: Sequence[float], mask: Any) -> Plan:
-        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
-        rows from the ``corner`` (x and y, m) away, each a list from left to right.
+        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0. The
+        mask is a list of rows in the direction of y, from the ``corner`` (x and y, m) on; each row is a list from left
+        to right.
         """
     @property
     def pitch(self) -> list[float]:
@@ -409,11 +413,11 @@ class Plan:
         """Middle of the bounding rectangle, x and y, m: the reference point of impedances."""
     @property
     def area_error(self) -> float:
-        """Area of the cells inside the outline minus the area of the faces, relative to the latter."""
+        """Area of the cells inside the outline minus the area of the faces, relative to the area of the faces."""
     def with_unions(self, along: Sequence[int], across: Sequence[int]) -> Plan:
-        """The plan with contact elements that are rectangles of cells: the list ``along`` has the numbers of columns that
-        are united, ``across`` those of rows. Under a rigid mat, sixteen cells united by 1, 2, 2, 3, 3, 2, 2, 1 are as
-        accurate as separate cells.
+        """The plan with contact elements that are rectangles of cells: the list ``along`` contains the numbers of columns
+        that are united, ``across`` the numbers of rows. Under a rigid mat, sixteen cells united by 1, 2, 2, 3, 3, 2, 2,
+        1 are as accurate as separate cells.
         """
     def without_overhang(self) -> Plan:
         """The plan with cells that end at the edges of the faces: for springs, for prescribed pressures and for flexible
@@ -430,9 +434,9 @@ class Plan:
         """Dynamic stiffness of the mat as one rigid body on a ``soil``.
 
         It applies to a ``soil`` (`Soil` or `SoilProfile`) and motions e^(iωt) at ``frequencies`` (array of shape (m,),
-        Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about them (N m) by displacements
-        (m) and rotations (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed" (vertical motions
-        without shear, horizontal ones without pressure).
+        Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about these axes (N m) per
+        displacement (m) and rotation (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed"
+        (vertical motions without shear, horizontal motions without pressure).
         """
 
 @final
@@ -440,9 +444,9 @@ class SpringGround(Ground):
     """Independent springs and dashpots under each element (Winkler bed).
 
     ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end at the edge of the mat.
-    ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential
-    one unless given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: θ of their time
-    integration, ½ to 1; ½ unless given.
+    ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: tangential stiffness along y in plan,
+    Pa/m; equal to ``tangential_stiffness`` unless given. ``dashpots``: coefficients of the normal and the tangential
+    dashpots, Pa s/m; none unless given. ``theta``: θ of the time integration of the dashpots, ½ to 1; ½ unless given.
     """
 
     def __new__(
@@ -470,9 +474,9 @@ class SpringGround(Ground):
 
         It has a strip of ``count`` equal elements under each foundation; under a structure in plan ``count`` cells
         along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``,
-        ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base gets at least one
-        element for each of its segments, or as many cells as it has faces: then ``count`` is raised. The ground prints
-        its number of elements, and ``len(ground.elements)`` is that number.
+        ``dashpots`` and ``theta`` are as in the class; the last three have its defaults unless given. A flexible base
+        gets at least one element for each of its segments, or as many cells as it has faces; if necessary, ``count`` is
+        raised for this. ``print(ground)`` shows its number of elements, which is also ``len(ground.elements)``.
         """
 
 @final
@@ -493,8 +497,8 @@ class Strip:
 class Impedances:
     """Dynamic stiffness of a rigid base without mass, per metre of thickness.
 
-    It applies to motions e^(iωt). Complex arrays of shape (m,), one value per frequency; the imaginary part is
-    radiation and damping.
+    It applies to motions e^(iωt). The arrays are complex, of shape (m,), one value per frequency; the imaginary part is
+    due to radiation and damping.
     """
 
     @property
@@ -502,16 +506,16 @@ class Impedances:
         """Frequencies: array of shape (m,), Hz."""
     @property
     def horizontal(self) -> NDArray[np.complex128]:
-        """Horizontal force by horizontal translation: complex array of shape (m,), N/m²."""
+        """Ratio of horizontal force to horizontal translation: complex array of shape (m,), N/m²."""
     @property
     def vertical(self) -> NDArray[np.complex128]:
-        """Vertical force by vertical translation: complex array of shape (m,), N/m²."""
+        """Ratio of vertical force to vertical translation: complex array of shape (m,), N/m²."""
     @property
     def rocking(self) -> NDArray[np.complex128]:
-        """Moment by rotation: complex array of shape (m,), N."""
+        """Ratio of moment to rotation: complex array of shape (m,), N."""
     @property
     def coupling(self) -> NDArray[np.complex128]:
-        """Horizontal force by rotation: complex array of shape (m,), N/m."""
+        """Ratio of horizontal force to rotation: complex array of shape (m,), N/m."""
     def plot(
         self,
         axes: Iterable[Axes] | None = None,
@@ -570,13 +574,14 @@ class TrenchGround(Ground):
     It is a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base, ``elements``
     (`TrenchElements`).
 
-    The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
+    The structure in the trench is a `WithWalls`, or a `FemModel` with ``in_trench``; the ground motion is a
+    `TrenchMotion`.
 
     ``pressure_at_rest``: K₀, the ratio of the pressure on the walls at rest to the vertical pressure of the soil; ν/(1
-    − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its
-    width (m), its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given. ``history``,
-    ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for `ElasticGround`,
-    whose defaults they have unless given.
+    − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of the
+    width (m) of the backfill, its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given.
+    ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
+    `ElasticGround`, and have its defaults unless given.
     """
 
     def __new__(
@@ -609,13 +614,15 @@ class TrenchGround(Ground):
         """Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base (an `InterfaceLaw` or an object
         with the methods of `UserLaw`), and an `EarthPressure` for each element of the walls.
 
-        ``strengths``: a `SoilStrength` of all soils, or a list of one for each from the surface down, the half-plane last;
-        with backfill, of the backfill alone. ``gravity``: as of `InitialConditions`, m/s².
+        ``strengths``: a `SoilStrength` of all soils, or a list of one for each soil from the surface down, the
+        half-plane last; with backfill, the strength of the backfill alone. ``gravity``: acceleration of gravity, as for
+        `InitialConditions`, m/s².
         """
     def kinematic_motions(self, frequencies: ArrayLike) -> KinematicMotions:
         """Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
 
-        Shear and pressure waves travel vertically. A ground with backfill raises an error, since its waves do not.
+        Shear and pressure waves travel vertically. A ground with backfill raises an error, since waves in it do not
+        travel vertically.
         """
 
 @final
@@ -624,8 +631,9 @@ class KinematicMotions:
 
     It is relative to a unit motion e^(iωt) of the surface of the free field.
 
-    It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
-    Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
+    It is the input motion of a structure on springs and dashpots. The arrays are complex, of shape (m,), one value per
+    frequency. Translations are those of the middle of the base, vertical translations positive down; a positive
+    rotation lowers the right end.
     """
 
     @property
@@ -633,13 +641,13 @@ class KinematicMotions:
         """Frequencies: array of shape (m,), Hz."""
     @property
     def horizontal(self) -> NDArray[np.complex128]:
-        """Horizontal translation by horizontal motion, shear waves: complex array of shape (m,), a ratio."""
+        """Horizontal translation due to horizontal motion (shear waves): complex array of shape (m,), a ratio."""
     @property
     def rotation(self) -> NDArray[np.complex128]:
-        """Rotation by horizontal motion, shear waves: complex array of shape (m,), 1/m."""
+        """Rotation due to horizontal motion (shear waves): complex array of shape (m,), 1/m."""
     @property
     def vertical(self) -> NDArray[np.complex128]:
-        """Vertical translation by vertical motion, pressure waves: complex array of shape (m,), a ratio."""
+        """Vertical translation due to vertical motion (pressure waves): complex array of shape (m,), a ratio."""
     def to_frame(self) -> DataFrame:
         """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
 
@@ -665,9 +673,7 @@ class InterfaceLaw:
         ``start``; ``mode`` itself if the trial is admissible apart from differences below the ``tolerance``.
         """
     def limits(self, start: PreviousContact) -> Limits:
-        """The `Limits` of an element's tractions in the step after ``start``
-        (`PreviousContact`).
-        """
+        """The `Limits` of an element's tractions in the step that begins with ``start`` (`PreviousContact`)."""
 
 @final
 class Bonded(InterfaceLaw):
@@ -681,8 +687,9 @@ class Coulomb(InterfaceLaw):
 
     ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides. With 3 or more, steps in
     plan may have several solutions: compare the run with one of the mirror image. ``tensile_strength`` (Pa; 0 by
-    default) acts on an element until it first opens. ``closed_below`` (m): contact conditions act on the change of the
-    gap of elements whose gap is at most that (Moreau's rule); on the gap unless given.
+    default) acts on an element until it first opens. ``closed_below`` (m): if given, the contact conditions of an
+    element whose gap is at most this length act on the change of the gap (Moreau's rule); otherwise they act on the
+    gap.
     """
 
     def __new__(
@@ -699,7 +706,7 @@ class Coulomb(InterfaceLaw):
 @final
 class Cohesive(InterfaceLaw):
     """A bond that breaks permanently, and friction afterwards: ``tension`` and ``cohesion`` are its strengths (Pa) against
-    opening and shear, ``friction`` the coefficient when it is broken.
+    opening and shear, ``friction`` the friction coefficient after it is broken.
     """
 
     def __new__(cls, tension: float, cohesion: float, friction: float) -> Self: ...
@@ -736,7 +743,9 @@ class CyclicYielding(InterfaceLaw):
         depth_gradient: float = 0.0,
     ) -> Self: ...
     def virgin_settlement(self, pressure: float) -> float:
-        """Settlement (m) of soil without earlier load under a ``pressure`` (Pa), without that of the elastic ground."""
+        """Settlement (m) of soil without earlier load under a ``pressure`` (Pa), without the settlement of the elastic
+        ground.
+        """
 
 @final
 class EarthPressure(InterfaceLaw):
@@ -758,13 +767,14 @@ class EarthPressure(InterfaceLaw):
 class ThinLayer(InterfaceLaw):
     """Thin elastic layer between base and ground (Patel and Spyrakos).
 
-    ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
-    coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
-    stiffness that remains when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
-    it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this
-    step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
-    ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
-    default), "velocity" or "last_velocity" (of this step or the one before).
+    ``soil``: `Soil` of the layer. ``neighbour_height``: height of the finite elements beside the layer, m.
+    ``friction``: coefficient. ``thickness_ratio``: ratio of the thickness of the layer to this height; 0.1 unless
+    given. ``debonded_ratio``: fraction of the stiffness that remains while the layer is open, 0 to 1; 0.001 unless
+    given. ``slip_stiffness_ratio``: fraction of the shear stiffness that resists slip in addition to friction, 0 to 1;
+    0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this step; the default), "lagged"
+    (of the step before), "static" or "dynamic" (the magnitude of the change since the static state). ``slip_sense``:
+    quantity that decides the sense of slip, "inelastic" (the slip without its elastic part; the default), "velocity"
+    (the rate of slip in this step) or "last_velocity" (in the step before).
     """
 
     def __new__(
@@ -791,8 +801,8 @@ class ThinLayer(InterfaceLaw):
         slip_sense: _SlipSense | None = None,
     ) -> ThinLayer:
         """Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
-        ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are as in the class, the last
-        four if given.
+        ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are as in the class; the last four have its
+        defaults unless given.
         """
     @property
     def stiffness(self) -> list[float]:
@@ -800,10 +810,10 @@ class ThinLayer(InterfaceLaw):
 
 @final
 class VariableFriction(InterfaceLaw):
-    """Coulomb friction with a coefficient by a function of Python.
+    """Coulomb friction whose coefficient is returned by a Python function.
 
-    ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run and is
-    raised there. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
+    ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run, which
+    raises it. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
     """
 
     def __new__(
@@ -815,7 +825,7 @@ class VariableFriction(InterfaceLaw):
 
 @disjoint_base
 class FreeField:
-    """Motion of the ground's surface without the structure: a `Record`, a wave, or a function by `free_field`. Until t = 0
+    """Motion of the ground's surface without the structure: a `Record`, a wave, or a function (`free_field`). Until t = 0
     the ground is at rest.
     """
 
@@ -887,16 +897,20 @@ class Record(FreeField):
     ) -> Record:
         """Reads a file at ``path``.
 
-        ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "along_lines"
-        (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and
-        KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet". ``unit`` of the
-        acceleration as for the class: needed for columns and values along lines, for files of "cosmos" and "slist" that
-        name none; other files have their own. Of columns: ``columns`` are the numbers of time and acceleration from 1,
-        (1, 2) unless given; with ``time_step`` (s) times are ignored, and the file must have one column unless
-        ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the Fortran format of their lines,
-        such as "8F9.6", none unless given. Both skip ``header_lines`` at the beginning, and raise an error if the
-        number of samples is not ``samples``, if given. ``channel`` is the number of the component from 1, for formats
-        that hold several ("cosmos", "k_net_csv", "afad", "geonet", "slist").
+        ``format``: "columns" (the default: columns of text with the time, in s or as a time of day, and the
+        acceleration), "along_lines" (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS
+        and CSMIP), "k_net" (K-NET and KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or
+        "geonet". ``unit``: unit of the acceleration, as for the class. It is needed for "columns" and "along_lines",
+        and for files of "cosmos" and "slist" that do not name it; files of other formats have a fixed unit.
+
+        For "columns", ``columns`` are the numbers of the columns of time and acceleration, counted from 1, (1, 2)
+        unless given. If ``time_step`` (s) is given, the times are ignored, and the file must have one column unless
+        ``columns`` is given. "along_lines" needs the ``time_step``; ``layout`` is the Fortran format of the lines, such
+        as "8F9.6", none unless given. For both formats ``header_lines`` at the beginning are skipped, and it is an
+        error if the number of samples is not ``samples``, if given.
+
+        ``channel`` is the number of the component from 1, for formats with several components in a file ("cosmos",
+        "k_net_csv", "afad", "geonet", "slist").
         """
     @staticmethod
     def read_all(
@@ -910,8 +924,8 @@ class Record(FreeField):
         """Reads all components of the file at ``path``, such as the three directions of a station: a
         dict from the name of each to its `Record`, in the order of the file.
 
-        ``format``, ``unit``, ``time_step`` and ``header_lines`` as for `read`, none unless given; of columns all but
-        the one of times are read.
+        ``format``, ``unit``, ``time_step`` and ``header_lines`` are as for `read`, none unless given. Of a file of
+        columns, all columns except the column of times are read.
         """
     def significant_times(self, start: float = 0.05, end: float = 0.95) -> list[float]:
         """The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
@@ -920,26 +934,25 @@ class Record(FreeField):
     def scaled(self, factor: float) -> Record:
         """Record with all samples multiplied by a ``factor``."""
     def scaled_to_peak(self, peak: float) -> Record:
-        """Record scaled to a ``peak`` acceleration (m/s²), signs kept."""
+        """Record scaled to a ``peak`` acceleration (m/s²); signs stay the same."""
     def resampled(self, time_step: float) -> Record:
-        """Record with samples every ``time_step`` (s), linear between the present ones."""
+        """Record with samples every ``time_step`` (s), interpolated linearly between the present samples."""
     def with_baseline(self, treatment: _Baseline, *, degree: int = 4) -> Record:
-        """Record with its baseline treated. ``treatment``: "remove_mean", "newmark_parabola",
-        "velocity_polynomial", "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by
-        default.
+        """Record with a corrected baseline. ``treatment``: "remove_mean", "newmark_parabola", "velocity_polynomial",
+        "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by default.
         """
     def high_pass(self, corner: float, *, order: int = 4) -> Record:
-        """Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
-        8; 4 by default), forwards and backwards, so without phase shift.
+        """Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to 8; 4 by
+        default), applied forwards and backwards, so that phases do not shift.
 
         Rest of 1.5 ``order / corner`` s is added before and after the record, 30 s each for a corner of 0.2 Hz, since
-        the filter changes the motion there. Do not remove it: without it velocity and displacement do not return to
-        zero.
+        the filter changes the motion there. Do not remove this rest: without it velocity and displacement do not return
+        to zero.
         """
     def low_pass(self, corner: float, *, order: int = 4) -> Record:
         """Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by
-        default), forwards and backwards, so without phase shift; rest is added as by `high_pass`. Use it before a
-        deconvolution (`SoilColumn.from_surface`).
+        default), applied forwards and backwards, so that phases do not shift; rest is added as by `high_pass`. Use it
+        before a deconvolution (`SoilColumn.from_surface`).
         """
     def tapered(self, beginning: float, end: float) -> Record:
         """Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends."""
@@ -975,8 +988,8 @@ class Spectrum:
     def warnings(self) -> list[str]:
         """Texts of warnings of periods shorter than ten time steps of the record, where the spectrum is not exact."""
     def broadened(self, fraction: float = 0.15) -> Spectrum:
-        """Spectrum with peaks broadened by the ``fraction`` of their frequency to both sides, 0.15 by default (U.S. NRC
-        R.G. 1.122).
+        """Spectrum with peaks that are broadened to both sides by the ``fraction`` of their frequency, 0.15 by default
+        (U.S. NRC R.G. 1.122).
         """
     def __len__(self) -> int: ...
     def plot(
@@ -1001,9 +1014,9 @@ class TrenchMotion(FreeField):
     """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` is for other waves.
 
     ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record`
-    of the surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero
-    unless given. Motion at depth precedes the motion of the surface: begin the record with rest that lasts the travel
-    time of the waves from the base to the surface (`Record.padded`).
+    of the surface's motion to the right (shear waves). ``vertical``: `Record` of its motion up (pressure waves). A
+    component is zero unless given. Motion at depth precedes the motion of the surface: begin the record with rest that
+    lasts the travel time of the waves from the base to the surface (`Record.padded`).
     """
 
     def __new__(
@@ -1014,8 +1027,8 @@ class TrenchMotion(FreeField):
     ) -> Self: ...
     @staticmethod
     def travelling(ground: TrenchGround, wave: FreeField) -> TrenchMotion:
-        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of a field of a `PlaneWave` or an
-        `InclinedWave`, or of a `travelling_wave`.
+        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: a field of a `PlaneWave` or of an
+        `InclinedWave`, or a `travelling_wave`.
 
         The wave must belong to the profile of the ground and travel along x: the motion and the apparent velocity at
         the surface determine the field below. The motion before and after the record of the wave decays within half the
@@ -1082,8 +1095,8 @@ class SoilColumn:
         """
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the surface, as long as the ``record`` of the ``control`` point, "outcrop" (the default) or
-        "within". If motion is cut off at its ends, a `BasematWarning` states how much of the peak, from 0.01 % on;
-        `Record.padded` avoids it.
+        "within". If the motion is cut off at the ends of the record, a `BasematWarning` states the cut-off part
+        relative to the peak, if it is above 0.01 %; `Record.padded` avoids this.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the surface
@@ -1118,10 +1131,11 @@ class SoilColumn:
         """Response with strain-compatible properties, an `EquivalentLinear`, to the ``record`` of the ``control``
         point, "outcrop" (the default) or "within"; ``curves``: a list of `StrainCurves`, one per layer.
 
-        ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
-        ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
-        ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
-        layers: "real_part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
+        ``strain_ratio``: ratio of the effective to the largest strain, often (M − 1)/10 for the magnitude M; 0.65
+        unless given. ``tolerance``: relative tolerance of moduli and damping ratios; 1e-3 unless given.
+        ``most_iterations``: largest number of iterations; 50 unless given. ``band``: frequencies (Hz) between which
+        damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the layers: "real_part", G(1 + 2iξ) (the
+        default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
         """
 
 @final
@@ -1150,9 +1164,9 @@ class InclinedWave:
         control: _InclinedControl = "outcrop_horizontal",
         azimuth: float = 0.0,
     ) -> FreeField:
-        """The `FreeField` of the surface for the ``record`` at the ``control`` point at ``origin`` (x, m), which the wave
-        reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base without layers) or
-        "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
+        """The `FreeField` of the surface for the ``record`` of the ``control`` point below ``origin`` (x, m), the edge of
+        the base that the wave reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base
+        without layers) or "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
         """
 
 @final
@@ -1174,8 +1188,8 @@ class Probe:
         """
     @staticmethod
     def absolute_displacement(name: str, row: _RowLike, *, unit: str | None = None) -> Probe:
-        """Displacement (m) of the ``row`` with the translation of the free field, as the time series
-        ``name``; ``unit``: its label, "m" unless given.
+        """Displacement (m) of the ``row`` including the translation of the free field, as the time series ``name``;
+        ``unit``: its label, "m" unless given.
         """
     @staticmethod
     def velocity(name: str, row: _RowLike, *, unit: str | None = None) -> Probe:
@@ -1189,8 +1203,8 @@ class Probe:
         """
     @staticmethod
     def section(name: str, section: SectionRows, *, unit: str | None = None) -> Probe:
-        """Resultant of a ``section`` (`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
-        series ``name``; ``unit``: its label; unless given, the section's.
+        """Resultant of a ``section`` (`SectionRows`), a force (N/m, in plan N) or a moment (N·m/m, in plan N·m), as the
+        time series ``name``; ``unit``: its label; unless given, the section's.
         """
     @property
     def name(self) -> str:
@@ -1332,7 +1346,7 @@ class Refinement:
         """
     @property
     def is_regular(self) -> bool:
-        """Whether the estimate can be trusted: regular orders, and the coarsest error above the
+        """Whether the estimate can be trusted: the orders are regular, and the error of the coarsest setting is above the
         mismatch.
         """
 
@@ -1410,7 +1424,7 @@ class EnergyBalance:
         """Work of yielding parts inside the steps that is neither stored nor dissipated, J."""
     @property
     def soil(self) -> float:
-        """Work done on the soil, which radiates and stores it, J."""
+        """Work done on the soil, J; the soil radiates part of it and stores the rest."""
     @property
     def contact(self) -> float:
         """Energy lost by friction and impact, J."""
@@ -1428,7 +1442,7 @@ class EnergyBalance:
         """Relative input energy (Uang and Bertero 1990), J."""
     @property
     def soil_error_bound(self) -> float:
-        """Error bound of `soil` by an approximate history, J."""
+        """Bound of the error of `soil` that the approximation of the history causes, J."""
     @property
     def largest(self) -> float:
         """Largest energy so far, to which `residual` is relative, J."""
@@ -1445,7 +1459,7 @@ class SystemMode:
 
     @property
     def axis(self) -> str | None:
-        """Axis along which the mode has the most modal mass, "x" or "y" in plan; None in the plane."""
+        """Axis along which the mode has the largest participating mass, "x" or "y" in plan; None in the plane."""
     @property
     def fixed_period(self) -> float:
         """Period T on a fixed base, s."""
@@ -1480,8 +1494,8 @@ class Interaction:
         """The `Run` on the fixed base, without time series."""
     @property
     def modes(self) -> list[SystemMode]:
-        """The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
-        that is rigid.
+        """The mode with the largest participating mass along x, in plan also the mode for y: list of `SystemMode`; empty
+        for a structure that is rigid.
         """
     @property
     def probe_ratios(self) -> dict[str, float]:
@@ -1496,7 +1510,7 @@ class Interaction:
 
 @final
 class Peak:
-    """A value of a run with its time; ``float()`` gives the value."""
+    """A value of a run with its time; ``float()`` returns the value."""
 
     @property
     def value(self) -> float:
@@ -1519,9 +1533,7 @@ class Extremes:
         """The largest value, a `Peak` in the quantity's unit."""
     @property
     def largest(self) -> Peak:
-        """Whichever of the two is further from zero, with its sign: a `Peak` in the
-        quantity's unit.
-        """
+        """The one of `lowest` and `highest` that is further from zero, with its sign: a `Peak` in the quantity's unit."""
     @property
     def magnitude(self) -> float:
         """Magnitude of `largest`, in the quantity's unit."""
@@ -1531,7 +1543,8 @@ class Extremes:
 class Summary:
     """The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 
-    Forces act from the structure on the soil, per metre of thickness.
+    Forces act from the structure on the soil, per metre of thickness in the plane, of the whole body in plan (N and
+    N·m).
     """
 
     @property
@@ -1563,8 +1576,8 @@ class Summary:
         """In plan: rotation about x at the end, rad."""
     @property
     def settlement(self) -> Extremes:
-        """Settlement of its centre since the static state, positive downwards, m, of several foundations the largest: its
-        `Extremes`.
+        """Settlement of the centre since the static state, positive downwards, m; for several foundations the largest
+        settlement: its `Extremes`.
         """
     @property
     def residual_settlement(self) -> float:
@@ -1574,7 +1587,7 @@ class Summary:
         """Work of the moment on the soil, ∫M dθ, J/m, in plan about y: its `Extremes`."""
     @property
     def uplifted_fraction(self) -> Peak:
-        """Largest ratio of the open length to the length: its `Peak`."""
+        """Largest ratio of the open length to the length, in plan of the open area to the area: its `Peak`."""
     @property
     def uplift_duration(self) -> float:
         """Duration of uplift, s."""
@@ -1602,8 +1615,9 @@ class Summary:
     @property
     def least_overturning_safety(self) -> Peak:
         """Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the left
-        or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the middle
-        of elements: a base of few elements tips about its edge at a factor above 1, which a printed run states.
+        or the right edge, and "overturning_safety_across", over the front or the back edge. Pressure acts in the middle
+        of elements: a base of few elements therefore tips about its edge at a factor above 1. The report of a run
+        states this factor.
         """
     def extremes(self, quantity: _Quantity) -> Extremes:
         """The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
@@ -1621,13 +1635,15 @@ class Run(Summary):
     """
 
     def foundation_series(self, foundation: int) -> dict[str, NDArray[np.float64]]:
-        """Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first. Its moments are
-        about its middle. Several foundations need ``foundations=True`` of `Simulation.run`.
+        """Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first.
+        Moments are about the middle of the foundation. Several foundations need ``foundations=True`` of
+        `Simulation.run`.
         """
     def rocking(self, foundation: int = 0, *, across: bool = False) -> dict[str, NDArray[np.float64]]:
-        """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
-        of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-        "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
+        """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across``
+        about x: dict of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its
+        middle (N·m/m, in plan N·m), "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ,
+        J/m, in plan J).
         """
     def equivalent_damping(
         self,
@@ -1647,7 +1663,7 @@ class Run(Summary):
         """Number of steps made."""
     @property
     def in_plan(self) -> bool:
-        """Whether the ground was one in plan: results are then of the whole body, N in place of N/m."""
+        """Whether the ground was in plan: forces are then those of the whole body, in N instead of N/m."""
     @property
     def start(self) -> float:
         """Time at the beginning, s."""
@@ -1683,7 +1699,7 @@ class Run(Summary):
         """Largest pressure of any element, Pa, a `Peak`; None without elements."""
     @property
     def shear_coefficient(self) -> float | None:
-        """Ratio of the largest base shear to the weight; None without weight."""
+        """Ratio of the largest base shear to the weight; None if the structure has no weight."""
     @property
     def foundations(self) -> list[Summary]:
         """Each foundation separately: list of `Summary`, from left to right."""
@@ -1728,9 +1744,9 @@ class Run(Summary):
         """Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it."""
     @property
     def faces(self) -> dict[Literal["left_wall", "base", "right_wall"], dict[str, NDArray[np.float64]]]:
-        """`FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
-        walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
-        "open_fraction" (a ratio).
+        """`FaceForces` over time, at the snapshots of ``contact_every`` of `Simulation.run`: dict of "left_wall", "base"
+        and "right_wall"; without walls it has "base" only. Each is a dict of arrays of shape (frames,): "time" (s),
+        "thrust", "shear" (N/m), "place" (m), "open_fraction" (a ratio).
         """
     @property
     def envelope(self) -> dict[str, NDArray[np.float64]]:
@@ -1753,8 +1769,8 @@ class Run(Summary):
     def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
     @property
     def contact(self) -> dict[str, NDArray[Any]]:
-        """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-        (Pa), "mode" (numbers into `basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+        """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear" (Pa), "mode"
+        (numbers into `basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
         "shear_across" (Pa), along y.
         """
     @property
@@ -2109,8 +2125,8 @@ class DofCombination:
 
 @final
 class SectionRows:
-    """A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
-    force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For `Probe.section`.
+    """A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a force or a moment.
+    ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". `Probe.section` records the sum.
     """
 
     def __new__(
@@ -2146,19 +2162,19 @@ class Simulation:
         structure: a `Structure`, or any object with the methods of `UserStructure`.
         ground: a `Ground`: an `ElasticGround`, `SpringGround` or `TrenchGround`; or any object with the methods of
             `UserGround`.
-        interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for all contact elements, or a list
-            of one each, from left to right.
-        motion: ground motion, a `FreeField`: a `Record`, a wave, or a function by `free_field`. Without a motion the
+        interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one law for all contact elements, or a
+            list with a law for each element, from left to right.
+        motion: ground motion, a `FreeField`: a `Record`, a wave, or a function (`free_field`). Without a motion the
             ground is at rest.
         loads: forces from outside, a list of `Load`; none unless given.
-        probes: quantities to record at every step, a list of `Probe` with names of their own; none unless given.
+        probes: quantities to record at every step, a list of `Probe` with different names; none unless given.
         initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
         solver: time scheme, coordinates and so on, `SolverOptions`; the defaults unless given.
         results: quantities that a run evaluates, `ResultOptions`; the defaults unless given.
         service_limits: limits of service, `ServiceLimits`; none unless given.
         fixed_base: whether the base is fixed: each foundation keeps its shape and moves with the free field under it.
             Ground and interface then have no effect, except for the positions of the contact elements. False by
-            default; `interaction` compares both.
+            default; `interaction` compares the fixed base with the ground.
         progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the convolution weights
             of a ground with layers or a trench are computed for the expected steps; none unless given.
     """
@@ -2240,8 +2256,8 @@ class Simulation:
     ) -> Run:
         """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
 
-        After the end of the motion it makes as many steps again, with the ground at rest and a `BasematWarning`;
-        `reset` returns to the start.
+        If neither is given after the end of the motion, the run makes as many steps again, without acceleration of the
+        ground, and issues a `BasematWarning`; `reset` returns to the start.
 
         ``progress``: True for lines on stderr, one for the convolution weights of the ground and one for the steps; or
         a function ``(steps done, steps in all)``, called about every 50 ms.
@@ -2251,10 +2267,10 @@ class Simulation:
         `BasematWarning` is issued if the process ignores Ctrl-C.
 
         ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by
-        default, as floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-        ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation.
-        The series of all steps must fit into `memory_limit` before the first step; with ``observe``, which may end the
-        run, only the series of the steps made.
+        default, as floor spectra need), the contact of every ``contact_every``th step and the structure's motion of
+        every ``motion_every``th step (none unless given), and with ``foundations`` (False by default) the scalars of
+        each foundation. The series of all steps must fit into `memory_limit` before the first step; with ``observe``,
+        which may end the run early, only the series of the steps that are made must fit.
 
         ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True by default.
         """
@@ -2263,24 +2279,25 @@ class Simulation:
         then unchanged.
         """
     def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps:
-        """Iterator that makes a step and yields its state, ``steps`` times or for a ``duration`` (s); without either, up
-        to the end of the motion.
+        """Iterator that makes steps and yields the state after each: ``steps`` steps, or the steps of a ``duration`` (s);
+        without either, up to the end of the motion.
         """
     def set_load(self, index: int, value: float | None) -> None:
         """Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
 
-        ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
-        of the load; None restores that function. A controller computes the force from the last state and sets it before
-        each `step`. A checkpoint contains it; `reset` restores the functions.
+        ``value``: the total force (N/m; on a rotation N·m/m; in plan N and N·m), which includes the static force, in
+        place of the function of the load; None restores that function. A controller computes the force from the last
+        state and sets it before each `step`. A checkpoint contains the force that was set; `reset` restores the
+        functions.
         """
     def interaction(self, duration: float | None = None) -> Interaction:
-        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that of
-        the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its first
-        mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
+        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; the
+        duration of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping
+        of its first mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
 
-        T and β belong to the mode with the most modal mass along an axis, with fixed contact nodes; of a nonlinear
-        structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground and released from a
-        deflection in this mode. The soil is linear: give it the moduli of the design motion.
+        T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes; the
+        modes of a nonlinear structure are those of its first tangent. For T̃ and β₀ the structure is bonded to its
+        ground and released from a deflection in this mode. The soil is linear: give it the moduli of the design motion.
         """
     def steps_for(self, duration: float) -> int:
         """Number of steps that last ``duration`` (s), rounded up."""
@@ -2292,8 +2309,8 @@ class Simulation:
         a `CheckpointError` that names the difference. The label should name interface law, ground motion and loads.
 
         Args:
-            changes: intended differences, of "interface_law", "ground_motion" and "load", each with another label,
-                "gravity_stage" and "initial_motion"; none unless given.
+            changes: names of the intended differences, a list; none unless given. "interface_law", "ground_motion" and
+                "load" allow another label as well; the other names are "gravity_stage" and "initial_motion".
         """
     def reset(self) -> None:
         """Returns to the start; further steps have the same bits as the first time.
@@ -2301,9 +2318,10 @@ class Simulation:
         As for `checkpoint`, a structure written in Python that has ``commit`` must also have ``save`` and ``restore``.
         """
     def solid_points(self, element: int) -> SolidPoints:
-        """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
-        plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also one inside
-        `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, it raises an `Error`: own the loop by `steps`.
+        """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
+        stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
+        one inside `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, this method raises
+        an `Error`: use a loop over `steps` instead.
         """
     def solid_values(
         self,
@@ -2324,7 +2342,7 @@ class FoundationState:
 
     @property
     def elements(self) -> tuple[int, int]:
-        """Number of the first element, and one more than the number of the last."""
+        """Number of the first element, and one more than the number of the last element."""
     @property
     def shear(self) -> float:
         """Horizontal force on the soil, positive to the right, N/m."""
@@ -2336,7 +2354,7 @@ class FoundationState:
         """Total pressure, N/m."""
     @property
     def uplifted_fraction(self) -> float:
-        """Ratio of its open length to its length, in plan of areas."""
+        """Ratio of the open length to the length of the foundation, in plan of the open area to the area."""
     @property
     def mean_slip(self) -> float:
         """Slip averaged over the foundation, m."""
@@ -2395,8 +2413,8 @@ class FaceForces:
         """Force on the soil along the outline, N/m: positive down the left wall, to the right along the base, up the right wall."""
     @property
     def place(self) -> float:
-        """Point of action of the thrust, m: of a wall its height above the base, of the base its distance to the right of
-        the middle. NaN without thrust.
+        """Position of the thrust, m: on a wall its height above the base, on the base its distance to the right of the
+        middle. NaN without thrust.
         """
     @property
     def open_fraction(self) -> float:
@@ -2407,8 +2425,8 @@ class Load:
     """A force that acts on a structure from outside.
 
     ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
-    force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0 belongs to the static state: it is
-    applied slowly after the weight, while the interface law acts.
+    force (N/m; on a rotation a moment, N·m/m); it may raise an exception. In plan forces are in N and moments in N·m.
+    Its value at t = 0 belongs to the static state: it is applied slowly after the weight, while the interface law acts.
     """
 
     def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
@@ -2417,8 +2435,8 @@ class Load:
         """Constant ``force`` (N/m) on the ``row`` at any time, the static state included."""
     @staticmethod
     def weight(row: _RowLike, force: float) -> Load:
-        """Constant ``force`` (N/m) on the ``row`` that is applied with the weight, according to ``gravity_stage``: a dead
-        load whose mass is not in the structure.
+        """Constant ``force`` (N/m) on the ``row`` that is applied together with the weight, according to ``gravity_stage``
+        of `InitialConditions`: a dead load whose mass is not in the structure.
         """
     @staticmethod
     def released(row: _RowLike, force: float) -> Load:
@@ -2430,8 +2448,8 @@ class Load:
         """
     @staticmethod
     def table(row: _RowLike, times: ArrayLike, forces: ArrayLike) -> Load:
-        """Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
-        shape (m,), s, ascending), linear between them, zero outside.
+        """Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of shape (m,), s,
+        ascending), linear between these times, zero before the first and after the last.
         """
 
 @final
@@ -2439,16 +2457,16 @@ class InitialConditions:
     """Weight and motion at the start of a simulation.
 
     Args:
-        gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static state: the base
-            begins without pressure, and nothing resists uplift and sliding.
+        gravity: acceleration of gravity, which determines the weight of the structure, m/s²; 9.80665 unless given. With
+            0 there is no static state: the base begins without pressure, and nothing resists uplift and sliding.
         gravity_stage: friction while the weight of masses and `Load.weight` is applied; all other loads at t = 0 are
             applied slowly after it, while the interface law acts. "frictionless" (the default): neither friction nor
             cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
             "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is
             no static state, weight and loads act from t = 0 on, as for a block that is released.
-        displacement: of the n degrees of freedom at t = 0 against the static state, array of shape (n,), m and rad;
-            zero unless given. The base may move only if "unloaded".
-        velocity: the same for velocities, m/s and rad/s; zero unless given.
+        displacement: displacement of the n degrees of freedom at t = 0 from the static state, array of shape (n,), m
+            and rad; zero unless given. The base may be displaced only if ``gravity_stage`` is "unloaded".
+        velocity: velocity of the n degrees of freedom at t = 0, array of shape (n,), m/s and rad/s; zero unless given.
     """
 
     def __new__(
@@ -2466,13 +2484,13 @@ class SolverOptions:
 
     Args:
         scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
-        coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less time; "physical":
-            its degrees of freedom; "modes": its vibration modes; a number: reduced coordinates, 200 to 400 Ritz vectors
-            for thousands of degrees of freedom, with this relative error of responses (above 0, below 1;
-            "reduced(1e-6)" is the same as 1e-6).
-        expected_steps: number of steps that will be made. Memory and convolution weights of the ground are then
-            prepared before the first step; unless given, for the steps of the first run. An error is raised if the
-            steps do not fit into the memory of the history of the ground.
+        coordinates: coordinates of the equations of motion of a linear structure. "auto" (the default): the choice of
+            "physical" and "modes" that takes less time; "physical": its degrees of freedom; "modes": its vibration
+            modes; a number: reduced coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
+            relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
+        expected_steps: number of steps that will be made. Memory and convolution weights of the ground are prepared for
+            them before the first step; unless given, for the steps of the first run. An error is raised if the steps do
+            not fit into the memory of the history of the ground.
         rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A
             further run continues; with ``math.inf`` the rotation ends no run.
         flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at most this number
@@ -2519,7 +2537,8 @@ class ServiceLimits:
     Args:
         slip: limit of |mean slip|, m; none unless given.
         gap: limit of the gap of any element, m; none unless given.
-        uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
+        uplifted_fraction: limit of the ratio of the open length to the length of the base, in plan of areas, above 0
+            and at most 1; none unless given.
         rotation: limit of the base's |rotation|, rad; none unless given.
         settlement: limit of the base's settlement, m; none unless given.
     """
@@ -2540,11 +2559,11 @@ class TimeScheme:
 
     @staticmethod
     def midpoint() -> TimeScheme:
-        """The midpoint rule: conserves energy."""
+        """The midpoint rule, which conserves energy."""
     @staticmethod
     def dissipative_midpoint(gamma: float = 0.8) -> TimeScheme:
-        """The midpoint rule with damping of high frequencies: second order, adds no energy with the soil. ``gamma``: ½
-        (the midpoint rule) to 1; 0.8 by default.
+        """The midpoint rule with damping of high frequencies. It is of second order, and its coupling with the soil adds
+        no energy. ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
         """
     @staticmethod
     def theta(theta: float) -> TimeScheme:
@@ -2565,8 +2584,8 @@ class State:
     """The simulation at the end of an accepted step.
 
     Displacements are changes against the static state, relative to the translation of the free field unless stated
-    otherwise. Forces act from the structure on the soil, per metre of thickness. It belongs to its simulation and does
-    not pickle: a `Checkpoint` does.
+    otherwise. Forces act from the structure on the soil, per metre of thickness in the plane, of the whole body in plan
+    (N and N·m). A state belongs to its simulation and cannot be pickled; a `Checkpoint` can.
     """
 
     @property
@@ -2607,7 +2626,7 @@ class State:
         """Total pressure on the soil, N/m."""
     @property
     def uplifted_fraction(self) -> float:
-        """Ratio of the length of open elements to the length of the base, in plan of areas."""
+        """Ratio of the length of open elements to the length of the base, in plan of their area to the area."""
     @property
     def mean_slip(self) -> float:
         """Slip averaged over the base, m."""
@@ -2640,8 +2659,8 @@ class State:
         """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
     @property
     def absolute_displacement(self) -> NDArray[np.float64]:
-        """Displacement of the degrees of freedom with the translation of the free field: array of shape
-        (n,), m and rad.
+        """Displacement of the degrees of freedom including the translation of the free field: array of shape (n,), m and
+        rad.
         """
     @property
     def velocity(self) -> NDArray[np.float64]:
@@ -2672,9 +2691,7 @@ class State:
         a base without walls.
         """
     def state_variables(self, element: int) -> list[float]:
-        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
-        has none.
-        """
+        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if the law has none."""
 
 @final
 class Steps:
@@ -2732,8 +2749,9 @@ class StrainCurves:
         frequency: float = 1.0,
         cycles: float = 10.0,
     ) -> StrainCurves:
-        """Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
-        ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
+        """Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), overconsolidation ratio
+        ``overconsolidation``, effective ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of
+        ``cycles`` (10 by default).
         """
     @staticmethod
     def table(strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike) -> StrainCurves:
@@ -2744,26 +2762,27 @@ class StrainCurves:
     def masing(points: ArrayLike, *, small_strain_damping: float = 0.0) -> StrainCurves:
         """Soil whose stress–strain loops follow Masing's rules on a backbone: the equivalent-linear approximation of `Iwan`.
 
-        ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``. The
-        backbone is straight from the origin and between points, and constant beyond the last one. With the area A under it
-        up to the strain γ and its stress τ, the damping ratio is ``small_strain_damping`` + (2/π)(2A/(γτ) − 1).
-        ``small_strain_damping``: what soils have besides Masing's loops, often 0.005 to 0.02; 0 by default.
+        ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``.
+        The backbone is straight from the origin and between points, and constant beyond the last one. With the area A
+        under it up to the strain γ and its stress τ, the damping ratio is ``small_strain_damping`` + (2/π)(2A/(γτ) −
+        1). ``small_strain_damping``: damping ratio in addition to that of Masing's loops, often 0.005 to 0.02; 0 by
+        default.
         """
     def iwan(self, shear_modulus: float, strength: float, poisson: float, density: float) -> Iwan:
         """The `Iwan` soil that yields along these curves up to a ``strength`` (Pa), with the ``shear_modulus`` G_max (Pa);
         ``poisson`` and ``density`` (kg/m³) are those of `Iwan`.
 
-        The backbone G_max (G/G_max) γ is straight between the points of the curves, and ends where it reaches the strength;
-        curves that end below the strength go on with their last slope. Damping follows from Masing's rules, not from the
-        curves of damping.
+        The backbone G_max (G/G_max) γ is straight between the points of the curves, and ends where it reaches the
+        strength; curves that end below the strength are continued with their last slope. Damping follows from Masing's
+        rules, not from the curves of damping.
         """
     def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,)."""
 
 @final
 class EquivalentLinear:
-    """Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
-    accelerations also one of the base within. Printed, a table.
+    """Response of a site with strain-compatible properties: arrays have one value per layer from the surface down; arrays
+    of accelerations end with one more value, of the base under the layers. Printed, it is a table.
     """
 
     @property
@@ -2792,7 +2811,7 @@ class EquivalentLinear:
         """Number of linear calculations."""
     @property
     def last_change(self) -> float:
-        """Estimated largest relative change of a modulus or damping ratio by all further iterations."""
+        """Estimate of the largest relative change of a modulus or damping ratio that all further iterations would cause."""
     @property
     def warnings(self) -> list[str]:
         """Texts of the warnings."""
@@ -2876,9 +2895,9 @@ class BeamRows:
 
     They are rows of displacements for `Probe.section`. `FemModel.beam_rows` returns them.
 
-    At both ends they act on a section whose outward normal is x, the axis of the beam. A probe records changes from the
-    static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the geometric
-    stiffness, in the axes of the undeformed beam.
+    At both ends the forces and moments act on a section whose outward normal is x, the axis of the beam. A probe
+    records changes from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ
+    also the forces of the geometric stiffness, in the axes of the undeformed beam.
     """
 
     @property
@@ -2914,7 +2933,8 @@ class BeamEndRows:
 class Structure:
     """A structure with n degrees of freedom, which only the ground supports.
 
-    Degrees of freedom are in m and rad. It is a description from which each simulation builds a separate structure.
+    Degrees of freedom are in m and rad. Matrices are per metre of thickness in the plane, of the whole structure in
+    plan. The object is a description from which each simulation builds a separate structure.
     """
 
     @property
@@ -2940,8 +2960,8 @@ class Structure:
 class RigidBlock(Structure):
     """A rigid block on a flat base, in the plane.
 
-    Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up, rotation:
-    "x", "y", "rotation" for `dof`.
+    Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up and rotation.
+    `dof` has the names "x", "y" and "rotation" for them.
 
     ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
     (m/s²) of the P–Δ effect of its weight; none unless given.
@@ -3135,9 +3155,9 @@ class PlanStorey:
     """A storey of a `StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
     ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
 
-    ``inertia``: of the floor about x, y and z through its centre of mass (kg m²); unless given, of the rectangle.
-    ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default. ``damping``: dashpots
-    beside the three stiffnesses, N s/m and N m s; 0 by default.
+    ``inertia``: rotary inertia of the floor about x, y and z through its centre of mass (kg m²); unless given, that of
+    the rectangle. ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default.
+    ``damping``: dashpots beside the three stiffnesses, N s/m and N m s; 0 by default.
     """
 
     def __new__(
@@ -3157,8 +3177,8 @@ class PlanStorey:
 class StoreyBuilding(Structure):
     """Building with rigid floors on a rigid mat, in space.
 
-    Floors are on flexible columns and walls, these on the ``mat`` (`RigidBody`). Floors move along x and y and twist,
-    and tilt with the mat.
+    The floors stand on flexible columns and walls, and these stand on the ``mat`` (`RigidBody`). Floors move along x
+    and y and twist, and tilt with the mat.
 
     Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of
     every floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz",
@@ -3191,18 +3211,18 @@ class StoreyBuilding(Structure):
         """
     def total_drift(self, storey: int, place: Sequence[float] = (0.0, 0.0)) -> list[DofCombination]:
         """The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
-        (0: the lowest) less the rigid motion of the mat, at a ``place`` as for `floor`.
+        (0: the lowest) minus the rigid motion of the mat, at a ``place`` as for `floor`.
         """
     def shear(self, storey: int) -> list[SectionRows]:
         """The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts
-        on the part below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors
-        above.
+        on the part below, and of their torque about the centre of stiffness (N·m), computed from the inertia of the
+        floors above.
         """
     def section(self, storey: int, reference: Sequence[float] = (0.0, 0.0)) -> list[SectionRows]:
         """The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m) and
         torque about z (N·m) that the floors above exert on the part below the foot of a ``storey`` (0: the lowest),
-        from the inertia of these floors. Moments are about ``reference`` (x and y from the middle of the mat, m; the
-        middle by default) at the foot.
+        computed from the inertia of these floors. Moments are about ``reference`` (x and y from the middle of the mat,
+        m; the middle by default) at the foot.
         """
 
 @final
@@ -3229,9 +3249,9 @@ class RayleighDamping:
 class ReducedModel(Structure):
     """A ``structure`` reduced by the method of Craig and Bampton.
 
-    The reduced degrees of freedom are those of the contact nodes, those in the list ``keep`` (none unless given) and
-    the lowest ``modes`` modes of the remaining ones. ``damping_ratio`` of these modes replaces the damping of the
-    structure, if given.
+    The reduced degrees of freedom are the degrees of freedom of the contact nodes, those in the list ``keep`` (none
+    unless given), and the amplitudes of the lowest ``modes`` modes of the remaining structure. ``damping_ratio`` of
+    these modes replaces the damping of the structure, if given.
     """
 
     def __new__(
@@ -3246,9 +3266,7 @@ class ReducedModel(Structure):
     def frequencies(self) -> NDArray[np.float64]:
         """Frequencies of the modes: array of shape (modes,), Hz."""
     def row(self, row: _RowLike) -> DofCombination:
-        """A ``row`` of the full structure as a `DofCombination` of the reduced one, for a probe or a
-        load.
-        """
+        """A ``row`` of the full structure as a `DofCombination` of the reduced structure, for a probe or a load."""
     def full(self, reduced: ArrayLike) -> NDArray[np.float64]:
         """Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
         ``reduced`` one, array of shape (dofs,).
@@ -3309,12 +3327,14 @@ class FemModel(Structure):
     "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
     body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
     along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
-    displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) of the
-    weight that causes P–Δ by the forces at rest; none unless given. ``active_damping``: whether damping may add energy, an
-    error by default. ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
+    displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) for the
+    weight whose static forces cause the P–Δ effect; none unless given. ``active_damping``: whether damping may add
+    energy; by default such damping is an error. ``active_stiffness``: whether matrices of elements may be unsymmetric;
+    by default such matrices are an error.
 
-    Elements whose material yields act by a nonlinear force: the matrix of `stiffness` has the linear elements only. Each simulation
-    starts from the undeformed model; `Simulation.solid_points` returns stresses and plastic strains.
+    Elements whose material yields act by a nonlinear force: the matrix of `stiffness` contains the linear elements
+    only. Each simulation starts from the undeformed model; `Simulation.solid_points` returns stresses and plastic
+    strains.
     """
 
     def beam_rows(self, element: int) -> BeamRows:
@@ -3392,8 +3412,8 @@ class FemModel(Structure):
     def inelastic_elements(self) -> list[int]:
         """Numbers of the elements whose material yields or is a `UserMaterial`: list, ascending."""
     def solid_points(self, element: int) -> SolidPoints:
-        """The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; those of a run are
-        `Simulation.solid_points`.
+        """The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; `Simulation.solid_points`
+        returns those of a simulation.
         """
 
 @final
@@ -3444,16 +3464,16 @@ class GmshSpaceMesh:
         """List of the names of the groups of a ``dimension``: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes."""
     def cells(self, dimension: int, name: str) -> list[list[int]]:
         """Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for `groups`): a list of
-        lists. Surfaces are faces for the ``contact`` of a `FemModel`, points the places of masses, loads and probes.
+        lists. Surfaces are faces for the ``contact`` of a `FemModel`, points are nodes for masses, loads and probes.
         """
     def mesh(self, parts: Mapping[str, _GmshPart]) -> Mesh:
         """The elements of the groups as a `Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
         `Mesh.from_arrays`.
 
         The part of volumes is a `Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
-        ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and surfaces
-        that are sides of other elements need no part. Triangles match the sides that they share with quadrilaterals. To
-        find the number of an element of `cells`, look up its nodes in `Mesh.elements`.
+        ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None omits a group. Lines and surfaces that
+        are sides of other elements need no part. Triangles match the sides that they share with quadrilaterals. To find
+        the number of an element of `cells`, look up its nodes in `Mesh.elements`.
         """
 
 @final
@@ -3481,7 +3501,7 @@ class Grid:
 @disjoint_base
 class Hysteresis:
     """A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
-    are per metre of thickness.
+    are per metre of thickness in the plane, of the whole spring in plan (N and N/m).
     """
 
     def path(self, deformations: ArrayLike) -> list[float]:
@@ -3489,7 +3509,7 @@ class Hysteresis:
 
 @final
 class Bilinear(Hysteresis):
-    """Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+    """Bilinear spring: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
     stiffness; it unloads with the initial stiffness.
     """
 
@@ -3497,9 +3517,9 @@ class Bilinear(Hysteresis):
 
 @final
 class BoucWen(Hysteresis):
-    """Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
-    stiffness, with a smooth transition by ``exponent``, and ``beta`` for the shape of loops. Give both or neither (then
-    2 and 0.5).
+    """Bouc–Wen spring: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+    stiffness, with a smooth transition that ``exponent`` controls; ``beta`` controls the shape of the loops. Give both
+    ``exponent`` and ``beta``, or neither: they are then 2 and 0.5.
     """
 
     def __new__(
@@ -3584,20 +3604,23 @@ class LeadRubber(Hysteresis):
 
 @final
 class WithSprings(Structure):
-    """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of freedom, which
-    is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`. In plan also ``(row_x, row_y, law)`` with
-    two deformations at a right angle and a `Hysteresis` (``BoucWen`` with an exponent of 2), whose force (N) has the
-    same limit in every direction; two springs along x and y act independently: on the diagonal their resultant reaches
-    √2 times the limit. With three deformations, along x, along y and up, ``(row_x, row_y, row_z, bearing)`` of a
-    `PendulumBearing`.
+    """A ``structure`` with hysteretic springs.
+
+    ``springs``: list of pairs ``(row, law)``. The row of degrees of freedom is the spring's deformation (m), the law is
+    a `Hysteresis` or `UserHysteresis`.
+
+    In plan an entry may also be ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
+    (``BoucWen`` with an exponent of 2): its force (N) has the same limit in every direction. Two separate springs along
+    x and y act independently: on the diagonal their resultant reaches √2 times the limit. An entry ``(row_x, row_y,
+    row_z, bearing)`` has deformations along x, along y and up, and a `PendulumBearing`.
     """
 
     def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
 
 @final
 class Material:
-    """Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
-    ``density`` (kg/m³).
+    """Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
+    ``poisson``, ``density`` (kg/m³).
     """
 
     def __new__(cls, young_modulus: float, poisson: float, density: float) -> Self: ...
@@ -3607,10 +3630,10 @@ class Layer:
     """Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
     ``material`` (`Material`).
 
-    ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
-    "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one
-    point, stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean
-    dilatation of the element: the only one of materials that yield).
+    ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: accurate in bending), "full" (2 × 2
+    points), "one_point" (without stiffness against hourglass modes), "hourglass" (one point, stabilised with
+    ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean dilatation of the element: the
+    only formulation for materials that yield).
     """
 
     def __new__(
@@ -3644,14 +3667,14 @@ class BeamSection:
 
 @final
 class MatrixModel(Structure):
-    """A structure by its mass, stiffness and damping matrices.
+    """A structure that its mass, stiffness and damping matrices define.
 
     Matrices are dense or of ``scipy.sparse``.
 
     ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements (m, rad). The
-    structure has no supports; only the ground supports it. ``base``: its nodes, a list of `BaseNode` from left to
-    right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to the
-    whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
+    structure has no supports; only the ground supports it. ``base``: nodes of the base, a list of `BaseNode` from left
+    to right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to
+    the whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
     unless ``active_damping`` (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by
     default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``: list of n different names, for
     `dof`, frames and errors; none unless given.
@@ -3672,7 +3695,7 @@ class MatrixModel(Structure):
 
 @final
 class Mesh:
-    """Nodes and finite elements in the plane, or by `in_space` in space.
+    """Nodes and finite elements in the plane, or in space (`in_space`).
 
     ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add elements and return their numbers; after
     an error they have added none.
@@ -3723,15 +3746,15 @@ class Mesh:
         rotary_inertia: bool = False,
         compression: ArrayLike | None = None,
     ) -> list[int]:
-        """Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a
-        ``section`` (`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
-        vector, or an array of shape (beams, 3)).
+        """Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a ``section``
+        (`BeamSection`), whose y axis is the part of ``orientation`` perpendicular to the beam (x, y and z of a vector,
+        or an array of shape (beams, 3)).
 
         ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array
         of shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which
         its first and its second end are free, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
-        ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
-        array of one per beam): axial force of P–Δ, none unless given.
+        ``rotary_inertia``: whether cross-sections have rotary inertia in bending, False by default; ``compression`` (N;
+        one number or an array of one per beam): axial force of P–Δ, none unless given.
         """
     def __new__(cls, nodes: ArrayLike | None = None) -> Self: ...
     @staticmethod
@@ -3745,8 +3768,8 @@ class Mesh:
         ``layers`` is a list of `Layer` from y = 0 upwards.
         """
     def merge_nodes(self, tolerance: float) -> tuple[int, list[int]]:
-        """Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
-        number of removed nodes, and the list of the new numbers of all former nodes. Elements keep their numbers.
+        """Merges nodes at the same position within ``tolerance`` (m), so that their elements act on each other. It returns
+        the number of removed nodes, and the list of the new numbers of all former nodes. Elements keep their numbers.
 
         If an element would have the same node twice, or two elements the same nodes, it raises an error and the mesh is
         unchanged.
@@ -3770,10 +3793,10 @@ class Mesh:
         rotary_inertia: bool = False,
         compression: ArrayLike | None = None,
     ) -> list[int]:
-        """Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
-        ``second_moment`` (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of
-        one per beam. ``shear_stiffness`` (N per metre): of Timoshenko beams, infinite unless given;
-        ``rotary_inertia``: whether sections have one, False by default; ``compression`` (N per metre):
+        """Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and ``second_moment``
+        (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of one per beam.
+        ``shear_stiffness`` (N per metre): shear stiffness of Timoshenko beams, infinite unless given;
+        ``rotary_inertia``: whether cross-sections have rotary inertia, False by default; ``compression`` (N per metre):
         axial force of P–Δ, none unless given.
         """
     def add_trusses(
@@ -3967,7 +3990,7 @@ class ShellRows:
 
 @final
 class Iwan:
-    """Clay without drainage, a material of solids in plane strain: yields in shear alone, along any concave backbone.
+    """Undrained clay, a material of solids in plane strain. It yields in shear only, along any concave backbone.
 
     Elastic–perfectly plastic components act in parallel (Iwan 1967, Besseling 1958), so that the stress in simple shear
     follows the backbone, and unloads and reloads by Masing's rules. The strength is the stress of the last point; it
@@ -4010,16 +4033,16 @@ class Iwan:
 
 @final
 class DruckerPrager:
-    """Sand or other drained soil, a material of solids in plane strain: yields on Drucker–Prager's cone, matched to
+    """Sand or other drained soil, a material of solids in plane strain. It yields on Drucker–Prager's cone, which matches
     Mohr–Coulomb's law in plane strain.
 
-    Elastic–perfectly plastic, with a ``cohesion`` c (Pa), a ``friction_angle`` φ and a ``dilation_angle`` ψ (rad), 0 ≤ ψ ≤
-    φ < π/2; ``elastic`` is its `Material`. A smaller ψ than φ makes the tangent unsymmetric, and steps take longer. Stress
-    beyond the tip of the cone returns to the tip. With φ = 0 it is von Mises' law with the shear strength c, and with ψ = 0
-    the plastic strain has no change of volume.
+    It is elastic–perfectly plastic, with a ``cohesion`` c (Pa), a ``friction_angle`` φ and a ``dilation_angle`` ψ
+    (rad), 0 ≤ ψ ≤ φ < π/2; ``elastic`` is its `Material`. A smaller ψ than φ makes the tangent unsymmetric, and steps
+    take longer. Stress beyond the tip of the cone returns to the tip. With φ = 0 it is von Mises' law with the shear
+    strength c, and with ψ = 0 the plastic strain has no change of volume.
 
-    An initial stress must lie within the cone. Without cohesion stress at rest with σ_h = (1 − sin φ) σ_v lies outside of
-    it for φ above about 36°; and without an initial stress such a soil has no strength.
+    An initial stress must lie within the cone. Without cohesion the stress at rest with σ_h = (1 − sin φ) σ_v lies
+    outside the cone for φ above about 36°; and without an initial stress a soil without cohesion has no strength.
     """
 
     def __new__(
@@ -4043,8 +4066,8 @@ class DruckerPrager:
 class SolidPoints:
     """States at the n integration points of an element whose material yields or is a `UserMaterial`.
 
-    `Simulation.solid_points` and `FemModel.solid_points` return them. Components are xx, yy, zz and xy; tension is positive, and
-    the shear strain is the engineering strain. The static state is contained.
+    `Simulation.solid_points` and `FemModel.solid_points` return them. Components are xx, yy, zz and xy; tension is
+    positive, and the shear strain is the engineering strain. The values include the static state.
     """
 
     @property
@@ -4123,7 +4146,7 @@ class Condition:
 
 @final
 class Tolerance:
-    """Differences below which a law treats numbers as equal: ``length`` of gaps and slips (m), ``traction`` of pressure
+    """Differences below which a law treats numbers as equal: ``length`` for gaps and slips (m), ``traction`` for pressure
     and shear (Pa).
     """
 
@@ -4137,8 +4160,9 @@ class Tolerance:
 
 @disjoint_base
 class ContactState:
-    """Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
-    (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
+    """Gap, slip and tractions of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure`` (positive in
+    compression) and ``shear`` (Pa); in plan also ``slip_across`` (m) and ``shear_across`` (Pa) along y. All are 0 by
+    default.
     """
 
     def __new__(
@@ -4217,14 +4241,16 @@ class PreviousContact(ContactState):
 
 @final
 class Limits:
-    """Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
+    """Limits of an element's tractions in the step that begins with a `PreviousContact`: what `UserPlanLaw.limits`
+    returns.
 
-    Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default), which grows
-    by ``hardening`` (Pa/m; 0 by default) with the settlement of yielding soil in the step; the shear
+    The pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf`` by default: no bound),
+    which grows by ``hardening`` (Pa/m; 0 by default) with the settlement of yielding soil in the step. The shear
     traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
-    ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
-    ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
-    element that has opened with a tension, an attraction or a shear strength loses them in that step.
+    ``shear_strength`` (Pa, both 0 by default), and slip is in its direction. ``gap_offset`` (m; 0 by default): gap of a
+    closed element, ``-math.inf`` for an element that cannot close in this step. ``bonded`` (False by default): whether
+    base and soil neither separate nor slide. An element that has opened with a tension, an attraction or a shear
+    strength loses them in that step.
     """
 
     def __new__(
@@ -4302,8 +4328,8 @@ def free_field(
     ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
     the point x, y (m).
 
-    The first two may instead return one number, the motion to the right. All three may raise an exception. The other
-    arguments are None.
+    ``displacement`` and ``acceleration`` may instead return one number, the motion to the right. All three functions
+    may raise an exception. Arguments that are not given are None.
     """
 
 def el_centro_1940() -> Record:
@@ -4353,33 +4379,33 @@ def refine(
 ) -> Refinements:
     """Runs a scene at six settings and estimates the error of each.
 
-    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
-    an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
-    are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
-    the elements with half the step.
+    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs a simulation, and returns
+    a number or an array: a peak, some peaks, or a time series at times that all settings have (the times of the
+    coarsest setting). The settings are: ``elements`` and ``time_step`` (s); half and a quarter of the step; two and
+    four times the elements; twice the elements with half the step.
 
-    If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
+    If the scene returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
     extrapolated separately, so that units may differ.
 
-    A regular estimate may still be too low where the base slides or opens: by a factor of 2.4 at one of six settings of
-    a sliding block. On layers the number of stages of the convolution quadrature depends on the error at 15 Hz and may
-    change between the settings; ``stages`` of `ElasticGround` fixes it.
+    Even a regular estimate may be too low if the base slides or opens: for a sliding block it was too low by a factor
+    of 2.4 at one of the six settings. On layers the number of stages of the convolution quadrature depends on the error
+    at 15 Hz and may change between the settings; ``stages`` of `ElasticGround` fixes it.
     """
 @overload
 def refine(elements: int, time_step: float, scene: Callable[[int, float], float | ArrayLike]) -> Refinement:
     """Runs a scene at six settings and estimates the error of each.
 
-    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
-    an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
-    are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
-    the elements with half the step.
+    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs a simulation, and returns
+    a number or an array: a peak, some peaks, or a time series at times that all settings have (the times of the
+    coarsest setting). The settings are: ``elements`` and ``time_step`` (s); half and a quarter of the step; two and
+    four times the elements; twice the elements with half the step.
 
-    If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
+    If the scene returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
     extrapolated separately, so that units may differ.
 
-    A regular estimate may still be too low where the base slides or opens: by a factor of 2.4 at one of six settings of
-    a sliding block. On layers the number of stages of the convolution quadrature depends on the error at 15 Hz and may
-    change between the settings; ``stages`` of `ElasticGround` fixes it.
+    Even a regular estimate may be too low if the base slides or opens: for a sliding block it was too low by a factor
+    of 2.4 at one of the six settings. On layers the number of stages of the convolution quadrature depends on the error
+    at 15 Hz and may change between the settings; ``stages`` of `ElasticGround` fixes it.
     """
 
 def sensitivity(
@@ -4390,16 +4416,16 @@ def sensitivity(
     """Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
     and half of the elements.
 
-    ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. The
-    motion of a body that rocks on its corners may be chaotic: its peaks then belong to one motion out of many, and no
-    finer setting makes them converge. The twins show how many digits of a peak can be quoted, and cost less than two
-    further runs.
+    ``scene(elements, time_step)`` builds a simulation and runs it for a duration, and returns a dict of peaks by their
+    names. The motion of a body that rocks on its corners may be chaotic: its peaks then belong to one motion out of
+    many, and no finer setting makes them converge. The twins show how many digits of a peak can be quoted, and take
+    less time than two further runs.
     """
 
 def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
     """Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.
 
-    E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An
+    E is the area of the polygon of the measured points, M and θ are half the ranges (Gajan and Kutter 2008). An
     `InputError` is raised if the points are not one closed cycle. `Run.equivalent_damping` computes the ratio from a
     run.
 

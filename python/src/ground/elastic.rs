@@ -47,12 +47,12 @@ impl PySharedKernels {
 /// ``soil``: a `Soil` (a half-plane) or a `SoilProfile` (layers). ``strips``: a `Strip` or a list of them, or a `Plan`
 /// in three dimensions.
 ///
-/// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a half-plane
-/// under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
+/// ``history``: method that sums the response to all past tractions: "auto" (the default: exponentials on a half-plane
+/// under strips, otherwise transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
 /// ``history_tolerance``: permitted relative error of exponentials, 1e-12 to 1e-2 (unless given, 1e-12 with "auto" and
 /// 1e-10 with "exponentials"); ``history_memory``: largest memory of the history, bytes (1 GiB unless given).
 /// ``kernels``: `SharedKernels` of several simulations; not shared unless given. For layers and damping: ``stages``: 2
-/// or 3 Runge–Kutta stages (the rule's choice unless given); ``tolerance``: relative error of the element compliances,
+/// or 3 Runge–Kutta stages (chosen by a rule unless given); ``tolerance``: relative error of the element compliances,
 /// 1e-13 to 1e-4 (1e-10 unless given); ``kernel_file``: path of a file that stores them (none unless given).
 #[pyclass(name = "ElasticGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyElasticGround {
@@ -102,12 +102,13 @@ impl PyElasticGround {
     ///
     /// It has a strip of ``count`` elements under each foundation, as wide as the foundation; under a structure in plan
     /// a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline that is oblique to them. A
-    /// flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
-    /// ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
+    /// flexible base gets at least one element for each of its segments, or as many cells as it has faces; if
+    /// necessary, ``count`` is raised for this. ``print(ground)`` shows its number of elements, which is also
+    /// ``len(ground.elements)``.
     ///
-    /// ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
-    /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
-    /// ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
+    /// ``soil`` and the options are as in the class, whose defaults they have unless given: ``history``,
+    /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and ``kernels``.
+    /// ``grading``: "cosine" (the default: short at the edges) or "uniform".
     #[staticmethod]
     #[pyo3(
         signature = (soil, structure, count, *, grading="cosine", **options),
@@ -126,9 +127,9 @@ impl PyElasticGround {
         structure.py().get_type::<Self>().call((soil, elements), options)
     }
 
-    /// Dynamic stiffness of all strips as one rigid body, `Impedances`, at ``frequencies`` (array
-    /// of shape (m,), Hz); in plan the array of `Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
-    /// "relaxed" (vertical motions without shear, horizontal ones without pressure).
+    /// Dynamic stiffness of all strips as one rigid body, `Impedances`, at ``frequencies`` (array of shape (m,), Hz);
+    /// in plan the array of `Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
+    /// "relaxed" (vertical motions without shear, horizontal motions without pressure).
     #[pyo3(signature = (frequencies, *, contact="bonded"))]
     fn impedances(
         &self,

@@ -13,8 +13,8 @@ use crate::ticker::with_progress;
 /// Square contact cells under a mat, for an `ElasticGround` in plan.
 ///
 /// They are the cells that the ``faces`` of the mat cover, convex polygons by their corners (list of lists of x and y,
-/// m; a single one needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique edges
-/// cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
+/// m; a single face needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique
+/// edges cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
@@ -53,8 +53,9 @@ impl PyPlan {
         Plan::disc(center.into(), radius, cells.0).or_raise().map(Self)
     }
 
-    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
-    /// rows from the ``corner`` (x and y, m) away, each a list from left to right.
+    /// Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0. The
+    /// mask is a list of rows in the direction of y, from the ``corner`` (x and y, m) on; each row is a list from left
+    /// to right.
     #[staticmethod]
     fn masked(
         corner: [f64; 2],
@@ -83,15 +84,15 @@ impl PyPlan {
         self.0.middle()
     }
 
-    /// Area of the cells inside the outline minus the area of the faces, relative to the latter.
+    /// Area of the cells inside the outline minus the area of the faces, relative to the area of the faces.
     #[getter]
     fn area_error(&self) -> f64 {
         self.0.area_error()
     }
 
-    /// The plan with contact elements that are rectangles of cells: the list ``along`` has the numbers of columns that
-    /// are united, ``across`` those of rows. Under a rigid mat, sixteen cells united by 1, 2, 2, 3, 3, 2, 2, 1 are as
-    /// accurate as separate cells.
+    /// The plan with contact elements that are rectangles of cells: the list ``along`` contains the numbers of columns
+    /// that are united, ``across`` the numbers of rows. Under a rigid mat, sixteen cells united by 1, 2, 2, 3, 3, 2, 2,
+    /// 1 are as accurate as separate cells.
     fn with_unions(
         &self,
         #[pyo3(from_py_with = whole_numbers)] along: Vec<usize>,
@@ -113,9 +114,9 @@ impl PyPlan {
     /// Dynamic stiffness of the mat as one rigid body on a ``soil``.
     ///
     /// It applies to a ``soil`` (`Soil` or `SoilProfile`) and motions e^(iωt) at ``frequencies`` (array of shape (m,),
-    /// Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about them (N m) by displacements
-    /// (m) and rotations (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed" (vertical motions
-    /// without shear, horizontal ones without pressure).
+    /// Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about these axes (N m) per
+    /// displacement (m) and rotation (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed"
+    /// (vertical motions without shear, horizontal motions without pressure).
     #[pyo3(signature = (soil, frequencies, *, contact="bonded"))]
     pub(super) fn impedances<'py>(
         &self,

@@ -12,9 +12,9 @@ use crate::error::WithOption;
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
 /// ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end at the edge of the mat.
-/// ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential
-/// one unless given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: θ of their time
-/// integration, ½ to 1; ½ unless given.
+/// ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: tangential stiffness along y in plan,
+/// Pa/m; equal to ``tangential_stiffness`` unless given. ``dashpots``: coefficients of the normal and the tangential
+/// dashpots, Pa s/m; none unless given. ``theta``: θ of the time integration of the dashpots, ½ to 1; ½ unless given.
 #[pyclass(name = "SpringGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PySpringGround;
 
@@ -54,9 +54,9 @@ impl PySpringGround {
     ///
     /// It has a strip of ``count`` equal elements under each foundation; under a structure in plan ``count`` cells
     /// along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``,
-    /// ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base gets at least one
-    /// element for each of its segments, or as many cells as it has faces: then ``count`` is raised. The ground prints
-    /// its number of elements, and ``len(ground.elements)`` is that number.
+    /// ``dashpots`` and ``theta`` are as in the class; the last three have its defaults unless given. A flexible base
+    /// gets at least one element for each of its segments, or as many cells as it has faces; if necessary, ``count`` is
+    /// raised for this. ``print(ground)`` shows its number of elements, which is also ``len(ground.elements)``.
     #[staticmethod]
     #[pyo3(
         signature = (structure, count, *stiffness, **options),

@@ -1,4 +1,4 @@
-//! Contact elements: strips of them in the plane, or those of a plan; the ground of a simulation on them.
+//! Contact elements: strips in the plane and plans; and the ground of a simulation.
 
 use basemat::Soil;
 use basemat::bem::plan::Plan;
@@ -19,7 +19,7 @@ use crate::user::UserGround;
 #[derive(Clone)]
 pub(crate) struct PyStrip(pub(crate) Strip);
 
-/// The grading of a name.
+/// The grading with this name.
 pub(super) fn grading(name: &str) -> PyResult<Grading> {
     name.parse().or_raise()
 }
@@ -54,7 +54,7 @@ impl PyStrip {
     }
 }
 
-/// Elements in the plane, one strip or a list of them, or in plan.
+/// Contact elements: strips in the plane, or a plan.
 #[derive(Clone)]
 pub(super) enum ContactMesh {
     Strips(Vec<Strip>),
@@ -64,7 +64,7 @@ pub(super) enum ContactMesh {
 impl ContactMesh {
     /// Elements under the foundations or faces of a structure, as Python's object.
     ///
-    /// In plan the elements depend on the soil, if there is one.
+    /// In plan the elements depend on the soil, if it is given.
     pub(super) fn under(
         structure: &Bound<'_, PyAny>,
         count: usize,
@@ -97,7 +97,7 @@ extracts!(ContactMesh, object => {
     Ok(Self::Strips(strips.iter().map(|strip| strip.get().0.clone()).collect()))
 });
 
-/// A ground for one simulation, and its object of Python: a copy if the ground is written in Python.
+/// A ground for one simulation, and its Python object: a copy of `object` if the ground is written in Python.
 pub(crate) fn new_ground<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Ground>, Bound<'py, PyAny>)> {

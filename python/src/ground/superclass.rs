@@ -21,7 +21,8 @@ pub(crate) struct PyGround {
 }
 
 impl PyGround {
-    /// A ground that `make` builds for each simulation; it is called once for its errors.
+    /// A ground that `make` builds for each simulation. `make` is also called here, so that its errors are raised at
+    /// once.
     pub(crate) fn new<G: Ground + 'static>(
         make: impl Fn() -> basemat::Result<G> + Send + Sync + 'static,
     ) -> PyResult<Self> {
@@ -56,8 +57,8 @@ impl PyGround {
 
 /// Dynamic stiffness of a rigid base without mass, per metre of thickness.
 ///
-/// It applies to motions e^(iωt). Complex arrays of shape (m,), one value per frequency; the imaginary part is
-/// radiation and damping.
+/// It applies to motions e^(iωt). The arrays are complex, of shape (m,), one value per frequency; the imaginary part is
+/// due to radiation and damping.
 #[pyclass(name = "Impedances", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
@@ -73,7 +74,7 @@ pub(super) fn history_options(
     Ok(HistoryOptions { memory: memory_bytes.unwrap_or(options.memory), ..options })
 }
 
-/// The contact of a name, for impedances.
+/// The contact with this name, for impedances.
 pub(super) fn strip_contact(name: &str) -> PyResult<StripContact> {
     choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
@@ -86,25 +87,25 @@ impl PyImpedances {
         self.0.iter().map(|impedance| impedance.frequency).collect()
     }
 
-    /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
+    /// Ratio of horizontal force to horizontal translation: complex array of shape (m,), N/m².
     #[getter]
     fn horizontal(&self) -> Array<Complex64> {
         self.0.iter().map(|impedance| numpy_complex(impedance.horizontal)).collect()
     }
 
-    /// Vertical force by vertical translation: complex array of shape (m,), N/m².
+    /// Ratio of vertical force to vertical translation: complex array of shape (m,), N/m².
     #[getter]
     fn vertical(&self) -> Array<Complex64> {
         self.0.iter().map(|impedance| numpy_complex(impedance.vertical)).collect()
     }
 
-    /// Moment by rotation: complex array of shape (m,), N.
+    /// Ratio of moment to rotation: complex array of shape (m,), N.
     #[getter]
     fn rocking(&self) -> Array<Complex64> {
         self.0.iter().map(|impedance| numpy_complex(impedance.rocking)).collect()
     }
 
-    /// Horizontal force by rotation: complex array of shape (m,), N/m.
+    /// Ratio of horizontal force to rotation: complex array of shape (m,), N/m.
     #[getter]
     fn coupling(&self) -> Array<Complex64> {
         self.0.iter().map(|impedance| numpy_complex(impedance.coupling)).collect()

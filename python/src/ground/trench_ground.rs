@@ -22,9 +22,9 @@ use crate::ticker::with_progress;
 
 /// A damping law that several grounds read.
 #[derive(Debug, Clone)]
-struct SharedLaw(Arc<dyn Relaxation>);
+struct SharedRelaxation(Arc<dyn Relaxation>);
 
-impl Relaxation for SharedLaw {
+impl Relaxation for SharedRelaxation {
     fn modulus(&self, s: Complex) -> Complex {
         self.0.modulus(s)
     }
@@ -46,23 +46,23 @@ impl Relaxation for SharedLaw {
     }
 }
 
-/// Backfill of the walls of a trench, by the tuple that Python has for it.
+/// Backfill beside the walls of a trench, from the tuple that describes it in Python.
 struct BackfillArguments {
     /// Width beside each wall, m.
     width: f64,
     soil: PySoil,
-    damping: SharedLaw,
+    damping: SharedRelaxation,
 }
 
 extracts!(BackfillArguments, object => {
     if let Ok((width, soil)) = object.extract::<(f64, Bound<'_, PySoil>)>() {
-        let damping = SharedLaw(law_or_elastic(None));
+        let damping = SharedRelaxation(law_or_elastic(None));
         return Ok(Self { width, soil: PySoil(soil.get().0), damping });
     }
     let requirement = "a tuple (width, Soil) or (width, Soil, DampingLaw)";
     match object.extract::<(f64, Bound<'_, PySoil>, Bound<'_, PyDampingLaw>)>() {
         Ok((width, soil, damping)) => {
-            let damping = SharedLaw(law_or_elastic(Some(damping.get())));
+            let damping = SharedRelaxation(law_or_elastic(Some(damping.get())));
             Ok(Self { width, soil: PySoil(soil.get().0), damping })
         }
         Err(_) => Err(type_error(&object, requirement)),
@@ -74,13 +74,14 @@ extracts!(BackfillArguments, object => {
 /// It is a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base, ``elements``
 /// (`TrenchElements`).
 ///
-/// The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
+/// The structure in the trench is a `WithWalls`, or a `FemModel` with ``in_trench``; the ground motion is a
+/// `TrenchMotion`.
 ///
 /// ``pressure_at_rest``: K₀, the ratio of the pressure on the walls at rest to the vertical pressure of the soil; ν/(1
-/// − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its
-/// width (m), its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given. ``history``,
-/// ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for `ElasticGround`,
-/// whose defaults they have unless given.
+/// − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of the
+/// width (m) of the backfill, its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given.
+/// ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
+/// `ElasticGround`, and have its defaults unless given.
 #[pyclass(name = "TrenchGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyTrenchGround {
     pub(crate) make: Arc<dyn Fn() -> basemat::Result<TrenchGround> + Send + Sync>,
@@ -138,8 +139,9 @@ impl PyTrenchGround {
     /// Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base (an `InterfaceLaw` or an object
     /// with the methods of `UserLaw`), and an `EarthPressure` for each element of the walls.
     ///
-    /// ``strengths``: a `SoilStrength` of all soils, or a list of one for each from the surface down, the half-plane last;
-    /// with backfill, of the backfill alone. ``gravity``: as of `InitialConditions`, m/s².
+    /// ``strengths``: a `SoilStrength` of all soils, or a list of one for each soil from the surface down, the
+    /// half-plane last; with backfill, the strength of the backfill alone. ``gravity``: acceleration of gravity, as for
+    /// `InitialConditions`, m/s².
     #[pyo3(signature = (base, strengths, *, gravity=9.80665))]
     fn interfaces(
         &self,
@@ -169,7 +171,8 @@ impl PyTrenchGround {
 
     /// Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
     ///
-    /// Shear and pressure waves travel vertically. A ground with backfill raises an error, since its waves do not.
+    /// Shear and pressure waves travel vertically. A ground with backfill raises an error, since waves in it do not
+    /// travel vertically.
     fn kinematic_motions(
         &self,
         py: Python<'_>,
@@ -187,8 +190,9 @@ impl PyTrenchGround {
 ///
 /// It is relative to a unit motion e^(iωt) of the surface of the free field.
 ///
-/// It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
-/// Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
+/// It is the input motion of a structure on springs and dashpots. The arrays are complex, of shape (m,), one value per
+/// frequency. Translations are those of the middle of the base, vertical translations positive down; a positive
+/// rotation lowers the right end.
 #[pyclass(name = "KinematicMotions", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyKinematicMotions(Vec<KinematicMotion>);
@@ -201,19 +205,19 @@ impl PyKinematicMotions {
         self.0.iter().map(|motion| motion.frequency).collect()
     }
 
-    /// Horizontal translation by horizontal motion, shear waves: complex array of shape (m,), a ratio.
+    /// Horizontal translation due to horizontal motion (shear waves): complex array of shape (m,), a ratio.
     #[getter]
     fn horizontal(&self) -> Array<Complex64> {
         self.0.iter().map(|motion| numpy_complex(motion.horizontal)).collect()
     }
 
-    /// Rotation by horizontal motion, shear waves: complex array of shape (m,), 1/m.
+    /// Rotation due to horizontal motion (shear waves): complex array of shape (m,), 1/m.
     #[getter]
     fn rotation(&self) -> Array<Complex64> {
         self.0.iter().map(|motion| numpy_complex(motion.rotation)).collect()
     }
 
-    /// Vertical translation by vertical motion, pressure waves: complex array of shape (m,), a ratio.
+    /// Vertical translation due to vertical motion (pressure waves): complex array of shape (m,), a ratio.
     #[getter]
     fn vertical(&self) -> Array<Complex64> {
         self.0.iter().map(|motion| numpy_complex(motion.vertical)).collect()

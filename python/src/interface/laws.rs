@@ -30,8 +30,9 @@ impl PyBonded {
 ///
 /// ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides. With 3 or more, steps in
 /// plan may have several solutions: compare the run with one of the mirror image. ``tensile_strength`` (Pa; 0 by
-/// default) acts on an element until it first opens. ``closed_below`` (m): contact conditions act on the change of the
-/// gap of elements whose gap is at most that (Moreau's rule); on the gap unless given.
+/// default) acts on an element until it first opens. ``closed_below`` (m): if given, the contact conditions of an
+/// element whose gap is at most this length act on the change of the gap (Moreau's rule); otherwise they act on the
+/// gap.
 #[pyclass(name = "Coulomb", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCoulomb(Coulomb);
 
@@ -61,7 +62,7 @@ impl PyCoulomb {
 }
 
 /// A bond that breaks permanently, and friction afterwards: ``tension`` and ``cohesion`` are its strengths (Pa) against
-/// opening and shear, ``friction`` the coefficient when it is broken.
+/// opening and shear, ``friction`` the friction coefficient after it is broken.
 #[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCohesive;
 
@@ -119,7 +120,8 @@ impl PyCyclicYielding {
         Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self(law)))
     }
 
-    /// Settlement (m) of soil without earlier load under a ``pressure`` (Pa), without that of the elastic ground.
+    /// Settlement (m) of soil without earlier load under a ``pressure`` (Pa), without the settlement of the elastic
+    /// ground.
     fn virgin_settlement(&self, pressure: f64) -> f64 {
         self.0.virgin_settlement(pressure)
     }
@@ -152,20 +154,21 @@ impl PyEarthPressure {
 
 /// Thin elastic layer between base and ground (Patel and Spyrakos).
 ///
-/// ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
-/// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
-/// stiffness that remains when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
-/// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this
-/// step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
-/// ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
-/// default), "velocity" or "last_velocity" (of this step or the one before).
+/// ``soil``: `Soil` of the layer. ``neighbour_height``: height of the finite elements beside the layer, m.
+/// ``friction``: coefficient. ``thickness_ratio``: ratio of the thickness of the layer to this height; 0.1 unless
+/// given. ``debonded_ratio``: fraction of the stiffness that remains while the layer is open, 0 to 1; 0.001 unless
+/// given. ``slip_stiffness_ratio``: fraction of the shear stiffness that resists slip in addition to friction, 0 to 1;
+/// 0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this step; the default), "lagged"
+/// (of the step before), "static" or "dynamic" (the magnitude of the change since the static state). ``slip_sense``:
+/// quantity that decides the sense of slip, "inelastic" (the slip without its elastic part; the default), "velocity"
+/// (the rate of slip in this step) or "last_velocity" (in the step before).
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
 extends!(PyThinLayer, layer => PyInterfaceLaw::from_law(layer.0));
 
 impl PyThinLayer {
-    /// The layer with those options that are given.
+    /// The layer with the options that are not `None`.
     fn with_options(
         law: basemat::Result<ThinLayer>,
         debonded_ratio: Option<f64>,
@@ -203,8 +206,8 @@ impl PyThinLayer {
     }
 
     /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_ratio``,
-    /// ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are as in the class, the last
-    /// four if given.
+    /// ``slip_stiffness_ratio``, ``friction_limit`` and ``slip_sense`` are as in the class; the last four have its
+    /// defaults unless given.
     #[pyo3(signature = (normal, shear, friction, *, debonded_ratio=None, slip_stiffness_ratio=None, friction_limit=None, slip_sense=None))]
     #[staticmethod]
     fn from_stiffness(
@@ -227,10 +230,10 @@ impl PyThinLayer {
     }
 }
 
-/// Coulomb friction with a coefficient by a function of Python.
+/// Coulomb friction whose coefficient is returned by a Python function.
 ///
-/// ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run and is
-/// raised there. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
+/// ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run, which
+/// raises it. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
 

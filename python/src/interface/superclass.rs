@@ -62,8 +62,7 @@ impl PyInterfaceLaw {
         })
     }
 
-    /// The `Limits` of an element's tractions in the step after ``start``
-    /// (`PreviousContact`).
+    /// The `Limits` of an element's tractions in the step that begins with ``start`` (`PreviousContact`).
     fn limits(&self, start: &PyPreviousContact) -> PyResult<PyLimits> {
         raise_user_exceptions(|| {
             (self.make)().and_then(|law| law.limits(&start.core())).or_raise().map(PyLimits)
@@ -91,7 +90,7 @@ fn law_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
     Err(input_error(format!("{type_name} is no interface law: {hint}")))
 }
 
-/// Recipes of one law for all elements, or of one law for each.
+/// Recipes of laws: one for all elements, or one for each element.
 pub(crate) fn law_recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
     reject_class(object)?;
     match object.extract::<Vec<Bound<'_, PyAny>>>() {

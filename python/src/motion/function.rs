@@ -11,7 +11,7 @@ use crate::error::{self, OrRaise, has_stored_exception, input_error, raise_user_
 use crate::list_arguments::reject_class;
 use crate::recipe::Recipe;
 
-/// Motion of the ground's surface without the structure: a `Record`, a wave, or a function by `free_field`. Until t = 0
+/// Motion of the ground's surface without the structure: a `Record`, a wave, or a function (`free_field`). Until t = 0
 /// the ground is at rest.
 #[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
@@ -43,7 +43,8 @@ impl PyFreeField {
     }
 }
 
-/// A free field that `make` builds for each simulation; it is called once for its errors.
+/// A free field that `make` builds for each simulation. `make` is also called here, so that its errors are raised at
+/// once.
 pub(super) fn new_free_field<F: FreeField + 'static>(
     make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
@@ -84,8 +85,8 @@ pub(crate) fn free_field_object<'a, 'py>(
 /// ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
 /// the point x, y (m).
 ///
-/// The first two may instead return one number, the motion to the right. All three may raise an exception. The other
-/// arguments are None.
+/// ``displacement`` and ``acceleration`` may instead return one number, the motion to the right. All three functions
+/// may raise an exception. Arguments that are not given are None.
 #[pyfunction]
 #[pyo3(signature = (*, displacement=None, acceleration=None, time_step=None, duration=None, displacement_at=None))]
 pub(crate) fn free_field(
@@ -136,7 +137,7 @@ pub(crate) fn free_field(
     }
 }
 
-/// The function that the argument `name` is; an error unless it can be called.
+/// The argument called `name` as a function; an error unless it can be called.
 fn checked_callable(name: &str, function: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
     if function.is_callable() {
         return Ok(function.clone().unbind());
@@ -192,9 +193,9 @@ impl FreeField for PlanMotionFunction {
     }
 }
 
-/// Motion (right, up) by a function that returns a pair, or one number to the right.
+/// Motion (right, up) that a function returns, as a pair or as one number for the motion to the right.
 ///
-/// NaN, which ends the step, if the function raises.
+/// If the function raises an exception, the motion is NaN, which ends the step.
 fn call_motion_function(
     name: &str,
     call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>,

@@ -132,16 +132,20 @@ impl PyRecord {
 
     /// Reads a file at ``path``.
     ///
-    /// ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "along_lines"
-    /// (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and
-    /// KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet". ``unit`` of the
-    /// acceleration as for the class: needed for columns and values along lines, for files of "cosmos" and "slist" that
-    /// name none; other files have their own. Of columns: ``columns`` are the numbers of time and acceleration from 1,
-    /// (1, 2) unless given; with ``time_step`` (s) times are ignored, and the file must have one column unless
-    /// ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the Fortran format of their lines,
-    /// such as "8F9.6", none unless given. Both skip ``header_lines`` at the beginning, and raise an error if the
-    /// number of samples is not ``samples``, if given. ``channel`` is the number of the component from 1, for formats
-    /// that hold several ("cosmos", "k_net_csv", "afad", "geonet", "slist").
+    /// ``format``: "columns" (the default: columns of text with the time, in s or as a time of day, and the
+    /// acceleration), "along_lines" (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS
+    /// and CSMIP), "k_net" (K-NET and KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or
+    /// "geonet". ``unit``: unit of the acceleration, as for the class. It is needed for "columns" and "along_lines",
+    /// and for files of "cosmos" and "slist" that do not name it; files of other formats have a fixed unit.
+    ///
+    /// For "columns", ``columns`` are the numbers of the columns of time and acceleration, counted from 1, (1, 2)
+    /// unless given. If ``time_step`` (s) is given, the times are ignored, and the file must have one column unless
+    /// ``columns`` is given. "along_lines" needs the ``time_step``; ``layout`` is the Fortran format of the lines, such
+    /// as "8F9.6", none unless given. For both formats ``header_lines`` at the beginning are skipped, and it is an
+    /// error if the number of samples is not ``samples``, if given.
+    ///
+    /// ``channel`` is the number of the component from 1, for formats with several components in a file ("cosmos",
+    /// "k_net_csv", "afad", "geonet", "slist").
     #[staticmethod]
     #[pyo3(signature = (
         path, *, format="columns", unit=None, time_step=None, columns=None, channel=None, header_lines=None,
@@ -166,8 +170,8 @@ impl PyRecord {
     /// Reads all components of the file at ``path``, such as the three directions of a station: a
     /// dict from the name of each to its `Record`, in the order of the file.
     ///
-    /// ``format``, ``unit``, ``time_step`` and ``header_lines`` as for `read`, none unless given; of columns all but
-    /// the one of times are read.
+    /// ``format``, ``unit``, ``time_step`` and ``header_lines`` are as for `read`, none unless given. Of a file of
+    /// columns, all columns except the column of times are read.
     #[staticmethod]
     #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, header_lines=None))]
     fn read_all<'py>(
@@ -199,19 +203,18 @@ impl PyRecord {
         Self::from_core(self.0.scaled(factor))
     }
 
-    /// Record scaled to a ``peak`` acceleration (m/s²), signs kept.
+    /// Record scaled to a ``peak`` acceleration (m/s²); signs stay the same.
     fn scaled_to_peak(&self, peak: f64) -> PyResult<Self> {
         Self::from_core(self.0.scaled_to_peak(peak))
     }
 
-    /// Record with samples every ``time_step`` (s), linear between the present ones.
+    /// Record with samples every ``time_step`` (s), interpolated linearly between the present samples.
     fn resampled(&self, time_step: f64) -> PyResult<Self> {
         Self::from_core(self.0.resampled(time_step))
     }
 
-    /// Record with its baseline treated. ``treatment``: "remove_mean", "newmark_parabola",
-    /// "velocity_polynomial", "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by
-    /// default.
+    /// Record with a corrected baseline. ``treatment``: "remove_mean", "newmark_parabola", "velocity_polynomial",
+    /// "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by default.
     #[pyo3(signature = (treatment, *, degree=4))]
     fn with_baseline(
         &self,
@@ -221,12 +224,12 @@ impl PyRecord {
         Self::from_core(self.0.with_baseline(baseline(treatment, degree)?))
     }
 
-    /// Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
-    /// 8; 4 by default), forwards and backwards, so without phase shift.
+    /// Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to 8; 4 by
+    /// default), applied forwards and backwards, so that phases do not shift.
     ///
     /// Rest of 1.5 ``order / corner`` s is added before and after the record, 30 s each for a corner of 0.2 Hz, since
-    /// the filter changes the motion there. Do not remove it: without it velocity and displacement do not return to
-    /// zero.
+    /// the filter changes the motion there. Do not remove this rest: without it velocity and displacement do not return
+    /// to zero.
     #[pyo3(signature = (corner, *, order=4))]
     fn high_pass(
         &self,
@@ -237,8 +240,8 @@ impl PyRecord {
     }
 
     /// Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by
-    /// default), forwards and backwards, so without phase shift; rest is added as by `high_pass`. Use it before a
-    /// deconvolution (`SoilColumn.from_surface`).
+    /// default), applied forwards and backwards, so that phases do not shift; rest is added as by `high_pass`. Use it
+    /// before a deconvolution (`SoilColumn.from_surface`).
     #[pyo3(signature = (corner, *, order=4))]
     fn low_pass(
         &self,
@@ -292,7 +295,7 @@ impl PyRecord {
     }
 }
 
-/// A treatment of the baseline by its name, which may contain the degree.
+/// The treatment of the baseline with this name; for a polynomial the `degree` is appended to the name.
 fn baseline(name: &str, degree: usize) -> PyResult<Baseline> {
     let without_degree = name.parse::<Baseline>();
     without_degree

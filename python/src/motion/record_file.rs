@@ -21,7 +21,7 @@ pub(super) struct FileOptions<'a> {
 }
 
 impl FileOptions<'_> {
-    /// The reader of a format by its name; an error for options that it does not have.
+    /// The reader of the format with this name; an error for options that the format does not have.
     pub(super) fn reader(&self, format: &str) -> PyResult<Box<dyn RecordFormat>> {
         use AccelerationUnit::{Gal, MillimetrePerSecondSquared, StandardGravity};
         let component = self.channel.unwrap_or(1);
@@ -29,24 +29,26 @@ impl FileOptions<'_> {
             "columns" => Box::new(self.column_format()?),
             "along_lines" => Box::new(self.along_lines_format()?),
             "slist" => {
-                self.check(format, None, true)?;
+                self.check_options(format, None, true)?;
                 let unit = self.unit.map(unit_of).transpose()?;
                 Box::new(SlistFormat { component, unit })
             }
             "cosmos" => {
-                self.check(format, None, true)?;
+                self.check_options(format, None, true)?;
                 let unit = self.unit.map(unit_of).transpose()?;
                 Box::new(CosmosFormat { channel: component, unit })
             }
-            "peer" => self.checked(format, StandardGravity, false, PeerFormat)?,
-            "k_net" => self.checked(format, Gal, false, KNetFormat)?,
-            "k_net_csv" => self.checked(format, Gal, true, KNetCsvFormat { component })?,
-            "esm" => self.checked(format, Gal, false, EsmFormat)?,
-            "afad" => self.checked(format, Gal, true, AfadFormat { component })?,
-            "smc" => self.checked(format, Gal, false, SmcFormat)?,
+            "peer" => self.fixed_unit_reader(format, StandardGravity, false, PeerFormat)?,
+            "k_net" => self.fixed_unit_reader(format, Gal, false, KNetFormat)?,
+            "k_net_csv" => {
+                self.fixed_unit_reader(format, Gal, true, KNetCsvFormat { component })?
+            }
+            "esm" => self.fixed_unit_reader(format, Gal, false, EsmFormat)?,
+            "afad" => self.fixed_unit_reader(format, Gal, true, AfadFormat { component })?,
+            "smc" => self.fixed_unit_reader(format, Gal, false, SmcFormat)?,
             "geonet" => {
                 let reader = GeoNetFormat { component };
-                self.checked(format, MillimetrePerSecondSquared, true, reader)?
+                self.fixed_unit_reader(format, MillimetrePerSecondSquared, true, reader)?
             }
             _ => {
                 return Err(input_error(format!(
@@ -110,15 +112,15 @@ impl FileOptions<'_> {
         })
     }
 
-    /// The reader of a format whose files are in a fixed `unit`.
-    fn checked(
+    /// The `reader` of a format whose files are in a fixed `unit`; an error for options that the format does not have.
+    fn fixed_unit_reader(
         &self,
         format: &str,
         unit: AccelerationUnit,
         has_components: bool,
         reader: impl RecordFormat + 'static,
     ) -> PyResult<Box<dyn RecordFormat>> {
-        self.check(format, Some(unit), has_components)?;
+        self.check_options(format, Some(unit), has_components)?;
         Ok(Box::new(reader))
     }
 
@@ -126,7 +128,7 @@ impl FileOptions<'_> {
     ///
     /// `file_unit`: unit of all files of the format; `None` if files name it. `has_components`: whether a file may
     /// have several components.
-    fn check(
+    fn check_options(
         &self,
         format: &str,
         file_unit: Option<AccelerationUnit>,
@@ -154,7 +156,7 @@ impl FileOptions<'_> {
     }
 }
 
-/// A unit of acceleration by its symbol.
+/// The unit of acceleration with this symbol.
 pub(super) fn unit_of(symbol: &str) -> PyResult<AccelerationUnit> {
     symbol.parse().or_raise()
 }

@@ -64,8 +64,8 @@ impl PySpectrum {
         self.1.clone()
     }
 
-    /// Spectrum with peaks broadened by the ``fraction`` of their frequency to both sides, 0.15 by default (U.S. NRC
-    /// R.G. 1.122).
+    /// Spectrum with peaks that are broadened to both sides by the ``fraction`` of their frequency, 0.15 by default
+    /// (U.S. NRC R.G. 1.122).
     #[pyo3(signature = (fraction=0.15))]
     fn broadened(&self, fraction: f64) -> PyResult<Self> {
         let broadened = basemat::results::broadened(&self.0, fraction).or_raise()?;

@@ -14,9 +14,9 @@ use crate::ticker::with_progress;
 /// Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` is for other waves.
 ///
 /// ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record`
-/// of the surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero
-/// unless given. Motion at depth precedes the motion of the surface: begin the record with rest that lasts the travel
-/// time of the waves from the base to the surface (`Record.padded`).
+/// of the surface's motion to the right (shear waves). ``vertical``: `Record` of its motion up (pressure waves). A
+/// component is zero unless given. Motion at depth precedes the motion of the surface: begin the record with rest that
+/// lasts the travel time of the waves from the base to the surface (`Record.padded`).
 #[pyclass(name = "TrenchMotion", module = "basemat", extends = PyFreeField, frozen)]
 pub(crate) struct PyTrenchMotion;
 
@@ -39,8 +39,8 @@ impl PyTrenchMotion {
         Ok(trench_motion_object(motion?, duration))
     }
 
-    /// The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of a field of a `PlaneWave` or an
-    /// `InclinedWave`, or of a `travelling_wave`.
+    /// The `TrenchMotion` of a ``wave`` around the trench of ``ground``: a field of a `PlaneWave` or of an
+    /// `InclinedWave`, or a `travelling_wave`.
     ///
     /// The wave must belong to the profile of the ground and travel along x: the motion and the apparent velocity at
     /// the surface determine the field below. The motion before and after the record of the wave decays within half the
@@ -52,7 +52,7 @@ impl PyTrenchMotion {
         wave: Bound<'_, PyAny>,
     ) -> PyResult<Py<Self>> {
         let field = free_field_object(&wave)?.get();
-        let requirement = "the wave runs along the surface: a travelling_wave, or a field of a PlaneWave or an InclinedWave";
+        let requirement = "the wave must travel along the surface: give a travelling_wave, or a field of a PlaneWave or an InclinedWave";
         let make_wave = field.wave.as_ref().ok_or_else(|| input_error(requirement))?;
         let wave = make_wave().or_raise()?;
         let ground = (ground.get().make)().or_raise()?;

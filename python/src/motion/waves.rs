@@ -217,7 +217,7 @@ impl PyPlaneWave {
 #[pyclass(name = "SoilColumn", module = "basemat", frozen, dict)]
 pub(crate) struct PyColumn(pub(crate) SoilColumn);
 
-/// The control point of a name.
+/// The control point with this name.
 pub(crate) fn control_point(name: &str) -> PyResult<ControlPoint> {
     choice("control", name, &[("outcrop", ControlPoint::Outcrop), ("within", ControlPoint::Within)])
 }
@@ -293,8 +293,8 @@ impl PyColumn {
     }
 
     /// The record of the surface, as long as the ``record`` of the ``control`` point, "outcrop" (the default) or
-    /// "within". If motion is cut off at its ends, a `BasematWarning` states how much of the peak, from 0.01 % on;
-    /// `Record.padded` avoids it.
+    /// "within". If the motion is cut off at the ends of the record, a `BasematWarning` states the cut-off part
+    /// relative to the peak, if it is above 0.01 %; `Record.padded` avoids this.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through_column(py, record, control, |control, time_step, samples, observer| {
@@ -373,9 +373,9 @@ impl PyInclinedWave {
         self.0.apparent_velocity()
     }
 
-    /// The `FreeField` of the surface for the ``record`` at the ``control`` point at ``origin`` (x, m), which the wave
-    /// reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base without layers) or
-    /// "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
+    /// The `FreeField` of the surface for the ``record`` of the ``control`` point below ``origin`` (x, m), the edge of
+    /// the base that the wave reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base
+    /// without layers) or "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
     #[pyo3(signature = (record, origin, *, control="outcrop_horizontal", azimuth=0.0))]
     fn field(
         &self,

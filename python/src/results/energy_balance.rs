@@ -50,7 +50,7 @@ impl PyEnergyBalance {
         self.0.midstep_remainder
     }
 
-    /// Work done on the soil, which radiates and stores it, J.
+    /// Work done on the soil, J; the soil radiates part of it and stores the rest.
     #[getter]
     fn soil(&self) -> f64 {
         self.0.soil
@@ -86,7 +86,7 @@ impl PyEnergyBalance {
         self.0.relative_input
     }
 
-    /// Error bound of `soil` by an approximate history, J.
+    /// Bound of the error of `soil` that the approximation of the history causes, J.
     #[getter]
     fn soil_error_bound(&self) -> f64 {
         self.0.soil_error_bound

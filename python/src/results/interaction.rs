@@ -16,7 +16,7 @@ pub(crate) struct PySystemMode(SystemMode);
 
 #[pymethods]
 impl PySystemMode {
-    /// Axis along which the mode has the most modal mass, "x" or "y" in plan; None in the plane.
+    /// Axis along which the mode has the largest participating mass, "x" or "y" in plan; None in the plane.
     #[getter]
     fn axis(&self) -> Option<char> {
         self.0.axis
@@ -90,8 +90,8 @@ impl PyInteraction {
         PyRun::new(self.interaction.on_fixed_base.clone(), None, self.dof_names.clone())
     }
 
-    /// The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
-    /// that is rigid.
+    /// The mode with the largest participating mass along x, in plan also the mode for y: list of `SystemMode`; empty
+    /// for a structure that is rigid.
     #[getter]
     fn modes(&self) -> Vec<PySystemMode> {
         self.interaction.modes.iter().copied().map(PySystemMode).collect()

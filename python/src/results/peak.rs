@@ -3,7 +3,7 @@
 use basemat::results::{Extremes, Peak};
 use pyo3::prelude::*;
 
-/// A value of a run with its time; ``float()`` gives the value.
+/// A value of a run with its time; ``float()`` returns the value.
 #[pyclass(name = "Peak", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyPeak(pub(crate) Peak);
@@ -50,8 +50,7 @@ impl PyExtremes {
         PyPeak(self.0.highest)
     }
 
-    /// Whichever of the two is further from zero, with its sign: a `Peak` in the
-    /// quantity's unit.
+    /// The one of `lowest` and `highest` that is further from zero, with its sign: a `Peak` in the quantity's unit.
     #[getter]
     fn largest(&self) -> PyPeak {
         PyPeak(self.0.largest())

@@ -21,8 +21,9 @@ impl PyRun {
 
 #[pymethods]
 impl PyRun {
-    /// Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first. Its moments are
-    /// about its middle. Several foundations need ``foundations=True`` of `Simulation.run`.
+    /// Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first.
+    /// Moments are about the middle of the foundation. Several foundations need ``foundations=True`` of
+    /// `Simulation.run`.
     fn foundation_series(
         &self,
         #[pyo3(from_py_with = whole_numbers)] foundation: usize,
@@ -36,9 +37,10 @@ impl PyRun {
         Ok(OrderedDict(columns))
     }
 
-    /// Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
-    /// of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-    /// "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
+    /// Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across``
+    /// about x: dict of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its
+    /// middle (N·m/m, in plan N·m), "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ,
+    /// J/m, in plan J).
     #[pyo3(signature = (foundation=0, *, across=false))]
     fn rocking(
         &self,
@@ -74,7 +76,7 @@ impl PyRun {
 
 /// Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.
 ///
-/// E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An
+/// E is the area of the polygon of the measured points, M and θ are half the ranges (Gajan and Kutter 2008). An
 /// `InputError` is raised if the points are not one closed cycle. `Run.equivalent_damping` computes the ratio from a
 /// run.
 ///

@@ -75,7 +75,7 @@ impl PyRun {
         self.run.steps
     }
 
-    /// Whether the ground was one in plan: results are then of the whole body, N in place of N/m.
+    /// Whether the ground was in plan: forces are then those of the whole body, in N instead of N/m.
     #[getter]
     fn in_plan(&self) -> bool {
         self.run.in_plan
@@ -149,7 +149,7 @@ impl PyRun {
         self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
     }
 
-    /// Ratio of the largest base shear to the weight; None without weight.
+    /// Ratio of the largest base shear to the weight; None if the structure has no weight.
     #[getter]
     fn shear_coefficient(&self) -> Option<f64> {
         self.run.shear_coefficient()
@@ -242,9 +242,9 @@ impl PyRun {
         Rows(envelopes.map(|envelope| envelope.element.heights().to_vec()).collect())
     }
 
-    /// `FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
-    /// walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
-    /// "open_fraction" (a ratio).
+    /// `FaceForces` over time, at the snapshots of ``contact_every`` of `Simulation.run`: dict of "left_wall", "base"
+    /// and "right_wall"; without walls it has "base" only. Each is a dict of arrays of shape (frames,): "time" (s),
+    /// "thrust", "shear" (N/m), "place" (m), "open_fraction" (a ratio).
     #[getter]
     fn faces(&self) -> PyResult<OrderedDict<&'static str, OrderedDict<&'static str, Array>>> {
         series::faces(self.recorded()?)
@@ -284,8 +284,8 @@ impl PyRun {
         series::series_named(self.recorded()?, name)
     }
 
-    /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-    /// (Pa), "mode" (numbers into `basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+    /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear" (Pa), "mode"
+    /// (numbers into `basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
     /// "shear_across" (Pa), along y.
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

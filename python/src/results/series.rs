@@ -92,8 +92,8 @@ pub(super) fn faces(
     }
     let mut elements = time_series.elements().iter();
     let has_walls = elements.any(|element| !is_base_element(element));
-    let faces = TRENCH_FACES.iter().filter(|(name, _)| has_walls || *name == "base");
-    let columns = faces.map(|(name, face)| {
+    let present_faces = TRENCH_FACES.iter().filter(|(name, _)| has_walls || *name == "base");
+    let forces_by_face = present_faces.map(|(name, face)| {
         let forces: Vec<FaceForces> = time_series.face(*face).collect();
         let columns = OrderedDict(vec![
             ("time", Array::from(&*times)),
@@ -104,7 +104,7 @@ pub(super) fn faces(
         ]);
         (*name, columns)
     });
-    Ok(columns.collect())
+    Ok(forces_by_face.collect())
 }
 
 /// Snapshots of the structure: times, and arrays of shape (frames, n).

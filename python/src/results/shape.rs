@@ -26,7 +26,7 @@ use crate::structure::{
 #[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
 pub(crate) struct PyDeformedShape(pub(super) DeformedShape);
 
-/// Shape of a structure; a box of this `height` for one without a shape.
+/// Shape of a structure; a box of this `height` if the structure has no shape.
 pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
     let py = object.py();
     if let Ok(shape) = object.cast::<PyDeformedShape>() {
@@ -44,8 +44,8 @@ pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<
     if let Ok(with_springs) = object.cast::<PyWithSprings>() {
         return shape(with_springs.get().0.bind(py), height);
     }
-    if let Ok(damped) = object.cast::<PyWithModalDamping>() {
-        return shape(damped.get().structure.bind(py), height);
+    if let Ok(with_damping) = object.cast::<PyWithModalDamping>() {
+        return shape(with_damping.get().structure.bind(py), height);
     }
     if let Ok(with_walls) = object.cast::<PyWithWalls>() {
         let with_walls = with_walls.get();
@@ -132,10 +132,10 @@ fn group_shape(
     new_shape((points, cells))
 }
 
-/// A point at a `place` [x, y, z] and the rows of its displacements; an error unless there is one per axis.
-fn shape_point(place: [f64; 3], rows: Vec<RowLike>, axis_count: usize) -> PyResult<ShapePoint> {
+/// A point at a `position` [x, y, z] with the rows of its displacements; an error unless there is one row per axis.
+fn shape_point(position: [f64; 3], rows: Vec<RowLike>, axis_count: usize) -> PyResult<ShapePoint> {
     let row_count = rows.len();
-    let [x, y, z] = place;
+    let [x, y, z] = position;
     let mut rows = rows.into_iter().map(|row| row.0);
     let combinations = [rows.next(), rows.next(), rows.next()];
     match combinations {
@@ -169,17 +169,17 @@ impl PyDeformedShape {
         #[pyo3(from_py_with = whole_numbers)] cells: Vec<Vec<usize>>,
     ) -> PyResult<Self> {
         let axis_count = points.axis_count();
-        let places = points.in_plane();
-        let place_count = places.len();
-        if rows.len() != place_count {
+        let positions = points.coordinates();
+        let point_count = positions.len();
+        if rows.len() != point_count {
             let row_count = rows.len();
             return Err(input_error(format!(
-                "rows has {row_count} entries, but must have {place_count}, one for each point"
+                "rows has {row_count} entries, but must have {point_count}, one for each point"
             )));
         }
-        let mut points = Vec::with_capacity(place_count);
-        for (place, point_rows) in places.into_iter().zip(rows) {
-            points.push(shape_point(place, point_rows, axis_count)?);
+        let mut points = Vec::with_capacity(point_count);
+        for (position, point_rows) in positions.into_iter().zip(rows) {
+            points.push(shape_point(position, point_rows, axis_count)?);
         }
         new_shape((points, cells)).map(Self)
     }

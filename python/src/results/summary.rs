@@ -8,7 +8,8 @@ use crate::error::{OrRaise, input_error};
 
 /// The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 ///
-/// Forces act from the structure on the soil, per metre of thickness.
+/// Forces act from the structure on the soil, per metre of thickness in the plane, of the whole body in plan (N and
+/// N·m).
 #[pyclass(name = "Summary", module = "basemat", frozen, subclass)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySummary(pub(super) Summary);
@@ -69,8 +70,8 @@ impl PySummary {
         self.0.residual_rotation_across
     }
 
-    /// Settlement of its centre since the static state, positive downwards, m, of several foundations the largest: its
-    /// `Extremes`.
+    /// Settlement of the centre since the static state, positive downwards, m; for several foundations the largest
+    /// settlement: its `Extremes`.
     #[getter]
     fn settlement(&self) -> PyExtremes {
         PyExtremes(self.0.settlement)
@@ -88,7 +89,7 @@ impl PySummary {
         PyExtremes(self.0.rocking_work)
     }
 
-    /// Largest ratio of the open length to the length: its `Peak`.
+    /// Largest ratio of the open length to the length, in plan of the open area to the area: its `Peak`.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
         PyPeak(self.0.uplifted_fraction.highest)
@@ -149,8 +150,9 @@ impl PySummary {
     }
 
     /// Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the left
-    /// or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the middle
-    /// of elements: a base of few elements tips about its edge at a factor above 1, which a printed run states.
+    /// or the right edge, and "overturning_safety_across", over the front or the back edge. Pressure acts in the middle
+    /// of elements: a base of few elements therefore tips about its edge at a factor above 1. The report of a run
+    /// states this factor.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
         let safety_along_x = self.0.overturning_safety.lowest;

@@ -12,7 +12,7 @@ use crate::error::{self, OrRaise, input_error};
 use crate::probe::PyProbe;
 use crate::ticker::{ProgressObserver, progress_function};
 
-/// Coordinates by their name; by a number, reduced coordinates of this tolerance.
+/// Coordinates from a Python argument: their name, or a number for reduced coordinates with this tolerance.
 pub(super) fn coordinates(argument: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
     match argument.extract::<f64>() {
         Ok(tolerance) => Ok(Coordinates::Reduced { tolerance }),
@@ -22,7 +22,7 @@ pub(super) fn coordinates(argument: &Bound<'_, PyAny>) -> PyResult<Coordinates> 
 
 /// The probes of a structure with this number of degrees of freedom.
 ///
-/// An error for a probe with the name of another time series of a run.
+/// It is an error if a probe has the name of another time series of a run.
 pub(super) fn probes<'a, 'py: 'a>(
     python_probes: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
     dof_count: usize,
@@ -115,7 +115,7 @@ pub(super) fn check_observer(
     Ok(())
 }
 
-/// Number of steps of a run: `steps`, or those of a duration, or those to the `motion_end` (s).
+/// Number of steps of a run: `steps`, or the steps of a duration (s), or the steps up to the `motion_end` (s).
 pub(super) fn run_step_count(
     py: Python<'_>,
     simulation: &Simulation,

@@ -30,19 +30,19 @@ use crate::ticker::{progress_function, with_progress};
 ///     structure: a `Structure`, or any object with the methods of `UserStructure`.
 ///     ground: a `Ground`: an `ElasticGround`, `SpringGround` or `TrenchGround`; or any object with the methods of
 ///         `UserGround`.
-///     interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for all contact elements, or a list
-///         of one each, from left to right.
-///     motion: ground motion, a `FreeField`: a `Record`, a wave, or a function by `free_field`. Without a motion the
+///     interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one law for all contact elements, or a
+///         list with a law for each element, from left to right.
+///     motion: ground motion, a `FreeField`: a `Record`, a wave, or a function (`free_field`). Without a motion the
 ///         ground is at rest.
 ///     loads: forces from outside, a list of `Load`; none unless given.
-///     probes: quantities to record at every step, a list of `Probe` with names of their own; none unless given.
+///     probes: quantities to record at every step, a list of `Probe` with different names; none unless given.
 ///     initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
 ///     solver: time scheme, coordinates and so on, `SolverOptions`; the defaults unless given.
 ///     results: quantities that a run evaluates, `ResultOptions`; the defaults unless given.
 ///     service_limits: limits of service, `ServiceLimits`; none unless given.
 ///     fixed_base: whether the base is fixed: each foundation keeps its shape and moves with the free field under it.
 ///         Ground and interface then have no effect, except for the positions of the contact elements. False by
-///         default; `interaction` compares both.
+///         default; `interaction` compares the fixed base with the ground.
 ///     progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the convolution weights
 ///         of a ground with layers or a trench are computed for the expected steps; none unless given.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
@@ -219,8 +219,8 @@ impl PySimulation {
 
     /// Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
     ///
-    /// After the end of the motion it makes as many steps again, with the ground at rest and a `BasematWarning`;
-    /// `reset` returns to the start.
+    /// If neither is given after the end of the motion, the run makes as many steps again, without acceleration of the
+    /// ground, and issues a `BasematWarning`; `reset` returns to the start.
     ///
     /// ``progress``: True for lines on stderr, one for the convolution weights of the ground and one for the steps; or
     /// a function ``(steps done, steps in all)``, called about every 50 ms.
@@ -230,10 +230,10 @@ impl PySimulation {
     /// `BasematWarning` is issued if the process ignores Ctrl-C.
     ///
     /// ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by
-    /// default, as floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-    /// ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation.
-    /// The series of all steps must fit into `memory_limit` before the first step; with ``observe``, which may end the
-    /// run, only the series of the steps made.
+    /// default, as floor spectra need), the contact of every ``contact_every``th step and the structure's motion of
+    /// every ``motion_every``th step (none unless given), and with ``foundations`` (False by default) the scalars of
+    /// each foundation. The series of all steps must fit into `memory_limit` before the first step; with ``observe``,
+    /// which may end the run early, only the series of the steps that are made must fit.
     ///
     /// ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True by default.
     #[pyo3(signature = (
@@ -297,8 +297,8 @@ impl PySimulation {
         })
     }
 
-    /// Iterator that makes a step and yields its state, ``steps`` times or for a ``duration`` (s); without either, up
-    /// to the end of the motion.
+    /// Iterator that makes steps and yields the state after each: ``steps`` steps, or the steps of a ``duration`` (s);
+    /// without either, up to the end of the motion.
     #[pyo3(signature = (steps=None, *, duration=None))]
     fn steps(
         slf: Bound<'_, Self>,
@@ -318,9 +318,10 @@ impl PySimulation {
 
     /// Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
     ///
-    /// ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
-    /// of the load; None restores that function. A controller computes the force from the last state and sets it before
-    /// each `step`. A checkpoint contains it; `reset` restores the functions.
+    /// ``value``: the total force (N/m; on a rotation N·m/m; in plan N and N·m), which includes the static force, in
+    /// place of the function of the load; None restores that function. A controller computes the force from the last
+    /// state and sets it before each `step`. A checkpoint contains the force that was set; `reset` restores the
+    /// functions.
     fn set_load(
         &self,
         #[pyo3(from_py_with = whole_numbers)] index: usize,
@@ -329,13 +330,13 @@ impl PySimulation {
         self.lock()?.set_load(index, value).or_raise()
     }
 
-    /// The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that of
-    /// the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its first
-    /// mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
+    /// The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; the
+    /// duration of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping
+    /// of its first mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
     ///
-    /// T and β belong to the mode with the most modal mass along an axis, with fixed contact nodes; of a nonlinear
-    /// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground and released from a
-    /// deflection in this mode. The soil is linear: give it the moduli of the design motion.
+    /// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes; the
+    /// modes of a nonlinear structure are those of its first tangent. For T̃ and β₀ the structure is bonded to its
+    /// ground and released from a deflection in this mode. The soil is linear: give it the moduli of the design motion.
     #[pyo3(signature = (duration=None))]
     fn interaction(&self, py: Python<'_>, duration: Option<f64>) -> PyResult<PyInteraction> {
         let duration =
@@ -366,8 +367,8 @@ impl PySimulation {
     /// a `CheckpointError` that names the difference. The label should name interface law, ground motion and loads.
     ///
     /// Args:
-    ///     changes: intended differences, of "interface_law", "ground_motion" and "load", each with another label,
-    ///         "gravity_stage" and "initial_motion"; none unless given.
+    ///     changes: names of the intended differences, a list; none unless given. "interface_law", "ground_motion" and
+    ///         "load" allow another label as well; the other names are "gravity_stage" and "initial_motion".
     #[pyo3(signature = (checkpoint, changes=None))]
     fn resume(&self, checkpoint: &PyCheckpoint, changes: Option<Vec<String>>) -> PyResult<()> {
         take_exception();

@@ -11,7 +11,7 @@ pub(crate) struct PyFoundation(pub(super) Foundation);
 
 #[pymethods]
 impl PyFoundation {
-    /// Number of the first element, and one more than the number of the last.
+    /// Number of the first element, and one more than the number of the last element.
     #[getter]
     fn elements(&self) -> (usize, usize) {
         (self.0.elements.start, self.0.elements.end)
@@ -35,7 +35,7 @@ impl PyFoundation {
         self.0.normal_force
     }
 
-    /// Ratio of its open length to its length, in plan of areas.
+    /// Ratio of the open length to the length of the foundation, in plan of the open area to the area.
     #[getter]
     fn uplifted_fraction(&self) -> f64 {
         self.0.uplifted_fraction
@@ -147,8 +147,8 @@ impl PyFaceForces {
         self.0.shear
     }
 
-    /// Point of action of the thrust, m: of a wall its height above the base, of the base its distance to the right of
-    /// the middle. NaN without thrust.
+    /// Position of the thrust, m: on a wall its height above the base, on the base its distance to the right of the
+    /// middle. NaN without thrust.
     #[getter]
     fn place(&self) -> f64 {
         self.0.place

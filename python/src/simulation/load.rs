@@ -14,8 +14,8 @@ use crate::row::{RowLike, WeightCount};
 /// A force that acts on a structure from outside.
 ///
 /// ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
-/// force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0 belongs to the static state: it is
-/// applied slowly after the weight, while the interface law acts.
+/// force (N/m; on a rotation a moment, N·m/m); it may raise an exception. In plan forces are in N and moments in N·m.
+/// Its value at t = 0 belongs to the static state: it is applied slowly after the weight, while the interface law acts.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Factory<Load>,
@@ -60,8 +60,8 @@ impl PyLoad {
         Self::from_recipe(row.1, move || Ok(Load::constant(row.0.clone(), force)))
     }
 
-    /// Constant ``force`` (N/m) on the ``row`` that is applied with the weight, according to ``gravity_stage``: a dead
-    /// load whose mass is not in the structure.
+    /// Constant ``force`` (N/m) on the ``row`` that is applied together with the weight, according to ``gravity_stage``
+    /// of `InitialConditions`: a dead load whose mass is not in the structure.
     #[staticmethod]
     fn weight(row: RowLike, force: f64) -> Self {
         Self::from_recipe(row.1, move || Ok(Load::weight(row.0.clone(), force)))
@@ -82,8 +82,8 @@ impl PyLoad {
         Self::from_recipe(weight_count, move || Ok(Load::record(row.clone(), &record, force)))
     }
 
-    /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
-    /// shape (m,), s, ascending), linear between them, zero outside.
+    /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of shape (m,), s,
+    /// ascending), linear between these times, zero before the first and after the last.
     #[staticmethod]
     fn table(row: RowLike, times: Numbers, forces: Numbers) -> PyResult<Self> {
         Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;

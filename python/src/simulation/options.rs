@@ -15,16 +15,16 @@ use crate::error::OrRaise;
 /// Weight and motion at the start of a simulation.
 ///
 /// Args:
-///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static state: the base
-///         begins without pressure, and nothing resists uplift and sliding.
+///     gravity: acceleration of gravity, which determines the weight of the structure, m/s²; 9.80665 unless given. With
+///         0 there is no static state: the base begins without pressure, and nothing resists uplift and sliding.
 ///     gravity_stage: friction while the weight of masses and `Load.weight` is applied; all other loads at t = 0 are
 ///         applied slowly after it, while the interface law acts. "frictionless" (the default): neither friction nor
 ///         cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
 ///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is
 ///         no static state, weight and loads act from t = 0 on, as for a block that is released.
-///     displacement: of the n degrees of freedom at t = 0 against the static state, array of shape (n,), m and rad;
-///         zero unless given. The base may move only if "unloaded".
-///     velocity: the same for velocities, m/s and rad/s; zero unless given.
+///     displacement: displacement of the n degrees of freedom at t = 0 from the static state, array of shape (n,), m
+///         and rad; zero unless given. The base may be displaced only if ``gravity_stage`` is "unloaded".
+///     velocity: velocity of the n degrees of freedom at t = 0, array of shape (n,), m/s and rad/s; zero unless given.
 #[pyclass(name = "InitialConditions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
 pub(crate) struct PyInitialConditions {
@@ -57,13 +57,13 @@ impl PyInitialConditions {
 ///
 /// Args:
 ///     scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
-///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less time; "physical":
-///         its degrees of freedom; "modes": its vibration modes; a number: reduced coordinates, 200 to 400 Ritz vectors
-///         for thousands of degrees of freedom, with this relative error of responses (above 0, below 1;
-///         "reduced(1e-6)" is the same as 1e-6).
-///     expected_steps: number of steps that will be made. Memory and convolution weights of the ground are then
-///         prepared before the first step; unless given, for the steps of the first run. An error is raised if the
-///         steps do not fit into the memory of the history of the ground.
+///     coordinates: coordinates of the equations of motion of a linear structure. "auto" (the default): the choice of
+///         "physical" and "modes" that takes less time; "physical": its degrees of freedom; "modes": its vibration
+///         modes; a number: reduced coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
+///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
+///     expected_steps: number of steps that will be made. Memory and convolution weights of the ground are prepared for
+///         them before the first step; unless given, for the steps of the first run. An error is raised if the steps do
+///         not fit into the memory of the history of the ground.
 ///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A
 ///         further run continues; with ``math.inf`` the rotation ends no run.
 ///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at most this number
@@ -138,7 +138,8 @@ impl PyResultOptions {
 /// Args:
 ///     slip: limit of |mean slip|, m; none unless given.
 ///     gap: limit of the gap of any element, m; none unless given.
-///     uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
+///     uplifted_fraction: limit of the ratio of the open length to the length of the base, in plan of areas, above 0
+///         and at most 1; none unless given.
 ///     rotation: limit of the base's |rotation|, rad; none unless given.
 ///     settlement: limit of the base's settlement, m; none unless given.
 #[pyclass(name = "ServiceLimits", module = "basemat", frozen, dict, from_py_object)]
@@ -205,7 +206,8 @@ impl Options {
     }
 }
 
-/// Options of each group: argument of the simulation, class, and names of the options.
+/// Groups of options: the argument of the simulation, the class, and names of its options, as a user may pass them to
+/// `Simulation` by mistake: some have a prefix.
 const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
     (
         "initial",

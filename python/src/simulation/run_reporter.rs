@@ -59,7 +59,7 @@ impl RunReporter {
         }
     }
 
-    /// Calls the ticker and the observer, unless user code has raised while the step was committed.
+    /// Calls the ticker and the observer, unless user code has raised an exception while the step was committed.
     fn call_observer(&mut self, state: &State) -> PyResult<ControlFlow<()>> {
         if has_stored_exception() {
             return Ok(ControlFlow::Break(()));
@@ -98,7 +98,8 @@ impl RunReporter {
     }
 }
 
-/// Prepares the convolution weights of the ground at powers of two of steps; Ctrl-C may interrupt it.
+/// Prepares the convolution weights of the ground if the number of steps made is a power of two; Ctrl-C may interrupt
+/// this.
 pub(super) fn prepare_next_step(simulation: &mut Simulation) -> PyResult<()> {
     let steps_made = simulation.state().step;
     if !steps_made.is_power_of_two() {

@@ -25,14 +25,14 @@ fn new_scheme(
 
 #[pymethods]
 impl PyTimeScheme {
-    /// The midpoint rule: conserves energy.
+    /// The midpoint rule, which conserves energy.
     #[staticmethod]
     fn midpoint() -> PyResult<Self> {
         new_scheme(Ok(Midpoint))
     }
 
-    /// The midpoint rule with damping of high frequencies: second order, adds no energy with the soil. ``gamma``: ½
-    /// (the midpoint rule) to 1; 0.8 by default.
+    /// The midpoint rule with damping of high frequencies. It is of second order, and its coupling with the soil adds
+    /// no energy. ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
     #[pyo3(signature = (gamma=0.8))]
     #[staticmethod]
     fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {

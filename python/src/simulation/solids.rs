@@ -36,20 +36,21 @@ fn inner_structure(structure: &dyn Any) -> Option<&dyn Structure> {
     if let Some(with_springs) = structure.downcast_ref::<WithSprings>() {
         return Some(with_springs.structure());
     }
-    if let Some(damped) = structure.downcast_ref::<WithModalDamping>() {
-        return Some(damped.structure());
+    if let Some(with_damping) = structure.downcast_ref::<WithModalDamping>() {
+        return Some(with_damping.structure());
     }
     structure.downcast_ref::<WithWalls>().map(WithWalls::structure)
 }
 
-/// Value of an element by the states of its points.
+/// Function that computes a value of an element from the states of its points.
 type ElementValue = fn(&PySolidPoints) -> f64;
 
 #[pymethods]
 impl PySimulation {
-    /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
-    /// plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also one inside
-    /// `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, it raises an `Error`: own the loop by `steps`.
+    /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
+    /// stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
+    /// one inside `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, this method raises
+    /// an `Error`: use a loop over `steps` instead.
     fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
         PySolidPoints::of_element(inelastic_model(&*self.lock()?)?, element.0)
     }
@@ -64,13 +65,13 @@ impl PySimulation {
             ("plastic_strain", PySolidPoints::mean_plastic),
             ("mobilised_strength", PySolidPoints::largest_mobilised),
         ];
-        let value = choice("quantity", quantity, &choices)?;
+        let element_value = choice("quantity", quantity, &choices)?;
         let simulation = self.lock()?;
         let model = inelastic_model(&simulation)?;
         let elements: Vec<usize> = model.inelastic_elements().collect();
         let values = elements
             .iter()
-            .map(|&element| Ok(value(&PySolidPoints::of_element(model, element)?)))
+            .map(|&element| Ok(element_value(&PySolidPoints::of_element(model, element)?)))
             .collect::<PyResult<Array>>()?;
         Ok((elements, values))
     }

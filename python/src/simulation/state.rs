@@ -13,8 +13,8 @@ use crate::results::PyEnergyBalance;
 /// The simulation at the end of an accepted step.
 ///
 /// Displacements are changes against the static state, relative to the translation of the free field unless stated
-/// otherwise. Forces act from the structure on the soil, per metre of thickness. It belongs to its simulation and does
-/// not pickle: a `Checkpoint` does.
+/// otherwise. Forces act from the structure on the soil, per metre of thickness in the plane, of the whole body in plan
+/// (N and N·m). A state belongs to its simulation and cannot be pickled; a `Checkpoint` can.
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 
@@ -92,7 +92,7 @@ impl PyState {
         self.0.normal_force
     }
 
-    /// Ratio of the length of open elements to the length of the base, in plan of areas.
+    /// Ratio of the length of open elements to the length of the base, in plan of their area to the area.
     #[getter]
     fn uplifted_fraction(&self) -> f64 {
         self.0.uplifted_fraction
@@ -158,8 +158,8 @@ impl PyState {
         self.0.displacement().into()
     }
 
-    /// Displacement of the degrees of freedom with the translation of the free field: array of shape
-    /// (n,), m and rad.
+    /// Displacement of the degrees of freedom including the translation of the free field: array of shape (n,), m and
+    /// rad.
     #[getter]
     fn absolute_displacement(&self) -> Array {
         self.0.absolute_displacement().into()
@@ -217,8 +217,7 @@ impl PyState {
         Ok(PyFaceForces(self.0.face(choice("face", face, &TRENCH_FACES)?)))
     }
 
-    /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
-    /// has none.
+    /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if the law has none.
     fn state_variables(&self, element: Count) -> PyResult<Vec<f64>> {
         let Count(element) = element;
         let element_count = self.0.contact.len();

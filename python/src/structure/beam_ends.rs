@@ -12,9 +12,9 @@ use crate::row::PySectionRows;
 ///
 /// They are rows of displacements for `Probe.section`. `FemModel.beam_rows` returns them.
 ///
-/// At both ends they act on a section whose outward normal is x, the axis of the beam. A probe records changes from the
-/// static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the geometric
-/// stiffness, in the axes of the undeformed beam.
+/// At both ends the forces and moments act on a section whose outward normal is x, the axis of the beam. A probe
+/// records changes from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ
+/// also the forces of the geometric stiffness, in the axes of the undeformed beam.
 #[pyclass(name = "BeamRows", module = "basemat", frozen)]
 pub(crate) struct PyBeamRows(BeamRows);
 

@@ -10,8 +10,8 @@ use crate::row::{PyDofCombination, python_rows};
 
 /// A rigid block on a flat base, in the plane.
 ///
-/// Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up, rotation:
-/// "x", "y", "rotation" for `dof`.
+/// Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up and rotation.
+/// `dof` has the names "x", "y" and "rotation" for them.
 ///
 /// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
 /// (m/s²) of the P–Δ effect of its weight; none unless given.
@@ -23,7 +23,7 @@ extends!(PyRigidBlock, block => {
     PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 3)?))
 });
 
-/// The block at its place, with P–Δ if there is a gravity for it.
+/// The block moved to its centre, with P–Δ if `p_delta` is given.
 fn positioned_block(
     block: basemat::Result<RigidBlock>,
     center: f64,
@@ -116,7 +116,7 @@ extends!(PyRigidBody, body => {
     PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 6)?))
 });
 
-/// The body at its place, with P–Δ if there is a gravity for it.
+/// The body moved to its centre, with P–Δ if `p_delta` is given.
 fn positioned_body(
     body: basemat::Result<RigidBody>,
     center: (f64, f64),

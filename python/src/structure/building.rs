@@ -197,9 +197,9 @@ impl PyShearBuilding {
 /// A storey of a `StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
 /// ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
 ///
-/// ``inertia``: of the floor about x, y and z through its centre of mass (kg m²); unless given, of the rectangle.
-/// ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default. ``damping``: dashpots
-/// beside the three stiffnesses, N s/m and N m s; 0 by default.
+/// ``inertia``: rotary inertia of the floor about x, y and z through its centre of mass (kg m²); unless given, that of
+/// the rectangle. ``mass_center`` and ``stiffness_center``: x and y from the middle of the mat, m; (0, 0) by default.
+/// ``damping``: dashpots beside the three stiffnesses, N s/m and N m s; 0 by default.
 #[pyclass(name = "PlanStorey", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlanStorey(PlanStorey);
 
@@ -242,8 +242,8 @@ enum StoreyLaw {
 
 /// Building with rigid floors on a rigid mat, in space.
 ///
-/// Floors are on flexible columns and walls, these on the ``mat`` (`RigidBody`). Floors move along x and y and twist,
-/// and tilt with the mat.
+/// The floors stand on flexible columns and walls, and these stand on the ``mat`` (`RigidBody`). Floors move along x
+/// and y and twist, and tilt with the mat.
 ///
 /// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of
 /// every floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz",
@@ -339,23 +339,23 @@ impl PyStoreyBuilding {
     }
 
     /// The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
-    /// (0: the lowest) less the rigid motion of the mat, at a ``place`` as for `floor`.
+    /// (0: the lowest) minus the rigid motion of the mat, at a ``place`` as for `floor`.
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
     fn total_drift(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
         Ok(python_rows(self.model()?.total_drift(storey.0, place).or_raise()?))
     }
 
     /// The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts
-    /// on the part below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors
-    /// above.
+    /// on the part below, and of their torque about the centre of stiffness (N·m), computed from the inertia of the
+    /// floors above.
     fn shear(&self, storey: Count) -> PyResult<[PySectionRows; 3]> {
         Ok(self.model()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
     }
 
     /// The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m) and
     /// torque about z (N·m) that the floors above exert on the part below the foot of a ``storey`` (0: the lowest),
-    /// from the inertia of these floors. Moments are about ``reference`` (x and y from the middle of the mat, m; the
-    /// middle by default) at the foot.
+    /// computed from the inertia of these floors. Moments are about ``reference`` (x and y from the middle of the mat,
+    /// m; the middle by default) at the foot.
     #[pyo3(signature = (storey, reference=[0.0; 2]), text_signature = "($self, storey, reference=(0.0, 0.0))")]
     fn section(&self, storey: Count, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
         Ok(space_sections(self.model()?.section(storey.0, reference).or_raise()?))

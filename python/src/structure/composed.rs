@@ -1,4 +1,4 @@
-//! Structures made of others: reduced ones, groups, modal damping, walls; Rayleigh damping.
+//! Structures that consist of other structures: reduced models, groups, modal damping and walls; and Rayleigh damping.
 
 use std::sync::Arc;
 
@@ -54,9 +54,9 @@ impl PyRayleighDamping {
 
 /// A ``structure`` reduced by the method of Craig and Bampton.
 ///
-/// The reduced degrees of freedom are those of the contact nodes, those in the list ``keep`` (none unless given) and
-/// the lowest ``modes`` modes of the remaining ones. ``damping_ratio`` of these modes replaces the damping of the
-/// structure, if given.
+/// The reduced degrees of freedom are the degrees of freedom of the contact nodes, those in the list ``keep`` (none
+/// unless given), and the amplitudes of the lowest ``modes`` modes of the remaining structure. ``damping_ratio`` of
+/// these modes replaces the damping of the structure, if given.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel {
     pub(crate) reduced: Arc<ReducedModel>,
@@ -97,8 +97,7 @@ impl PyReducedModel {
         self.reduced.frequencies().into()
     }
 
-    /// A ``row`` of the full structure as a `DofCombination` of the reduced one, for a probe or a
-    /// load.
+    /// A ``row`` of the full structure as a `DofCombination` of the reduced structure, for a probe or a load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
         row.1.check("the row", self.reduced.recovery().full_dofs())?;
         Ok(self.reduced.recovery().row(row.0).or_raise()?.into())
@@ -188,15 +187,15 @@ impl PyWithModalDamping {
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
         let make_structure = structure_recipe(&structure)?;
-        let undamped = make_structure().or_raise()?;
-        let dof_names = DofNames::from_structure(&structure, undamped.dofs())?;
+        let undamped_structure = make_structure().or_raise()?;
+        let dof_names = DofNames::from_structure(&structure, undamped_structure.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
-        let add_damping = move |undamped| {
-            if fixed_base { damping.on_fixed_base(undamped) } else { damping.on(undamped) }
+        let add_damping = move |structure| {
+            if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
         };
         // Modes of a large structure take seconds.
-        let damped = py.detach(|| add_damping(undamped)).or_raise()?;
-        let frequencies = damped.frequencies().to_vec();
+        let damped_structure = py.detach(|| add_damping(undamped_structure)).or_raise()?;
+        let frequencies = damped_structure.frequencies().to_vec();
         let superclass =
             PyStructure::new(move || add_damping(make_structure()?)).with_dof_names(dof_names);
         let model = Self { frequencies, structure: structure.unbind() };

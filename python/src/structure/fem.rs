@@ -29,12 +29,14 @@ use crate::row::{PyDofCombination, PySectionRows, space_sections};
 /// "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
 /// body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
 /// along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
-/// displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) of the
-/// weight that causes P–Δ by the forces at rest; none unless given. ``active_damping``: whether damping may add energy, an
-/// error by default. ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
+/// displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) for the
+/// weight whose static forces cause the P–Δ effect; none unless given. ``active_damping``: whether damping may add
+/// energy; by default such damping is an error. ``active_stiffness``: whether matrices of elements may be unsymmetric;
+/// by default such matrices are an error.
 ///
-/// Elements whose material yields act by a nonlinear force: the matrix of `stiffness` has the linear elements only. Each simulation
-/// starts from the undeformed model; `Simulation.solid_points` returns stresses and plastic strains.
+/// Elements whose material yields act by a nonlinear force: the matrix of `stiffness` contains the linear elements
+/// only. Each simulation starts from the undeformed model; `Simulation.solid_points` returns stresses and plastic
+/// strains.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 

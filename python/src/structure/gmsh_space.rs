@@ -79,7 +79,7 @@ impl PyGmshSpaceMesh {
     }
 
     /// Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for `groups`): a list of
-    /// lists. Surfaces are faces for the ``contact`` of a `FemModel`, points the places of masses, loads and probes.
+    /// lists. Surfaces are faces for the ``contact`` of a `FemModel`, points are nodes for masses, loads and probes.
     fn cells(&self, dimension: Count, name: &str) -> PyResult<Vec<Vec<usize>>> {
         self.0.cells(dimension.0, name).or_raise()
     }
@@ -88,9 +88,9 @@ impl PyGmshSpaceMesh {
     /// `Mesh.from_arrays`.
     ///
     /// The part of volumes is a `Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
-    /// ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and surfaces
-    /// that are sides of other elements need no part. Triangles match the sides that they share with quadrilaterals. To
-    /// find the number of an element of `cells`, look up its nodes in `Mesh.elements`.
+    /// ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None omits a group. Lines and surfaces that
+    /// are sides of other elements need no part. Triangles match the sides that they share with quadrilaterals. To find
+    /// the number of an element of `cells`, look up its nodes in `Mesh.elements`.
     fn mesh(&self, parts: BTreeMap<String, GroupPart>) -> PyResult<PyMesh> {
         let parts: Vec<(&str, GmshPart)> =
             parts.iter().map(|(name, part)| (name.as_str(), part.0)).collect();

@@ -25,7 +25,7 @@ const _: () = assert!(
 );
 
 /// A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
-/// are per metre of thickness.
+/// are per metre of thickness in the plane, of the whole spring in plan (N and N/m).
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
     make: Recipe<dyn Hysteresis>,
@@ -76,7 +76,7 @@ impl PyHysteresis {
     }
 }
 
-/// Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+/// Bilinear spring: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
 /// stiffness; it unloads with the initial stiffness.
 #[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBilinear;
@@ -91,9 +91,9 @@ impl PyBilinear {
     }
 }
 
-/// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
-/// stiffness, with a smooth transition by ``exponent``, and ``beta`` for the shape of loops. Give both or neither (then
-/// 2 and 0.5).
+/// Bouc–Wen spring: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+/// stiffness, with a smooth transition that ``exponent`` controls; ``beta`` controls the shape of the loops. Give both
+/// ``exponent`` and ``beta``, or neither: they are then 2 and 0.5.
 #[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBoucWen;
 
@@ -306,12 +306,15 @@ fn row_array<const N: usize>(rows: Vec<DofCombination>) -> PyResult<[DofCombinat
         .map_err(|_| input_error(format!("a spring has {row_count} rows, but must have {N}")))
 }
 
-/// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of freedom, which
-/// is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`. In plan also ``(row_x, row_y, law)`` with
-/// two deformations at a right angle and a `Hysteresis` (``BoucWen`` with an exponent of 2), whose force (N) has the
-/// same limit in every direction; two springs along x and y act independently: on the diagonal their resultant reaches
-/// √2 times the limit. With three deformations, along x, along y and up, ``(row_x, row_y, row_z, bearing)`` of a
-/// `PendulumBearing`.
+/// A ``structure`` with hysteretic springs.
+///
+/// ``springs``: list of pairs ``(row, law)``. The row of degrees of freedom is the spring's deformation (m), the law is
+/// a `Hysteresis` or `UserHysteresis`.
+///
+/// In plan an entry may also be ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
+/// (``BoucWen`` with an exponent of 2): its force (N) has the same limit in every direction. Two separate springs along
+/// x and y act independently: on the diagonal their resultant reaches √2 times the limit. An entry ``(row_x, row_y,
+/// row_z, bearing)`` has deformations along x, along y and up, and a `PendulumBearing`.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings(
     /// The structure without the springs.

@@ -53,15 +53,15 @@ impl PyMesh {
         self.add_all(bricks.map(|nodes| Ok(Hex8::new(nodes, material.0))))
     }
 
-    /// Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a
-    /// ``section`` (`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
-    /// vector, or an array of shape (beams, 3)).
+    /// Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a ``section``
+    /// (`BeamSection`), whose y axis is the part of ``orientation`` perpendicular to the beam (x, y and z of a vector,
+    /// or an array of shape (beams, 3)).
     ///
     /// ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array
     /// of shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which
     /// its first and its second end are free, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
-    /// ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
-    /// array of one per beam): axial force of P–Δ, none unless given.
+    /// ``rotary_inertia``: whether cross-sections have rotary inertia in bending, False by default; ``compression`` (N;
+    /// one number or an array of one per beam): axial force of P–Δ, none unless given.
     #[pyo3(signature = (nodes, material, section, orientation, *, offsets=None, releases=None, rotary_inertia=false, compression=None))]
     fn add_space_beams(
         &mut self,

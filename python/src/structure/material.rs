@@ -7,7 +7,7 @@ use crate::array::whole_numbers;
 use crate::error::{OrRaise, WithOption, input_error};
 use crate::names::choice;
 
-/// Integration of four-node quadrilaterals by its name.
+/// The formulation of four-node quadrilaterals with this name.
 pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<QuadFormulation> {
     let percent = u8::try_from(hourglass_percent).map_err(|_| {
         input_error(format!(
@@ -25,8 +25,8 @@ pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<Quad
     choice("formulation", name, &choices)
 }
 
-/// Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
-/// ``density`` (kg/m³).
+/// Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
+/// ``poisson``, ``density`` (kg/m³).
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 
@@ -41,10 +41,10 @@ impl PyMaterial {
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
 /// ``material`` (`Material`).
 ///
-/// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
-/// "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one
-/// point, stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean
-/// dilatation of the element: the only one of materials that yield).
+/// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: accurate in bending), "full" (2 × 2
+/// points), "one_point" (without stiffness against hourglass modes), "hourglass" (one point, stabilised with
+/// ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean dilatation of the element: the
+/// only formulation for materials that yield).
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(pub(super) Layer);
 

@@ -13,14 +13,14 @@ use crate::error::{OrRaise, WithOption, input_error};
 use crate::names::DofNames;
 use crate::recipe::SharedStructure;
 
-/// A structure by its mass, stiffness and damping matrices.
+/// A structure that its mass, stiffness and damping matrices define.
 ///
 /// Matrices are dense or of ``scipy.sparse``.
 ///
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements (m, rad). The
-/// structure has no supports; only the ground supports it. ``base``: its nodes, a list of `BaseNode` from left to
-/// right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to the
-/// whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
+/// structure has no supports; only the ground supports it. ``base``: nodes of the base, a list of `BaseNode` from left
+/// to right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to
+/// the whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
 /// unless ``active_damping`` (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by
 /// default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``: list of n different names, for
 /// `dof`, frames and errors; none unless given.

@@ -24,7 +24,7 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
     choice("direction", name, &choices)
 }
 
-/// Nodes and finite elements in the plane, or by `in_space` in space.
+/// Nodes and finite elements in the plane, or in space (`in_space`).
 ///
 /// ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add elements and return their numbers; after
 /// an error they have added none.
@@ -68,7 +68,7 @@ impl PyMesh {
         self.change(|mesh| elements.into_iter().map(|element| mesh.add(element)).collect())
     }
 
-    /// Adds links between nodes in a direction; axial ones by the constructor in the plane or in space.
+    /// Adds links between nodes in a direction; the direction "axial" is that of the line between the nodes.
     fn add_links<E: Element + 'static>(
         &mut self,
         nodes: &Connectivity,
@@ -138,8 +138,8 @@ impl PyMesh {
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self)
     }
 
-    /// Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
-    /// number of removed nodes, and the list of the new numbers of all former nodes. Elements keep their numbers.
+    /// Merges nodes at the same position within ``tolerance`` (m), so that their elements act on each other. It returns
+    /// the number of removed nodes, and the list of the new numbers of all former nodes. Elements keep their numbers.
     ///
     /// If an element would have the same node twice, or two elements the same nodes, it raises an error and the mesh is
     /// unchanged.
@@ -163,14 +163,14 @@ impl PyMesh {
 
     /// Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers.
     fn add_nodes(&mut self, points: Points) -> PyResult<Vec<usize>> {
-        let points = if self.has_depth() { points.in_space()? } else { points.in_plane() };
+        let points = if self.has_depth() { points.in_space()? } else { points.coordinates() };
         self.change(|mesh| points.into_iter().map(|point| mesh.add_node_at(point)).collect())
     }
 
-    /// Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
-    /// ``second_moment`` (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of
-    /// one per beam. ``shear_stiffness`` (N per metre): of Timoshenko beams, infinite unless given;
-    /// ``rotary_inertia``: whether sections have one, False by default; ``compression`` (N per metre):
+    /// Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and ``second_moment``
+    /// (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of one per beam.
+    /// ``shear_stiffness`` (N per metre): shear stiffness of Timoshenko beams, infinite unless given;
+    /// ``rotary_inertia``: whether cross-sections have rotary inertia, False by default; ``compression`` (N per metre):
     /// axial force of P–Δ, none unless given.
     #[pyo3(signature = (nodes, young_modulus, area, second_moment, density, *, shear_stiffness=None, rotary_inertia=false, compression=None))]
     fn add_beams(

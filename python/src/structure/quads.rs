@@ -36,7 +36,7 @@ impl PyMesh {
             let block = Mesh::quad8_block(&x.0, &y.0, |column, row| material.at(column, row));
             return block.or_raise().map(Self);
         };
-        // Nodes of the block, and those of its elements.
+        // An elastic block has the nodes, and the numbers of the nodes of each element.
         let elastic = Material::new(1.0, 0.0, 0.0).or_raise()?;
         let block = Mesh::quad8_block(&x.0, &y.0, |_, _| elastic).or_raise()?;
         let mut mesh = Mesh::new();

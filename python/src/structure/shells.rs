@@ -124,7 +124,7 @@ fn unit_vectors(axes: &[[f64; 3]; 3]) -> Rows {
 /// Directions [along, outward] of the axes of shells.
 type Directions = [[f64; 3]; 2];
 
-/// Axes that a function of Python returns for a place; NaN if it raises.
+/// Axes that a Python function returns for a position; NaN if it raises an exception.
 fn axes_at(function: &Bound<'_, PyAny>, [x, y, z]: [f64; 3]) -> Directions {
     call_user_code([[f64::NAN; 3]; 2], |_| extract_returned("axes", &function.call1((x, y, z))?))
 }
@@ -156,12 +156,12 @@ impl PyFemModel {
     ) -> PyResult<Vec<PyShellRows>> {
         let shell_rows = if axes.is_callable() {
             // The function is called once for a node that several shells share.
-            let axes_by_place: RefCell<HashMap<[u64; 3], Directions>> = RefCell::default();
+            let axes_by_position: RefCell<HashMap<[u64; 3], Directions>> = RefCell::default();
             raise_user_exceptions(|| {
-                let rows = self.0.shell_rows(&elements, |place: [f64; 3]| {
-                    let mut axes_by_place = axes_by_place.borrow_mut();
-                    let entry = axes_by_place.entry(place.map(f64::to_bits));
-                    *entry.or_insert_with(|| axes_at(axes, place))
+                let rows = self.0.shell_rows(&elements, |position: [f64; 3]| {
+                    let mut axes_by_position = axes_by_position.borrow_mut();
+                    let entry = axes_by_position.entry(position.map(f64::to_bits));
+                    *entry.or_insert_with(|| axes_at(axes, position))
                 });
                 rows.or_raise()
             })?

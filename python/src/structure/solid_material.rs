@@ -13,7 +13,7 @@ use crate::array::{Pairs, Rows, Table};
 use crate::error::{OrRaise, input_error, raise_user_exceptions};
 use crate::user;
 
-/// Clay without drainage, a material of solids in plane strain: yields in shear alone, along any concave backbone.
+/// Undrained clay, a material of solids in plane strain. It yields in shear only, along any concave backbone.
 ///
 /// Elastic–perfectly plastic components act in parallel (Iwan 1967, Besseling 1958), so that the stress in simple shear
 /// follows the backbone, and unloads and reloads by Masing's rules. The strength is the stress of the last point; it
@@ -82,16 +82,16 @@ impl PyIwan {
     }
 }
 
-/// Sand or other drained soil, a material of solids in plane strain: yields on Drucker–Prager's cone, matched to
+/// Sand or other drained soil, a material of solids in plane strain. It yields on Drucker–Prager's cone, which matches
 /// Mohr–Coulomb's law in plane strain.
 ///
-/// Elastic–perfectly plastic, with a ``cohesion`` c (Pa), a ``friction_angle`` φ and a ``dilation_angle`` ψ (rad), 0 ≤ ψ ≤
-/// φ < π/2; ``elastic`` is its `Material`. A smaller ψ than φ makes the tangent unsymmetric, and steps take longer. Stress
-/// beyond the tip of the cone returns to the tip. With φ = 0 it is von Mises' law with the shear strength c, and with ψ = 0
-/// the plastic strain has no change of volume.
+/// It is elastic–perfectly plastic, with a ``cohesion`` c (Pa), a ``friction_angle`` φ and a ``dilation_angle`` ψ
+/// (rad), 0 ≤ ψ ≤ φ < π/2; ``elastic`` is its `Material`. A smaller ψ than φ makes the tangent unsymmetric, and steps
+/// take longer. Stress beyond the tip of the cone returns to the tip. With φ = 0 it is von Mises' law with the shear
+/// strength c, and with ψ = 0 the plastic strain has no change of volume.
 ///
-/// An initial stress must lie within the cone. Without cohesion stress at rest with σ_h = (1 − sin φ) σ_v lies outside of
-/// it for φ above about 36°; and without an initial stress such a soil has no strength.
+/// An initial stress must lie within the cone. Without cohesion the stress at rest with σ_h = (1 − sin φ) σ_v lies
+/// outside the cone for φ above about 36°; and without an initial stress a soil without cohesion has no strength.
 #[pyclass(name = "DruckerPrager", module = "basemat", frozen, dict)]
 pub(crate) struct PyDruckerPrager(Arc<DruckerPrager>);
 
@@ -161,7 +161,7 @@ extracts!(SolidList, object => {
     let mut previous: Option<Bound<'_, PyAny>> = None;
     for entry in object.try_iter()? {
         let entry = entry?;
-        // Equal neighbours share the material.
+        // Neighbouring entries that are the same object share its material.
         let shared = match (&previous, materials.last()) {
             (Some(previous), Some(material)) if previous.is(&entry) => material.clone(),
             _ => entry.extract::<SolidLike>()?.0,

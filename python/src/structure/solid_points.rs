@@ -10,8 +10,8 @@ use crate::error::{OrRaise, raise_user_exceptions};
 
 /// States at the n integration points of an element whose material yields or is a `UserMaterial`.
 ///
-/// `Simulation.solid_points` and `FemModel.solid_points` return them. Components are xx, yy, zz and xy; tension is positive, and
-/// the shear strain is the engineering strain. The static state is contained.
+/// `Simulation.solid_points` and `FemModel.solid_points` return them. Components are xx, yy, zz and xy; tension is
+/// positive, and the shear strain is the engineering strain. The values include the static state.
 #[pyclass(name = "SolidPoints", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySolidPoints {
@@ -47,8 +47,8 @@ impl PySolidPoints {
     /// Plastic shear strain, mean over the area of the element.
     pub(crate) fn mean_plastic(&self) -> f64 {
         let area: f64 = self.areas.iter().sum();
-        let weighted = self.areas.iter().zip(&self.plastic_strains);
-        weighted.map(|(area, strain)| area * strain).sum::<f64>() / area
+        let areas_and_strains = self.areas.iter().zip(&self.plastic_strains);
+        areas_and_strains.map(|(area, strain)| area * strain).sum::<f64>() / area
     }
 
     /// Largest mobilised strength of the points.
@@ -132,8 +132,8 @@ impl PyFemModel {
         self.0.inelastic_elements().collect()
     }
 
-    /// The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; those of a run are
-    /// `Simulation.solid_points`.
+    /// The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; `Simulation.solid_points`
+    /// returns those of a simulation.
     fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
         PySolidPoints::of_element(&self.0, element.0)
     }

@@ -16,7 +16,8 @@ use crate::user::UserStructure;
 
 /// A structure with n degrees of freedom, which only the ground supports.
 ///
-/// Degrees of freedom are in m and rad. It is a description from which each simulation builds a separate structure.
+/// Degrees of freedom are in m and rad. Matrices are per metre of thickness in the plane, of the whole structure in
+/// plan. The object is a description from which each simulation builds a separate structure.
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,
@@ -66,7 +67,8 @@ fn has_base(object: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(object.getattr_opt("base")?.is_some_and(|base| base.is_callable()))
 }
 
-/// A structure for one simulation, and its object of Python: a copy if the structure is nonlinear and written in Python.
+/// A structure for one simulation, and its Python object: a copy of `object` if the structure is nonlinear and written
+/// in Python.
 pub(crate) fn new_structure<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Structure>, Bound<'py, PyAny>)> {
@@ -80,7 +82,7 @@ pub(crate) fn new_structure<'py>(
     Ok((object.py().detach(|| make()).or_raise()?, object.clone()))
 }
 
-/// Largest number of degrees of freedom of a structure whose matrices become arrays: one takes 3.2 GB.
+/// Largest number of degrees of freedom of a structure whose matrices become arrays; such an array takes 3.2 GB.
 const MAX_ARRAY_DOFS: usize = 20_000;
 
 /// Dense n × n array of the matrix that `fill` adds up.

@@ -24,9 +24,9 @@ pub(crate) struct UserGround {
     shear_wave_speed: Option<f64>,
     /// Step compliance; empty before `prepare`.
     step_compliance: Vec<f64>,
-    /// Time step of the simulation: the first for which the ground was prepared, s.
+    /// Time step of the simulation, for which the ground was prepared first, s.
     time_step: Option<f64>,
-    /// Displacement at the end of the next step by all tractions so far; `None` after an exception of `advance`.
+    /// Displacement at the end of the next step due to all tractions so far; `None` after an exception of `advance`.
     history: Option<Vec<f64>>,
 }
 

@@ -21,7 +21,7 @@ const PART_NAME: &str = "hysteresis";
 /// Step of a difference quotient, relative to the deformation: about the cube root of the rounding unit.
 const RELATIVE_STEP: f64 = 1e-6;
 
-/// Smallest deformation to which that step is relative, m: the step is then 1 nm.
+/// Smallest deformation to which the step of a difference quotient is relative, m; this step is 1 nm.
 const MIN_STEP_DEFORMATION: f64 = 1e-3;
 
 thread_local! {
@@ -34,7 +34,7 @@ pub(crate) fn take_made_springs() -> Vec<Py<PyAny>> {
     MADE_SPRINGS.take()
 }
 
-/// The recipe of springs that are copies of `object`, if it has `force(deformation)`.
+/// The recipe of springs that are copies of `object`; an error unless the object has `force(deformation)`.
 pub(crate) fn hysteresis_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Hysteresis>> {
     if object.is_instance_of::<PyType>() || !object.hasattr("force")? {
         return Err(input_error(format!(
@@ -56,7 +56,8 @@ pub(crate) fn hysteresis_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dy
 struct UserHysteresis {
     object: UserObject,
     committed: CommittedState,
-    /// Initial stiffness, N/m: that of unloading, if the object does not return its energy.
+    /// Initial stiffness, N/m; if the object has no method `energy`, its elastic energy is computed with this
+    /// stiffness.
     stiffness: f64,
     /// The deformation of the last call of `response`, and its result.
     last_response: Cell<Option<(f64, SpringResponse)>>,
@@ -98,7 +99,7 @@ impl UserHysteresis {
         real_number(&format!("{method} of the hysteresis"), &returned_value)
     }
 
-    /// Force and tangent at a deformation; without `tangent` by a central difference.
+    /// Force and tangent at a deformation; if the object has no method `tangent`, the tangent is a central difference.
     fn new_response(&self, py: Python<'_>, deformation: f64) -> PyResult<SpringResponse> {
         let force = self.call_number(py, "force", deformation)?;
         let tangent = if self.object.has("tangent") {
@@ -116,9 +117,9 @@ impl UserHysteresis {
 
     /// Work done until `deformation`, by the trapezoidal rule over steps.
     fn work_until(&self, deformation: f64) -> f64 {
-        let start = self.committed;
-        let mean_force = 0.5 * (start.force + self.response(deformation).force);
-        start.work + mean_force * (deformation - start.deformation)
+        let committed = self.committed;
+        let mean_force = 0.5 * (committed.force + self.response(deformation).force);
+        committed.work + mean_force * (deformation - committed.deformation)
     }
 }
 

@@ -83,7 +83,7 @@ impl PyCondition {
     }
 }
 
-/// Differences below which a law treats numbers as equal: ``length`` of gaps and slips (m), ``traction`` of pressure
+/// Differences below which a law treats numbers as equal: ``length`` for gaps and slips (m), ``traction`` for pressure
 /// and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -124,7 +124,8 @@ pub(crate) struct UserLaw {
     friction_coefficient: Option<f64>,
 }
 
-/// The limits of a law; modes and conditions in the plane follow from them, by the defaults of the trait.
+/// A law that has only the limits and the compliance of a user's law: its modes and conditions in the plane follow from
+/// the limits, by the defaults of the trait.
 struct LimitLaw<'a>(&'a UserLaw);
 
 impl InterfaceLaw for LimitLaw<'_> {
@@ -258,7 +259,7 @@ impl InterfaceLaw for UserLaw {
         }
     }
 
-    /// Called before a step is accepted, so that an exception of `next_mode` ends it.
+    /// The core calls this before it accepts a step, so that a stored exception of `next_mode` ends the step.
     fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
         if !self.object.has("compliance") {
             return if has_stored_exception() { [f64::NAN; 2] } else { [0.0; 2] };

@@ -16,7 +16,7 @@ use crate::error::{
 #[derive(Clone)]
 pub(super) struct UserObject {
     object: Arc<Py<PyAny>>,
-    /// Kind of part that the object is, as errors name it.
+    /// Kind of part that the object is, for errors.
     part: &'static str,
     /// The optional methods that it has.
     methods: Vec<&'static str>,
@@ -87,7 +87,7 @@ impl UserObject {
         Err(input_error(format!("{method} of the {} {text}", self.part)))
     }
 
-    /// Stored and dissipated energy by the method `energy`, if there is one.
+    /// Stored and dissipated energy that the method `energy` returns; `None` without this method.
     pub(super) fn energy(
         &self,
         deformation: impl for<'py> PyCallArgs<'py>,
@@ -100,7 +100,7 @@ impl UserObject {
         Some(InternalEnergy { stored: energies.0, dissipated: energies.1 })
     }
 
-    /// Internal variables by the method `save`; an error for an object with `commit` but no `save`.
+    /// Internal variables that the method `save` returns; an error for an object with `commit` but no `save`.
     pub(super) fn saved_variables(&self) -> basemat::Result<Vec<f64>> {
         if self.has("save") {
             return self.try_call(|py| Ok(self.call::<Numbers>(py, "save", ())?.0));
@@ -111,7 +111,7 @@ impl UserObject {
         Ok(Vec::new())
     }
 
-    /// The result of user code, or an error of the core if it raises.
+    /// The result of user code, or an error of the core if the code raises an exception.
     pub(super) fn try_call<T>(
         &self,
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
@@ -120,7 +120,8 @@ impl UserObject {
     }
 }
 
-/// Result of user code, or `fallback` (which ends the step) if it raises or an exception is already stored.
+/// Result of user code, or `fallback` (which ends the step) if the code raises an exception or an exception is already
+/// stored.
 pub(super) fn call_unless_raised<T>(
     fallback: T,
     call: impl FnOnce(Python<'_>) -> PyResult<T>,

@@ -6,8 +6,9 @@ use pyo3::prelude::*;
 use crate::array::Numbers;
 use crate::names::mode_name;
 
-/// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
-/// (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
+/// Gap, slip and tractions of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure`` (positive in
+/// compression) and ``shear`` (Pa); in plan also ``slip_across`` (m) and ``shear_across`` (Pa) along y. All are 0 by
+/// default.
 #[pyclass(name = "ContactState", module = "basemat", frozen, subclass)]
 pub(crate) struct PyContactState(pub(crate) ContactState);
 
@@ -163,14 +164,16 @@ impl PyPreviousContact {
     }
 }
 
-/// Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
+/// Limits of an element's tractions in the step that begins with a `PreviousContact`: what `UserPlanLaw.limits`
+/// returns.
 ///
-/// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default), which grows
-/// by ``hardening`` (Pa/m; 0 by default) with the settlement of yielding soil in the step; the shear
+/// The pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf`` by default: no bound),
+/// which grows by ``hardening`` (Pa/m; 0 by default) with the settlement of yielding soil in the step. The shear
 /// traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
-/// ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
-/// ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
-/// element that has opened with a tension, an attraction or a shear strength loses them in that step.
+/// ``shear_strength`` (Pa, both 0 by default), and slip is in its direction. ``gap_offset`` (m; 0 by default): gap of a
+/// closed element, ``-math.inf`` for an element that cannot close in this step. ``bonded`` (False by default): whether
+/// base and soil neither separate nor slide. An element that has opened with a tension, an attraction or a shear
+/// strength loses them in that step.
 #[pyclass(name = "Limits", module = "basemat", frozen, eq)]
 #[derive(PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyLimits(pub(crate) Limits);

@@ -23,7 +23,7 @@ const OPTIONAL_METHODS: [&str; 3] = ["initialize", "commit", "state"];
 const MAX_VARIABLE_COUNT: usize = 10_000;
 /// Largest difference of the stress at zero strain from the initial stress, relative to the initial stress.
 const INITIAL_STRESS_TOLERANCE: f64 = 1e-6;
-/// The same relative to the largest modulus: what rounding leaves without an initial stress.
+/// Largest difference of these stresses that counts as rounding, relative to the largest modulus of the material.
 const RELATIVE_STRESS_ROUNDING: f64 = 1e-12;
 
 /// The material of a Python object with `stress(strain, variables)`.
@@ -44,9 +44,9 @@ pub(crate) fn solid_material(object: &Bound<'_, PyAny>) -> PyResult<SharedMateri
 /// The element stores the internal variables; `initialize` and `commit` return them.
 struct UserMaterial {
     object: UserObject,
-    /// kg/m³.
+    /// Density, kg/m³.
     density: f64,
-    /// Pa.
+    /// Elastic stiffness matrix, Pa.
     elasticity: [[f64; 4]; 4],
     variable_count: usize,
     has_symmetric_tangent: bool,
@@ -158,9 +158,9 @@ impl UserMaterial {
         Ok([numbers[0], numbers[1], numbers[2], numbers[3]])
     }
 
-    /// Overwrites the internal variables by those at zero strain under an initial stress.
+    /// Overwrites the internal variables with those at zero strain under an initial stress.
     ///
-    /// Without `initialize` they are zeros. An error unless the stress is then the initial stress.
+    /// Without `initialize` they are zeros. It is an error unless the stress is then the initial stress.
     fn initial_variables(
         &self,
         py: Python<'_>,
@@ -248,7 +248,7 @@ impl SolidMaterial for UserMaterial {
         })
     }
 
-    /// After an exception the variables stay what they were.
+    /// After an exception the variables are unchanged.
     fn commit(&self, strain: [f64; 4], variables: &mut [f64]) {
         if !self.object.has("commit") {
             return;

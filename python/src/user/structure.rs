@@ -29,8 +29,8 @@ pub(crate) struct UserStructure {
 }
 
 impl UserStructure {
-    /// The structure of one simulation. A nonlinear one is a deep copy of the object, so that
-    /// simulations do not share its internal variables.
+    /// The structure of one simulation. A nonlinear structure is a deep copy of the object, so that simulations do not
+    /// share its internal variables.
     pub(crate) fn new(structure: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = structure.py();
         let is_nonlinear = structure.hasattr("force")?;

@@ -244,7 +244,7 @@ impl Ground for TrenchGround {
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         let source = TrenchSource { soil: self.soil().halved(), ..self.source.clone() };
         let elements = source.soil.elements().elements();
-        let mut matrix = vec![0.0; ContactLayout::for_elements(&elements).square()];
+        let mut matrix = vec![0.0; ContactLayout::for_elements(&elements).matrix_len()];
         source.static_compliance(&elements, &mut matrix)?;
         Ok(Some(matrix))
     }

@@ -2,10 +2,11 @@
 
 use basemat_fourier::num_complex::Complex64;
 
-use super::column::Moduli;
 use super::compliance::{Bottom, HalfCompliances, TrenchModel};
+use super::forms::Moduli;
 use super::free_field::{FieldOverPiece, ProfilePiece, VerticalField};
 use super::grid::{GridLayer, TrenchGrid, WallInterval};
+use super::mesh::MeshPlans;
 use super::trench::TrenchElements;
 use crate::error::{GroundError, Result, positive, require};
 use crate::linalg::Complex;
@@ -18,6 +19,7 @@ pub(super) struct TrenchSoil {
     elements: TrenchElements,
     backfill: Option<Backfill>,
     grid: TrenchGrid,
+    plans: MeshPlans,
 }
 
 /// Soil that fills the space beside the walls.
@@ -81,7 +83,7 @@ impl TrenchSoil {
             || depth + INTERFACE_TOLERANCE * elements.trench().half_width() < profile.depth();
         require("depth of a trench", depth, is_above_bedrock, "above rigid bedrock")?;
         let grid = trench_grid(&profile, &elements, 0.0);
-        Ok(Self { profile, elements, backfill: None, grid })
+        Ok(Self { profile, elements, backfill: None, grid, plans: MeshPlans::default() })
     }
 
     /// Replaces the soil beside the walls by backfill of a `width` (m), from the surface to the base.
@@ -96,6 +98,7 @@ impl TrenchSoil {
     ) -> Result<Self> {
         positive("width of the backfill", width)?;
         self.grid = trench_grid(&self.profile, &self.elements, width);
+        self.plans = MeshPlans::default();
         let profile = SoilProfile::on_half_plane(soil).with_bedrock_damping(damping);
         self.backfill = Some(Backfill { width, profile });
         Ok(self)
@@ -105,7 +108,8 @@ impl TrenchSoil {
     pub(super) fn halved(&self) -> Self {
         let width = self.backfill.as_ref().map_or(0.0, |backfill| backfill.width);
         let elements = self.elements.halved();
-        Self { grid: trench_grid(&self.profile, &elements, width), elements, ..self.clone() }
+        let grid = trench_grid(&self.profile, &elements, width);
+        Self { grid, plans: MeshPlans::default(), elements, ..self.clone() }
     }
 
     /// Soil beside and below the trench.
@@ -154,10 +158,10 @@ impl TrenchSoil {
             backfill.profile.moduli(s, &mut fill_moduli)?;
             shear_moduli.extend(fill_moduli);
         }
-        let inertia_s_squared = inertia_s.inner() * inertia_s.inner();
+        let inertia_s_squared = inertia_s.to_complex64() * inertia_s.to_complex64();
         let mut moduli = Vec::with_capacity(shear_moduli.len());
         for (modulus, soil) in shear_moduli.iter().zip(self.soils()) {
-            let shear = modulus.inner();
+            let shear = modulus.to_complex64();
             let lame = shear * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
             moduli.push(Moduli { shear, lame, inertia: inertia_s_squared * soil.density() });
         }
@@ -224,7 +228,8 @@ impl TrenchSoil {
         let half_width = self.elements.trench().half_width();
         let lowest = self.grid.lower_intervals.last();
         let upper_length = lowest.map_or(half_width, |interval| interval.length);
-        let bottom = Bottom::new(s.inner(), upper_length, soil.shear_wave_speed(), depth, degree);
+        let bottom =
+            Bottom::new(s.to_complex64(), upper_length, soil.shear_wave_speed(), depth, degree);
         TrenchMesh { degree, bottom }
     }
 
@@ -275,7 +280,7 @@ impl TrenchSoil {
         soils: &[Moduli],
     ) -> Result<HalfCompliances> {
         let TrenchMesh { degree, bottom } = mesh;
-        TrenchModel { grid: &self.grid, degree: *degree, bottom, soils }
+        TrenchModel { grid: &self.grid, plans: &self.plans, degree: *degree, bottom, soils }
             .compliances()?
             .ok_or_else(|| GroundError::GuidedWave { re: s.re, im: s.im }.into())
     }

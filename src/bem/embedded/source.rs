@@ -71,7 +71,7 @@ impl WeightsSource for TrenchSource {
 
     fn static_compliance(&self, _elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
         let classes = trench_classes(self.soil.elements().elements())?;
-        same_length("static compliance", matrix.len(), classes.layout().square())?;
+        same_length("static compliance", matrix.len(), classes.layout().matrix_len())?;
         let compliances = self.soil.static_compliances()?;
         let mut values = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];
         let pairs = TrenchPairs::new(self.soil.clone(), ELEMENT_DEGREE);

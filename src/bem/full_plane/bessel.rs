@@ -17,13 +17,13 @@ use complex_bessel::{Scaling, besselk_seq};
 /// Complex number of double precision.
 pub(super) type Complex64 = Complex<f64>;
 
-/// Largest |z| at which the series has all digits: the cancellation factor I₀/|K₀| is below 20.
+/// Largest |z| at which the series has all digits, because its cancellation factor I₀/|K₀| is below 20.
 pub(super) const MAX_SERIES_ARGUMENT: f64 = 2.0;
 
 /// Smallest real part for which K is below 1e-30 and counts as zero.
 const NEGLIGIBLE_REAL_PART: f64 = 70.0;
 
-/// Number of terms of the series: (q^k/k!²) is below 1e-17 at |z| = 2.
+/// Number of terms of the series, with which qᵏ/k!² is below 1e-17 at |z| = 2.
 const SERIES_TERM_COUNT: usize = 14;
 
 /// Euler's constant.
@@ -100,7 +100,7 @@ pub(super) fn bessel_series(z: Complex64, is_mean: bool) -> BesselSeries {
 mod tests {
     use super::*;
 
-    /// GOAL: both branches have all digits. TABLE: mpmath, made by tests/data/bessel_k.py.
+    /// Series and library function have all digits of the table, which tests/data/bessel_k.py computes by mpmath.
     #[test]
     fn values_agree_with_the_table() {
         let table = include_str!("../../../tests/data/bessel_k.csv");
@@ -124,19 +124,19 @@ mod tests {
         assert_eq!(row_count, 112);
     }
 
-    /// GOAL: the regular part of K₁/z at the joint of both branches; near 0, its leading terms.
+    /// The regular part of K₁/z agrees with the library near the limit of the series, and near 0 with its leading terms.
     #[test]
     fn regular_part_is_the_quotient_without_its_pole() {
         let z = Complex64::new(1.2, -1.5);
         let kappa = modified_bessel(z, true).quotient;
         let k1 = besselk_seq(0.0, z, 2, Scaling::Unscaled).unwrap().values[1];
         assert!((kappa - (k1 / z - 1.0 / (z * z))).norm() < 1e-14);
-        let tiny = Complex64::new(3e-9, 1e-9);
-        let leading = 0.5 * (0.5 * tiny).ln() + 0.5 * EULER_GAMMA - 0.25;
-        assert!((modified_bessel(tiny, true).quotient - leading).norm() < 1e-14);
+        let small_argument = Complex64::new(3e-9, 1e-9);
+        let leading = 0.5 * (0.5 * small_argument).ln() + 0.5 * EULER_GAMMA - 0.25;
+        assert!((modified_bessel(small_argument, true).quotient - leading).norm() < 1e-14);
     }
 
-    /// GOAL: means over [0, z] against a Gauss rule on a part away from the logarithm.
+    /// Means over [0, z] and [0, z/2] against a Gauss rule from z/2 to z, away from the logarithm.
     #[test]
     fn means_are_integrals() {
         let z = Complex64::new(0.9, 1.1);

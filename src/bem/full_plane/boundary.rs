@@ -6,10 +6,10 @@ use crate::error::{Error, Result, require};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout, check_order};
 use crate::linalg::DenseFactor;
 
-/// Differences of lengths that count as rounding, relative to the length of an element.
+/// Largest difference of lengths that counts as rounding, relative to the length of an element.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 
-/// Largest number of elements in a gap; so many elements exceed the memory limit.
+/// Largest number of elements in a gap: this number already exceeds the memory limit.
 const MAX_GAP_ELEMENTS: f64 = 1e6;
 
 /// A polygonal boundary of the soil, with the contact elements under the structure.
@@ -89,7 +89,7 @@ impl Boundary {
         Self::new(segments, &contact_indices)
     }
 
-    /// Any boundary, with the indices of the contact elements.
+    /// Creates any boundary from its elements and the indices of the contact elements.
     ///
     /// `contact_indices`: elements under the structure, from left to right. Contact elements must be horizontal with the
     /// soil below. All others are free of traction.

@@ -22,7 +22,7 @@ pub enum Given {
 /// ```
 /// use basemat::Soil;
 /// use basemat::bem::full_plane::{BoundaryMarch, Given, Segment, TimeKernel};
-/// // A single free element pushed down: before waves reach its ends, as on a half-plane.
+/// // A single free element under a pressure: before waves from its ends arrive, it moves as the surface of a half-plane.
 /// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
 /// let element = Segment { from: [-0.5, 0.0], to: [0.5, 0.0] };
 /// let kernel = TimeKernel::new(soil, &[element], 1.0e-4)?;
@@ -36,7 +36,9 @@ pub struct BoundaryMarch {
     history: BoundaryHistory,
     /// Prescribed quantity of each component.
     prescribed: Vec<Given>,
-    /// Columns of H⁰ for computed displacements, and of −G⁰ for computed tractions, which are in `traction_unit`.
+    /// Factors of the matrix of the unknowns.
+    ///
+    /// The matrix has columns of H⁰ for computed displacements, and of −G⁰ for computed tractions in `traction_unit`.
     factor: DenseFactor,
     /// Columns of G⁰ for prescribed tractions, and of −H⁰ for prescribed displacements.
     prescribed_columns: Vec<f64>,
@@ -44,7 +46,9 @@ pub struct BoundaryMarch {
     traction_unit: f64,
     /// Right-hand side, overwritten by the solution.
     rhs: Vec<f64>,
+    /// Displacements at the end of the last step, m.
     displacement: Vec<f64>,
+    /// Tractions during the last step, Pa.
     traction: Vec<f64>,
 }
 
@@ -101,7 +105,7 @@ impl BoundaryMarch {
         self.history.prepare(steps)
     }
 
-    /// Makes one step with prescribed values: tractions during the step, displacements at its end.
+    /// Advances by one step with prescribed values: tractions during the step, displacements at its end.
     ///
     /// # Errors
     /// [`Error::Size`] for the wrong number of values, and errors of the kernel.

@@ -2,9 +2,9 @@
 //!
 //! Relaxed blocked convolution, exact to rounding (Hairer, Lubich & Schlichte 1985, SIAM J. Sci. Stat.
 //! Comput. 6, 532–541), as in [`crate::history::RelaxedFftHistory`]. Pairs of input and output within a leaf
-//! of 64 steps are summed directly. After i steps, with i a multiple of the leaf, the effect of the last b
-//! inputs on the next b outputs is one convolution of length 2b, computed by transforms. b is the leaf times
-//! the largest power of two for which b divides i.
+//! of 64 steps are summed directly. After i steps, i a multiple of 64, let b be the largest number of the form
+//! 64 · 2ᵏ that divides i. The effect of the last b inputs on the next b outputs is one convolution of length 2b,
+//! computed by transforms.
 
 use super::BoundaryKernel;
 use super::block::{BlockTransform, SeriesLink, TransformBuffers};
@@ -16,7 +16,7 @@ use basemat_fourier::RealPlanner;
 /// Number of steps that are summed directly, before the smallest block is transformed.
 const DIRECT_STEPS: usize = 64;
 
-/// Largest number of steps for which [`BoundaryHistory::prepare`] allocates; memory then grows with the steps.
+/// Largest number of steps for which [`BoundaryHistory::prepare`] allocates memory; for more steps memory grows later.
 const MAX_PREALLOCATED_STEPS: usize = 1 << 17;
 /// Largest memory that [`BoundaryHistory::prepare`] allocates, bytes.
 const MAX_PREALLOCATED_BYTES: usize = 1 << 30;
@@ -27,9 +27,9 @@ const BYTES_PER_COMPONENT: usize = 24;
 /// Number of series of a class: two matrices with four components each.
 const SERIES_PER_CLASS: usize = 8;
 
-/// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, with coefficients stored once per class of pairs.
+/// History of a boundary: Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m at step N.
 ///
-/// Inputs are 4E numbers per step: u, then t.
+/// Coefficients are stored once per class of pairs. Inputs are 4E numbers per step: u, then t.
 pub(super) struct BoundaryHistory {
     pub(super) kernel: Box<dyn BoundaryKernel>,
     pairs: SegmentPairClasses,
@@ -54,7 +54,7 @@ pub(super) struct BoundaryHistory {
 }
 
 impl BoundaryHistory {
-    /// Empty history; `loaded` marks the tractions (2E) that may differ from zero.
+    /// Creates a history without inputs; `loaded` marks the tractions (2E) that may differ from zero.
     pub(super) fn new(kernel: Box<dyn BoundaryKernel>, loaded: &[bool]) -> Self {
         let pairs = SegmentPairClasses::new(kernel.segments());
         Self {
@@ -110,7 +110,7 @@ impl BoundaryHistory {
         Ok(series)
     }
 
-    /// Allocates and computes all data for `steps` steps; changes nothing on an error.
+    /// Extends rows and transforms to `steps` steps; the history is unchanged on an error.
     fn grow(&mut self, steps: usize) -> Result<()> {
         if steps <= self.capacity {
             return Ok(());

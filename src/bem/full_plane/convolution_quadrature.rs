@@ -9,9 +9,9 @@
 //! ```
 //!
 //! where the second sum is the alias of the trapezoidal rule. L is so large that the lags of the alias are late
-//! lags, which have the closed form of [`super::late_weights`]. λ therefore need not be small: λ^L is 1/100, and
-//! rounding loses at most two digits. The number of frequencies, L/2 + 1 by
-//! symmetry, depends on the travel time of waves across the boundary, and not on the number of steps.
+//! lags, which have the closed form of [`super::late_weights`]. Therefore λ need not be small: λ^L is 1/100, and
+//! rounding loses at most two digits. The number of frequencies, L/2 + 1 by symmetry, depends on the travel time of
+//! waves across the boundary, and not on the number of steps.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -26,10 +26,10 @@ use super::bessel::Complex64;
 use super::cq_method::CqMethod;
 use super::laplace::LaplacePlane;
 use super::laplace_element::{ElementView, ViewBlock, integrate};
-use super::late_weights::{LOG_TERM_COUNT, LogTerms, first_lag, log_terms, weights};
+use super::late_weights::{LOG_TERM_COUNT, LogTerms, first_lag, lag_weights, log_terms};
 use super::{BoundaryKernel, Segment};
 
-/// The full-plane boundary equation by convolution quadrature.
+/// Coefficients of the full-plane boundary equation by convolution quadrature.
 ///
 /// Coefficients multiply **point values**. Σ ω_{N−m} f(mΔt) approximates the convolution at NΔt at the
 /// method's order, for smooth f that starts smoothly from rest; a time-domain kernel instead assumes values
@@ -71,15 +71,16 @@ pub struct ConvolutionQuadrature {
     view_indices: Vec<usize>,
     /// Closed form of the late lags of each view, for distances up to ρ c₂ Δt.
     late_terms: Vec<LogTerms>,
-    /// ρ: largest distance over the travel of an S wave in a step.
+    /// Number ρ of steps in which an S wave travels the largest distance.
     rho: f64,
     /// Early lags: blocks of all views, lag after lag.
     early_blocks: Vec<[f64; 8]>,
+    /// Number of early lags, L.
     early_lag_count: usize,
 }
 
 impl ConvolutionQuadrature {
-    /// The equation on `segments` with steps of `time_step` seconds.
+    /// Computes the coefficients of the equation on `segments` with steps of `time_step` seconds.
     ///
     /// The constructor evaluates the Laplace-domain matrices L/2 + 1 times. L is about three times the number of steps
     /// in which an S wave crosses the boundary. Pairs with the same view are evaluated once.
@@ -127,7 +128,7 @@ impl ConvolutionQuadrature {
         self.time_step
     }
 
-    /// Number of lags from Lubich's contour; later lags have a closed form.
+    /// Number of lags that are computed on Lubich's contour; later lags have a closed form.
     pub fn contour_lags(&self) -> usize {
         self.early_lag_count
     }
@@ -184,7 +185,7 @@ impl ConvolutionQuadrature {
         let mut alias_factor = CONTOUR_RADIUS_POWER;
         for j in 1..=ALIAS_TERM_COUNT {
             for n in 0..lag_count {
-                let weights = weights(self.method, n + j * lag_count, self.rho);
+                let weights = lag_weights(self.method, n + j * lag_count, self.rho);
                 let blocks = &mut early_blocks[n * view_count..][..view_count];
                 for (view, block) in blocks.iter_mut().enumerate() {
                     let late_block = self.late_block(view, &weights);
@@ -217,13 +218,13 @@ impl ConvolutionQuadrature {
     }
 }
 
-/// λ^L for the radius λ of the contour.
+/// Power λ^L for the radius λ of the contour, with which rounding loses at most two digits.
 const CONTOUR_RADIUS_POWER: f64 = 0.01;
 
-/// Number of alias terms; λ^{jL}/(jL) of further terms is below rounding.
+/// Number of alias terms; further terms, λ^{jL}/(jL) in size, are below rounding.
 const ALIAS_TERM_COUNT: usize = 7;
 
-/// Largest number of steps across the boundary: more would need too much memory.
+/// Largest number of steps in which an S wave crosses the boundary: more steps would need too much memory.
 const MAX_CROSSING_STEPS: f64 = 1e5;
 
 /// Difference of offsets that counts as rounding, relative to the extent of the boundary.
@@ -308,7 +309,7 @@ impl BoundaryKernel for ConvolutionQuadrature {
             let view_block = |view: usize| blocks[view].map(|x| [x]);
             scatter(segment_count, &self.view_indices, view_block, g, h);
         } else {
-            let weights = weights(self.method, lag, self.rho);
+            let weights = lag_weights(self.method, lag, self.rho);
             let blocks: Vec<_> =
                 (0..view_count).map(|view| self.late_block(view, &weights)).collect();
             let view_block = |view: usize| blocks[view].map(|x| [x]);

@@ -1,8 +1,8 @@
-//! Backward-differentiation formulas behind a convolution quadrature.
+//! Backward-differentiation formulas of convolution quadrature.
 
 use super::bessel::Complex64;
 
-/// Backward-differentiation formula behind a convolution quadrature.
+/// Backward-differentiation formula of a convolution quadrature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -16,7 +16,7 @@ pub enum CqMethod {
 }
 
 impl CqMethod {
-    /// δ(ζ).
+    /// Generating function δ of the formula at ζ.
     pub(super) fn symbol(self, zeta: Complex64) -> Complex64 {
         let difference = 1.0 - zeta;
         match self {

@@ -1,4 +1,4 @@
-//! The soil of Patel & Spyrakos as a ground.
+//! Ground of the full-plane boundary element method of Patel & Spyrakos.
 
 use std::cell::Cell;
 
@@ -14,16 +14,16 @@ use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// Length L₀ of the static solution over the contact length; no static plane determines this length.
+/// Length L₀ of the static solution over the contact length; the static full plane does not determine this length.
 const REFERENCE_LENGTH_RATIO: f64 = 10.0;
 
-/// Largest growth per step for which a run may begin: e-fold growth takes 10 000 steps.
+/// Largest growth per step with which a run may begin: e-fold growth then takes 10 000 steps.
 const MAX_GROWTH_PER_STEP: f64 = 1e-4;
 
 /// Function that computes the kernel for a boundary and a time step.
 type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send;
 
-/// The soil of Patel & Spyrakos by full-plane boundary elements.
+/// Ground of the full-plane boundary element method of Patel & Spyrakos.
 ///
 /// The free surface on both sides of the base is discretised. In every step the displacements of the
 /// traction-free elements are eliminated from H⁰ u = G⁰ t + history (eqs. 17–18, 21); the contact elements
@@ -39,15 +39,14 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// The scheme is not stable for every step: see [the module](super). The builder of a simulation calls
 /// [`Ground::prepare`], which assesses the discrete operator for this boundary, step and kernel, with the
 /// base uplifted and with the base bonded. It returns [`GroundError::Unstable`](crate::bem::GroundError::Unstable) if
-/// perturbations grow by more than 1e-4 per step. [`FullPlaneGround::assess`] has the figures. The assessment takes the
-/// time of a thousand factorisations of complex matrices of order 2E, and ten times that time if modes grow: with the 20
-/// elements of the paper 0.2 s, and up to 2 s (release build). [`FullPlaneGround::allow_growth`] skips it.
+/// perturbations grow by more than 1e-4 per step. [`FullPlaneGround::assess`] returns the growth. The assessment takes
+/// the time of a thousand factorisations of complex matrices of order 2E, and ten times that time if modes grow. After
+/// [`FullPlaneGround::allow_growth`] there is no assessment.
 ///
 /// ```
 /// use basemat::{Soil, bem::{Ground, full_plane::FullPlaneGround}};
 /// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
-/// // Ten elements of 1 m and five free ones on either side, as in the paper. This step is too
-/// // short to march for long.
+/// // Ten elements of 1 m and five free ones on either side, as in the paper. With this short step perturbations grow.
 /// let mut ground = FullPlaneGround::strip(soil, -5.0..5.0, 10, 5)?.allow_growth();
 /// ground.prepare(1.0e-3, None, &mut basemat::unobserved)?;
 /// assert!(ground.assess(1.0e-3, 1e-4)?.iter().any(|stability| !stability.is_bounded()));
@@ -143,9 +142,9 @@ impl FullPlaneGround {
 
     /// Growth for steps of `time_step` seconds: with the base uplifted, and with the base bonded.
     ///
-    /// All elements are free of traction under an uplifted base; contact elements have prescribed displacements under
-    /// a base that sticks. A partly open base, and the structure on it, are not assessed. A structure stabilises the
-    /// elements in contact with it. `smallest_growth`: as for [`Stability::assess`].
+    /// All elements are free of traction under an uplifted base; contact elements have prescribed displacements under a
+    /// bonded base. A partly open base, and the structure on it, are not assessed. A structure stabilises the elements in
+    /// contact with it. `smallest_growth`: as for [`Stability::assess`].
     ///
     /// ```
     /// use basemat::{Error, Soil, bem::{Ground, GroundError, full_plane::FullPlaneGround}, unobserved};
@@ -155,8 +154,8 @@ impl FullPlaneGround {
     /// // The step of the paper, β = 1/2.
     /// let [uplifted, _] = ground.assess(step(0.5), 1e-4)?;
     /// assert!(uplifted.growth_per_step > 0.05 && !uplifted.is_bounded());
-    /// let refused = ground.prepare(step(0.5), None, &mut unobserved).unwrap_err();
-    /// assert!(matches!(refused, Error::Ground(GroundError::Unstable { .. })));
+    /// let error = ground.prepare(step(0.5), None, &mut unobserved).unwrap_err();
+    /// assert!(matches!(error, Error::Ground(GroundError::Unstable { .. })));
     /// ground.allow_growth().prepare(step(0.5), None, &mut unobserved)?;
     /// # Ok::<(), Error>(())
     /// ```
@@ -209,12 +208,12 @@ impl FullPlaneGround {
         self
     }
 
-    /// The soil.
+    /// Soil of the ground.
     pub fn soil(&self) -> Soil {
         self.soil
     }
 
-    /// The boundary.
+    /// Boundary of the soil.
     pub fn boundary(&self) -> &Boundary {
         &self.boundary
     }
@@ -265,8 +264,8 @@ impl Ground for FullPlaneGround {
     /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
-        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
-        same_length("step compliance", matrix.len(), size)?;
+        let contact_layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len());
+        same_length("step compliance", matrix.len(), contact_layout.matrix_len())?;
         self.boundary.compliance(&prepared.contact_compliance.columns, matrix);
         Ok(())
     }
@@ -307,8 +306,8 @@ impl Ground for FullPlaneGround {
     /// has the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
-        let size = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
-        same_length("static compliance", matrix.len(), size)?;
+        let contact_layout = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len());
+        same_length("static compliance", matrix.len(), contact_layout.matrix_len())?;
         if self.boundary.is_flat() {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }

@@ -9,6 +9,7 @@ use crate::linalg::dense_multiply_add;
 /// Convolutions and operators of a boundary for a fixed time-step length.
 pub(super) struct PreparedBoundary {
     pub(super) history: BoundaryHistory,
+    /// Time step, s.
     time_step: f64,
     /// Weight matrix G⁰ (m/Pa); empty without an incident field.
     g0: Vec<f64>,
@@ -18,8 +19,9 @@ pub(super) struct PreparedBoundary {
     pub(super) history_displacement: Vec<f64>,
     /// Whether `history_displacement` belongs to the next step.
     is_history_current: bool,
+    /// Displacements at the end of the last step, relative to the incident field, m.
     pub(super) displacement: Vec<f64>,
-    /// Tractions of the scattered field, which cancel those of the incident field.
+    /// Tractions of the scattered field, which cancel those of the incident field, Pa.
     scattered_traction: Vec<f64>,
     /// Total tractions of the last step, Pa.
     traction: Vec<f64>,
@@ -37,8 +39,8 @@ impl PreparedBoundary {
         let layout = boundary.layout();
         same_length("elements of the boundary kernel", kernel.segments().len(), segment_count)?;
         let order = layout.len();
-        let mut g = vec![0.0; layout.square()];
-        let mut h = vec![0.0; layout.square()];
+        let mut g = vec![0.0; layout.matrix_len()];
+        let mut h = vec![0.0; layout.matrix_len()];
         kernel.coefficients(0, &mut g, &mut h)?;
         let contact_compliance = boundary.contact_compliance(&g, &h)?;
         let mut has_traction = vec![has_incident_field; order];

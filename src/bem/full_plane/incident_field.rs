@@ -1,4 +1,4 @@
-//! Waves from below, at depth.
+//! Motion and stress of waves from below, at any depth.
 
 use crate::error::{Result, not_negative};
 use crate::motion::FreeField;
@@ -18,9 +18,9 @@ pub trait IncidentField: Send {
 
 /// Vertically incident S and P waves and their reflections from the flat surface.
 ///
-/// They follow from the motion s of the surface: u(z,t) = ½[s(t−t₀+z/c) + s(t−t₀−z/c)], with c = c₂ for the
-/// horizontal and c₁ for the vertical component. The surface moves t₀ later than its record, so that down to
-/// the depth c₂t₀ nothing moves at t = 0.
+/// The field follows from the motion s of the surface: u(z,t) = ½[s(t−t₀+z/c) + s(t−t₀−z/c)], with c = c₂ for the
+/// horizontal and c₁ for the vertical component. The surface moves t₀ later than its record, so that the soil down to
+/// the depth c₂t₀ is at rest at t = 0.
 ///
 /// ```
 /// use basemat::Soil;
@@ -38,7 +38,7 @@ pub trait IncidentField: Send {
 pub struct VerticalWaves {
     soil: Soil,
     surface: Box<dyn FreeField>,
-    /// t₀, s.
+    /// Delay t₀ of the surface relative to its record, s.
     delay: f64,
 }
 

@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 use super::bessel::{Complex64, MAX_SERIES_ARGUMENT, modified_bessel};
 use crate::soil::Soil;
 
-/// The full plane of a soil at one s.
+/// Constants of the full plane of a soil at one s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LaplacePlane {
     /// s/c₁, 1/m.

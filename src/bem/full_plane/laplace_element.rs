@@ -68,7 +68,7 @@ impl BoundaryLine {
     }
 }
 
-/// Integrals over the element of `view` of displacements and tractions at one s.
+/// Integrals of displacements and tractions over the element of `view`, at one s.
 pub(super) fn integrate(plane: &LaplacePlane, view: &ElementView) -> ViewBlock {
     let line = view.line();
     let mut block = ViewBlock::default();
@@ -148,11 +148,11 @@ fn add_pieces(
     }
 }
 
-/// Smallest decay exponent of negligible contributions.
+/// Smallest decay exponent of negligible contributions: e^{−50} is far below rounding.
 const NEGLIGIBLE_EXPONENT: f64 = 50.0;
-/// Half length of a piece relative to its distance that counts as rounding.
+/// Half length of a piece, relative to its distance, below which the piece is not halved.
 const MIN_PIECE_RATIO: f64 = 1e-14;
-/// Largest number of points of a rule for the exponential; beyond, the piece is halved.
+/// Largest number of points of a rule for the exponential; if more points are needed, the piece is halved.
 const MAX_EXPONENTIAL_POINTS: u32 = 16;
 /// Error of a rule that counts as rounding.
 const RULE_TOLERANCE: f64 = 1e-15;

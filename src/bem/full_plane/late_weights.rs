@@ -27,7 +27,7 @@ use crate::soil::Soil;
 /// Number of terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
 pub(super) const LOG_TERM_COUNT: usize = 26;
 
-/// A_k R^{−2k} of one view, in the order of [`ViewBlock`](super::laplace_element::ViewBlock).
+/// Coefficients A_k R^{−2k} of one view, in the order of [`ViewBlock`](super::laplace_element::ViewBlock).
 pub(super) type LogTerms = [[f64; 8]; LOG_TERM_COUNT];
 
 /// Coefficients of s^{2k} ln s; lengths in units of `length_unit`, and times in units of `length_unit`/c₂.
@@ -81,7 +81,7 @@ pub(super) fn log_terms(soil: Soil, view: &ElementView, length_unit: f64) -> Log
     terms
 }
 
-/// `p_k` and `q_k` for powers of s r/c₂: (s r/c₂)^{2k}.
+/// Coefficients `p_k` and `q_k` of the powers (s r/c₂)^{2k}.
 struct RadialTerms {
     p: [f64; LOG_TERM_COUNT],
     q: [f64; LOG_TERM_COUNT],
@@ -107,8 +107,10 @@ fn radial_terms(soil: Soil) -> RadialTerms {
     terms
 }
 
-/// [ζⁿ] (ρδ)^{2k} ln δ for all k, and n above four times [`LOG_TERM_COUNT`].
-pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; LOG_TERM_COUNT] {
+/// Weights [ζⁿ] (ρδ)^{2k} ln δ of one lag n, for all k.
+///
+/// The lag n must be above four times [`LOG_TERM_COUNT`].
+pub(super) fn lag_weights(method: CqMethod, lag: usize, rho: f64) -> [f64; LOG_TERM_COUNT] {
     let n = lag as f64;
     let mut weights = [0.0; LOG_TERM_COUNT];
     match method {
@@ -155,7 +157,7 @@ pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
 const NEGLIGIBLE_EXPONENT: f64 = 37.0;
 /// Largest last term of the series, relative to the first, that counts as zero.
 const LAST_TERM_TOLERANCE: f64 = 1e-17;
-/// Smallest late lag over ρ: the front, at n = ρ, must have passed.
+/// Smallest late lag over ρ; at the lag n = ρ the wave front passes.
 const MIN_LATE_LAG_RATIO: f64 = 1.5;
 /// Largest radius of the Cauchy circle, inside the singularity at 3 of BDF2.
 const MAX_CIRCLE_RADIUS: f64 = 2.9;
@@ -178,7 +180,7 @@ fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
         }
     };
     // Last term of the series relative to the first: the largest A_k is below 1/(4^k k!²).
-    let weights = weights(method, lag, rho);
+    let weights = lag_weights(method, lag, rho);
     let factor: f64 = (1..LOG_TERM_COUNT).map(|k| 0.25 / (k * k) as f64).product();
     let last_term = (weights[LOG_TERM_COUNT - 1] * factor).abs();
     front_exponent > NEGLIGIBLE_EXPONENT && last_term < LAST_TERM_TOLERANCE * weights[0].abs()

@@ -13,9 +13,9 @@
 //! the right), then the E z-components (**down**). A [`BoundaryKernel`] computes G and H from the fundamental
 //! solution, in time or by convolution quadrature.
 //!
-//! # No proof
+//! # Passivity is not proved
 //!
-//! The soil of this method is not proved passive: the table below shows where it creates energy. The method is for
+//! The soil of this method is not passive in general: the table below shows where it creates energy. The method is for
 //! boundaries that are not flat, such as hills and valleys. For walls below a flat surface, the weights around a trench
 #![cfg_attr(feature = "embedded", doc = "([`TrenchGround`](crate::bem::embedded::TrenchGround))")]
 //! are passive at every time step and mesh, by proof.
@@ -58,9 +58,9 @@
 //!
 //! The direct impedances of a strip have the error of its mesh, with or without free elements.
 //! The coupling of sliding and rocking comes only from the free surface and from H. With 5, 20
-//! and 80 elements beside a strip of 8 elements, its error is 0.32, 0.23 and 0.13. The error falls with about the
-//! root of the surface's length, because surface waves do not decay along it. Convolution quadrature
-//! permits so long a surface.
+//! and 80 elements beside a strip of 8 elements, its error is 0.32, 0.23 and 0.13. The error is about proportional to
+//! the inverse square root of the surface's length, because surface waves do not decay along the surface. With
+//! convolution quadrature such long surfaces are possible.
 
 mod bessel;
 mod block;
@@ -98,7 +98,7 @@ pub use time_kernel::TimeKernel;
 
 use crate::error::Result;
 
-/// The coefficients G^n and H^n of a boundary equation in time.
+/// Coefficients G^n and H^n of a boundary equation in time.
 #[auto_impl::auto_impl(Box)]
 pub trait BoundaryKernel: Send + Sync {
     /// The elements.

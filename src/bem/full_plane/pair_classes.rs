@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use super::segment::Segment;
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 
-/// Resolution of lengths in keys: number of steps over the extent of the boundary.
+/// Number of integer units of a key in the extent of the boundary.
 const KEYS_PER_EXTENT: f64 = 1e12;
-/// Height over distance that counts as rounding.
+/// Largest height over distance that counts as rounding.
 const HEIGHT_TOLERANCE: f64 = 1e-13;
 
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
@@ -43,7 +43,7 @@ impl SegmentPairClasses {
     pub(super) fn new(segments: &[Segment]) -> Self {
         let coordinates = segments.iter().flat_map(|segment| [segment.from, segment.to]).flatten();
         let extent = coordinates.fold(f64::MIN_POSITIVE, |extent, x| extent.max(x.abs()));
-        // Rounding of the nodes must not split a class: 1e-12 of the extent is negligible.
+        // Rounding of the nodes must not divide a class: 1e-12 of the extent is negligible.
         #[allow(clippy::cast_possible_truncation, reason = "at most 2e12")]
         let key = |length: f64| (length / extent * KEYS_PER_EXTENT).round() as i64;
         let mut class_of_key = HashMap::new();

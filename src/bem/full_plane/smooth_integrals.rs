@@ -7,7 +7,7 @@
 //! * D/r² = Σ ± 1/(c R (T+R)²), L = Σ 1/(c R), Q/r² = −1/(c R³)
 //! * (8D + 2(Q₁−Q₂))/r⁴ = −2 Σ ± (3R+T)/(c R³ (T+R)³)
 //!
-//! These do not contain r, so the element under the load needs no special treatment.
+//! These terms do not contain r, so that the element under the load needs no special treatment.
 
 use super::step_integrals::{SegmentIntegrals, WaveConstants};
 use crate::linalg::gauss;
@@ -43,6 +43,7 @@ fn impulse_response(
     let t2 = c2 * time;
     let r1 = (t1 * t1 - square).sqrt();
     let q1 = -1.0 / (c1 * r1 * r1 * r1);
+    // D/r², L and Q₂/r² of the formulas above, and (8D + 2(Q₁−Q₂))/r⁴.
     let d;
     let l;
     let q2;

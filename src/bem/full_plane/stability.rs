@@ -3,8 +3,8 @@
 //! The degrees of freedom x are displacements of traction-free elements, and tractions of elements with
 //! prescribed displacement. Prescribed values form the right-hand side b. The equation Σ F^{N−m} xᵐ = bᴺ has the
 //! symbol F(ζ) = Σ Fⁿ ζⁿ, with columns of H and −G. Perturbations grow if and only if det F has a zero in |ζ| < 1. The
-//! growth factor per step is 1/|ζ| of the smallest zero. Zeros are counted by the argument principle on circles (F has no poles
-//! there, since its coefficients do not grow), and the smallest modulus is found by bisection.
+//! growth factor per step is 1/|ζ| of the smallest zero. Zeros are counted by the argument principle on circles (F has
+//! no poles there, because its coefficients do not grow), and the smallest modulus is determined by bisection.
 
 use super::stability_symbol::BoundarySymbol;
 use super::stability_zeros::smallest_zero;
@@ -19,18 +19,21 @@ use crate::error::{Result, require};
 pub struct Stability {
     /// Growth factor of the worst perturbation per step, minus one; 0 if nothing grows.
     ///
-    /// Growth below the smallest growth of the search counts as 0. The error is one percent if
-    /// several modes grow alike.
+    /// Growth below the smallest growth of the search counts as 0. The error is one per cent if several modes grow at
+    /// nearly the same rate.
     pub growth_per_step: f64,
     /// Number of growing modes.
     pub growing_modes: usize,
 }
 
+/// Values of the smallest growth: below the range rounding decides, above it the run would end within a few steps.
+const GROWTH_RANGE: std::ops::RangeInclusive<f64> = 1e-7..=0.5;
+
 impl Stability {
     /// Assesses `kernel` with one condition for each of its elements.
     ///
-    /// `smallest_growth` is the smallest growth per step to search for. The inverse of the number of steps is
-    /// a good choice: slower growth is then less than e-fold.
+    /// `smallest_growth` is the smallest growth per step to search for. The inverse of the number of steps is a good
+    /// choice: slower growth is then less than e-fold in the run.
     ///
     /// Late coefficients are interpolated: they become smooth functions of 1/n once the waves have passed, as in
     /// an elastic plane. Structures coupled to the elements are not part of the assessment.
@@ -70,7 +73,7 @@ impl Stability {
 
     /// Stability of a boundary equation with this symbol.
     pub(super) fn from_symbol(symbol: &BoundarySymbol, smallest_growth: f64) -> Result<Self> {
-        let is_in_range = (1e-7..=0.5).contains(&smallest_growth);
+        let is_in_range = GROWTH_RANGE.contains(&smallest_growth);
         require("smallest growth", smallest_growth, is_in_range, "between 1e-7 and 0.5 per step")?;
         let zeros = smallest_zero(symbol, smallest_growth)?;
         Ok(Self {

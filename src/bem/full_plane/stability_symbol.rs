@@ -1,4 +1,4 @@
-//! The symbols Σ Gⁿζⁿ and Σ Hⁿζⁿ of any kernel: early lags are summed, late lags interpolated in 1/n.
+//! Symbols Σ Gⁿζⁿ and Σ Hⁿζⁿ of any kernel: early lags are summed, late lags interpolated in 1/n.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -14,15 +14,15 @@ use crate::linalg::{DenseFactor, largest};
 use super::stability_tail::{TAIL_POWERS, interpolation_lag, tail_sums};
 use super::{BoundaryCondition, BoundaryKernel};
 
-/// Smallest number of early lags.
+/// Number of early lags of the first attempt; it is doubled until the interpolation is accurate.
 const MIN_EARLY_LAGS: usize = 64;
 
-/// Largest number of early lags.
+/// Largest number of early lags, which limits the memory of their values.
 const MAX_EARLY_LAGS: usize = 4096;
 
 /// Error of the interpolation above which more early lags are summed.
 const TAIL_TOLERANCE: f64 = 1e-9;
-/// Largest error of the interpolation.
+/// Largest error of the interpolation with which a search for growth is reliable.
 const MAX_TAIL_ERROR: f64 = 1e-6;
 
 /// Points between the interpolation points at which the error is checked.
@@ -46,7 +46,7 @@ pub(super) struct BoundarySymbol<'a> {
 }
 
 impl<'a> BoundarySymbol<'a> {
-    /// Reads early lags and interpolates late ones.
+    /// Evaluates the early lags of the kernel, and interpolates the late ones.
     ///
     /// # Errors
     /// [`Error::Size`] for no elements or a wrong number of conditions, [`Error::Singular`] for a singular
@@ -59,7 +59,7 @@ impl<'a> BoundarySymbol<'a> {
         if segment_count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let matrix_length = ContactLayout::new(COMPONENTS_IN_PLANE, segment_count).square();
+        let matrix_length = ContactLayout::new(COMPONENTS_IN_PLANE, segment_count).matrix_len();
         let mut symbol = Self {
             kernel,
             has_prescribed_displacement: vec![],
@@ -72,8 +72,8 @@ impl<'a> BoundarySymbol<'a> {
         symbol.prescribe(conditions)?;
         let mut first_lag = vec![0.0; 2 * matrix_length];
         symbol.read_lag(0, &mut first_lag)?;
-        let g_size = largest(&first_lag[..matrix_length]);
-        symbol.traction_scale = largest(&first_lag[matrix_length..]) / g_size;
+        let max_g = largest(&first_lag[..matrix_length]);
+        symbol.traction_scale = largest(&first_lag[matrix_length..]) / max_g;
         if !symbol.traction_scale.is_finite() {
             return Err(Error::Singular { matrix: "coefficients of lag 0", order: symbol.order() });
         }
@@ -120,7 +120,7 @@ impl<'a> BoundarySymbol<'a> {
         Ok(true)
     }
 
-    /// Replaces the boundary conditions; the coefficients stay.
+    /// Replaces the boundary conditions; the coefficients do not change.
     pub(super) fn prescribe(&mut self, conditions: &[BoundaryCondition]) -> Result<()> {
         let segment_count = self.kernel.segments().len();
         same_length("boundary conditions", conditions.len(), segment_count)?;
@@ -147,7 +147,7 @@ impl<'a> BoundarySymbol<'a> {
         self.kernel.coefficients(lag, g, h)
     }
 
-    /// n·(Gⁿ, Hⁿ), with G scaled.
+    /// Values n·(Gⁿ, Hⁿ) of a lag n, with G scaled.
     fn scaled_lag(&self, lag: usize) -> Result<Vec<f64>> {
         let stride = self.stride();
         let mut values = vec![0.0; stride];
@@ -231,11 +231,11 @@ impl<'a> BoundarySymbol<'a> {
     /// Overwrites `symbols` with the symbols of G and H (2E × 2E each) at one ζ.
     pub(super) fn at(&self, zeta: Complex64, symbols: &mut Vec<Complex64>) -> Result<()> {
         let stride = self.stride();
-        let mut exact = vec![0.0; 2 * stride];
-        let (g, h) = exact.split_at_mut(stride);
+        let mut kernel_symbols = vec![0.0; 2 * stride];
+        let (g, h) = kernel_symbols.split_at_mut(stride);
         if self.kernel.symbol([zeta.re, zeta.im], g, h)?.is_some() {
             symbols.clear();
-            symbols.extend(exact.chunks_exact(2).map(|x| Complex64::new(x[0], x[1])));
+            symbols.extend(kernel_symbols.chunks_exact(2).map(|x| Complex64::new(x[0], x[1])));
             return Ok(());
         }
         let mut class_sums = vec![Complex64::default(); self.classes.len()];

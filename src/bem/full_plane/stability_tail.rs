@@ -7,21 +7,21 @@
 //! Σ_{n≥N} ζⁿ (N/n)^p = 1/Γ(p) ∫₀^∞ y^{p−1} e^{−y} ζ^N / (1 − ζ e^{−y/N}) dy ,
 //! ```
 //!
-//! with the integral by the trapezoidal rule in ln y, which converges exponentially: for |ζ| ≤ 1 the pole y =
-//! N ln ζ stays at least a quarter turn away.
+//! with the integral by the trapezoidal rule in ln y, which converges exponentially, because for |ζ| ≤ 1 the argument of
+//! the pole y = N ln ζ is at least a quarter turn.
 
 use std::f64::consts::PI;
 
 use basemat_fourier::num_complex::Complex64;
 
-/// Number of powers p = 1, 2, … of N/n.
+/// Number of powers p = 1, 2, … of N/n in the interpolation.
 pub(super) const TAIL_POWERS: usize = 10;
 
 /// Step of ln y in the trapezoidal rule.
 const LOGARITHM_STEP: f64 = 0.125;
-/// First step of the rule: y = e^{−35} is below rounding.
+/// First step of the rule, at which y = e^{−35} is below rounding.
 const FIRST_STEP: i32 = -280;
-/// Last step of the rule: e^{−y} with y = e⁴ is below rounding.
+/// Last step of the rule, at which e^{−y} with y = e⁴ is below rounding.
 const LAST_STEP: i32 = 32;
 
 /// Lag of the Chebyshev point `k`; the lag is between two points for a `k` between two integers.
@@ -51,8 +51,7 @@ pub(super) fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; TAIL_POWERS]
 mod tests {
     use super::*;
 
-    /// GOAL: the closed sum against direct summation where |ζ| < 1, and on the circle against Abel's
-    /// summation by parts, exact to (1−ζ)^{−1} N^{−2} terms there.
+    /// The closed sums against direct summation where |ζ| < 1, and for p = 1 against a logarithm where |ζ| = 1.
     #[test]
     fn tails_are_sums() {
         for (radius, angle) in [(0.99, 0.0), (0.99, 1.0), (0.98, 3.1), (0.995, 0.01)] {

@@ -7,10 +7,10 @@ use crate::error::{Error, Result};
 use crate::linalg::DenseFactor;
 use basemat_fourier::num_complex::Complex64;
 
-/// Initial number of points on the whole circle.
+/// Initial number of points on the whole circle, which resolves the phase if no zero is near the circle.
 const CIRCLE_POINT_COUNT: usize = 1024;
 
-/// Largest phase change of the determinant between neighbours, rad; above, more points are inserted.
+/// Largest phase change of the determinant between neighbours, rad; for a larger change more points are inserted.
 const MAX_PHASE_CHANGE: f64 = 0.7;
 
 /// Largest number of halvings of the distance between neighbours.
@@ -31,13 +31,13 @@ const SECANT_START_STEP: f64 = 1e-4;
 /// Largest number of steps of the secant method.
 const MAX_SECANT_STEPS: usize = 40;
 
-/// Last change of ζ in the secant method.
+/// Change of ζ below which the secant method ends.
 const SECANT_TOLERANCE: f64 = 1e-11;
 
 /// Margin of the search for smaller zeros, over the distance of the zero from the unit circle.
 const SMALLEST_ZERO_MARGIN: f64 = 1e-3;
 
-/// ln of the largest growth factor that is searched for.
+/// Logarithm of the largest growth factor that is searched for; such a run ends within a few steps.
 const MAX_LOG_GROWTH: f64 = 4.0;
 
 /// Zeros inside a circle.
@@ -46,7 +46,7 @@ pub(super) struct Zeros {
     pub(super) smallest_zero: Option<Complex64>,
 }
 
-/// Counts zeros with 1/|ζ| > 1 + `smallest_growth` and finds the smallest one.
+/// Counts zeros with 1/|ζ| > 1 + `smallest_growth`, and computes the smallest one.
 pub(super) fn smallest_zero(symbol: &BoundarySymbol, smallest_growth: f64) -> Result<Zeros> {
     let mut search = ZeroSearch {
         symbol,
@@ -54,7 +54,7 @@ pub(super) fn smallest_zero(symbol: &BoundarySymbol, smallest_growth: f64) -> Re
         symbol_sum: vec![],
         operator: vec![],
     };
-    // At ζ = 0 the operator equals the operator of lag 0.
+    // Returns an error if the operator of lag 0, which is the operator at ζ = 0, is singular.
     search.log_determinant(Complex64::default())?;
     let circle = search.zeros_inside(1.0 / (1.0 + smallest_growth))?;
     let zero_count = circle.zero_count;
@@ -118,7 +118,7 @@ struct ZeroSearch<'a> {
 }
 
 impl ZeroSearch<'_> {
-    /// ln det F at one ζ.
+    /// Logarithm of det F at one ζ.
     fn log_determinant(&mut self, zeta: Complex64) -> Result<Complex64> {
         self.symbol.at(zeta, &mut self.symbol_sum)?;
         self.symbol.operator(&self.symbol_sum, &mut self.operator);
@@ -127,7 +127,7 @@ impl ZeroSearch<'_> {
 
     /// Counts the zeros in |ζ| < `radius`.
     ///
-    /// F is real on the real axis, so half the circle is enough.
+    /// F is real on the real axis, so that half the circle is sufficient.
     fn zeros_inside(&mut self, radius: f64) -> Result<CircleZeros> {
         let operators = self.symbol.operators_on(radius, CIRCLE_POINT_COUNT);
         let factor = &mut self.factor;
@@ -213,7 +213,7 @@ impl ZeroSearch<'_> {
     }
 }
 
-/// ln det of an operator of this order.
+/// Logarithm of the determinant of an operator.
 fn log_determinant(
     factor: &mut DenseFactor<Complex64>,
     operator: &[Complex64],

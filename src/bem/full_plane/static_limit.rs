@@ -1,4 +1,4 @@
-//! Static limit of the boundary equation (Kelvin's solution).
+//! Static limit of the boundary equation, by Kelvin's solution.
 //!
 //! With time the functions of [`super::step_integrals`] tend to D = (c₂⁻²−c₁⁻²)/2, Q = c⁻², and
 //! L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀). The static plane does not determine the length L₀.
@@ -8,9 +8,10 @@ use super::pair_classes::SegmentPairClasses;
 use crate::error::Result;
 use crate::soil::Soil;
 
-/// Primitives of displacement (dd, dn, nn; in 1/2πρ) and traction (dd, dn, nd, nn; in μ/2πρ) at one end.
+/// Primitives of displacement (dd, dn, nn) and traction (dd, dn, nd, nn) at one end of an element.
 ///
-/// `slowness_squared` is c₁⁻² and c₂⁻², `reference_length` is L₀.
+/// Displacements are in units of 1/2πρ, tractions in units of μ/2πρ. `slowness_squared` is c₁⁻² and c₂⁻²,
+/// `reference_length` is L₀.
 fn primitive(
     slowness_squared: [f64; 2],
     lame_ratio: f64,
@@ -62,8 +63,8 @@ pub(super) fn static_compliance(
     let slowness_squared = speeds.map(|c| 1.0 / (c * c));
     let lame_ratio = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
-    let mut g = vec![0.0; layout.square()];
-    let mut h = vec![0.0; layout.square()];
+    let mut g = vec![0.0; layout.matrix_len()];
+    let mut h = vec![0.0; layout.matrix_len()];
     SegmentPairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |view| {
         let end_values = view
             .ends
@@ -86,7 +87,7 @@ mod tests {
     use super::*;
     use crate::bem::full_plane::step_integrals::{WaveConstants, step_integrals};
 
-    /// Response to a load that was switched on long ago, without its growth in time.
+    /// The response long after a load was switched on, without its growth in time, is the static limit.
     #[test]
     fn a_constant_load_leads_to_the_static_limit() {
         let soil = Soil::new(1.0, 0.2, 1.0).unwrap();

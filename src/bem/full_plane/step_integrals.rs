@@ -17,16 +17,16 @@
 //! | A, `arc` | atan(sT/(hR)), asin(s/√(T²−h²)) |
 //! | `pole` | (t²/h)(A₁ − A₂), formed without the 1/h |
 //!
-//! Beyond a front the primitives take their values at the front: A = `arc` = ±π/2, R = L = 0.
+//! Beyond a front the primitives have their values at the front: A = `arc` = ±π/2, R = L = 0.
 
 use std::f64::consts::FRAC_PI_2;
 
 /// Displacements and tractions integrated over an element, in its axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct SegmentIntegrals {
-    /// dd, dn = nd, nn; in units of 1/2πρ.
+    /// Integrated displacements dd, dn = nd, nn, in units of 1/2πρ.
     pub(super) displacement: [f64; 3],
-    /// `t[i][j]`: component i for a load j (d, n); in units of μ/2πρ.
+    /// Integrated tractions `t[i][j]`, component i for a load j (d, n), in units of μ/2πρ.
     pub(super) traction: [[f64; 2]; 2],
 }
 
@@ -46,28 +46,28 @@ impl SegmentIntegrals {
 /// Wave speeds and elastic constants of the kernel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WaveConstants {
-    /// c₁, c₂.
+    /// Wave speeds c₁ and c₂, m/s.
     pub(super) speeds: [f64; 2],
-    /// λ/μ.
+    /// Ratio λ/μ.
     pub(super) lame_ratio: f64,
 }
 
-/// Front of a wave at one end of the element.
+/// Functions of one wave at one end of the element.
 #[derive(Clone, Copy)]
 struct Front {
     /// Whether the wave has passed the point of the element's line nearest to the load.
     is_present: bool,
     /// Whether the wave has passed this end.
     is_past_end: bool,
-    /// T.
+    /// Travel T of the wave.
     travel: f64,
-    /// R.
+    /// Root R.
     root: f64,
-    /// arcosh(T/r).
+    /// Logarithm arcosh(T/r).
     logarithm: f64,
-    /// asin(s/√(T²−h²)).
+    /// Angle asin(s/√(T²−h²)).
     arc: f64,
-    /// A.
+    /// Angle A.
     angle: f64,
 }
 
@@ -103,18 +103,18 @@ impl Front {
     }
 }
 
-/// Number of terms of the series of (y − atan y)/y³.
-///
-/// The error is 1e-17 at y = ½.
+/// Largest |y| for which (y − atan y)/y³ is computed by its series, without cancellation.
+const MAX_DEFECT_SERIES_ARGUMENT: f64 = 0.5;
+/// Number of terms of this series, with an error of 1e-17 at y = ½.
 const DEFECT_TERM_COUNT: u32 = 26;
 
-/// (y − atan y)/y³.
+/// Function (y − atan y)/y³.
 fn arctangent_defect(y: f64) -> f64 {
-    if y.abs() > 0.5 {
+    if y.abs() > MAX_DEFECT_SERIES_ARGUMENT {
         return (y - y.atan()) / (y * y * y);
     }
     let square = y * y;
-    // Σ (−y²)^k/(2k+3).
+    // The series Σ (−y²)^k/(2k+3).
     (0..DEFECT_TERM_COUNT)
         .rev()
         .fold(0.0, |sum, k| 1.0 / f64::from(2 * k + 3) - square * sum)
@@ -125,7 +125,7 @@ fn wave_difference(slowness_squared: [f64; 2], values: [f64; 2]) -> f64 {
     slowness_squared[0] * values[0] - slowness_squared[1] * values[1]
 }
 
-/// `pole`, and (`pole` + s D)/2h.
+/// Values of `pole` and of (`pole` + s D)/2h at one end.
 fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f64) -> [f64; 2] {
     let p = &fronts[0];
     let q = &fronts[1];
@@ -168,7 +168,7 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
     [square * (x - cubic), half_sum]
 }
 
-/// D at one end.
+/// Value of D at one end.
 fn end_value(fronts: &[Front; 2], slowness_squared: [f64; 2], r: f64) -> f64 {
     match (fronts[0].is_past_end, fronts[1].is_past_end) {
         (true, true) => {
@@ -241,7 +241,7 @@ fn primitive(waves: &WaveConstants, s: f64, h: f64, time: f64) -> SegmentIntegra
 
 /// Integrals over s from `ends[0]` to `ends[1]` at signed height `h`, `time` after the load began.
 ///
-/// They are principal values where the load lies on the element (h = 0).
+/// The integrals are principal values if the load is on the element (h = 0).
 pub(super) fn step_integrals(
     waves: &WaveConstants,
     ends: [f64; 2],

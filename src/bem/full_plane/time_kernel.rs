@@ -44,7 +44,10 @@ pub struct TimeKernel {
     subelements: Option<SubelementRule>,
 }
 
-/// Gauss rule of equal sub-elements.
+/// Largest number of Gauss points of a sub-element.
+const MAX_SUBELEMENT_POINTS: usize = 8;
+
+/// Gauss rule on each of the equal sub-elements of an element.
 #[derive(Debug, Clone, Copy)]
 struct SubelementRule {
     /// Number of sub-elements.
@@ -75,8 +78,8 @@ impl TimeKernel {
 
     /// Replaces exact integrals in space by midpoint rules over `count` sub-elements.
     ///
-    /// The paper takes five sub-elements and does not name the rule. Sub-elements next to the load remain
-    /// exact. Use this for comparison only: it is slower and less accurate.
+    /// The paper has five sub-elements and does not name the rule. Integrals over sub-elements next to the load remain
+    /// exact. Use this rule for comparison only: it is slower and less accurate.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for 0.
@@ -91,7 +94,7 @@ impl TimeKernel {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for no sub-elements, or a number of points outside 1 to 8.
     pub fn with_gauss_subelements(mut self, count: usize, points: usize) -> Result<Self> {
-        let is_in_range = (1..=8).contains(&points);
+        let is_in_range = (1..=MAX_SUBELEMENT_POINTS).contains(&points);
         require(
             "number of Gauss points of a sub-element",
             points as f64,
@@ -103,7 +106,7 @@ impl TimeKernel {
         Ok(self)
     }
 
-    /// The soil.
+    /// Soil of the kernel.
     pub fn soil(&self) -> Soil {
         self.soil
     }
@@ -200,8 +203,8 @@ impl BoundaryKernel for TimeKernel {
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
         let layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len());
-        same_length("displacement coefficients", g.len(), layout.square())?;
-        same_length("traction coefficients", h.len(), layout.square())?;
+        same_length("displacement coefficients", g.len(), layout.matrix_len())?;
+        same_length("traction coefficients", h.len(), layout.matrix_len())?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
         let traction_unit = unit * self.soil.shear_modulus();
         let free_term = if lag == 0 { 0.5 } else { 0.0 };

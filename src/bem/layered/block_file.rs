@@ -13,7 +13,7 @@ use crate::text::file::write_file;
 pub(crate) const FIRST_BLOCK_LAGS: usize = 128;
 /// Largest number of blocks: lags up to 2³¹.
 pub(crate) const MAX_BLOCK_COUNT: usize = 25;
-/// Number of points of the circle per N, for lags N+1 … 2N; the first block has 2N points.
+/// Number of points of the circle for each lag of a block N+1 … 2N; the first block has half as many.
 const POINTS_PER_LAG: usize = 4;
 
 /// Weights of consecutive lags, for all classes.
@@ -68,10 +68,9 @@ impl LagBlock {
 /// First word of a kernel file.
 const FILE_MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
 
-/// Version of the rule by which contours are sampled.
+/// Version of the format, and of the rule by which circles are sampled.
 ///
-/// 1: every point of the circles; 2: panels; 3: panels divided by powers of z; 4: only panels predicted as resolved; 5:
-/// integrals more accurate than the weights; 6: also in plan.
+/// A change that changes the bits of weights must increase it.
 const FILE_FORMAT: u64 = 6;
 
 /// Number of words before the weights.
@@ -154,7 +153,7 @@ fn read_contents(
     Ok(divide_into_blocks(&mut numbers, block_count, component_count * class_count))
 }
 
-/// Blocks from all weights of a file, with `function_count` lists of lags in each block.
+/// Divides all weights of a file into blocks, with `function_count` lists of lags in each.
 fn divide_into_blocks(
     numbers: &mut impl Iterator<Item = f64>,
     block_count: usize,

@@ -24,7 +24,7 @@ use super::block_file::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
 use super::block_file::{read, write};
 use crate::error::{Error, ProgressReporter, Result, require, same_length};
 
-/// Time between two attempts to lock the store: short relative to the computation of a block.
+/// Time between two attempts to lock the store; it is short beside the computation of a block.
 const LOCK_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Computed blocks of convolution weights, and their file.

@@ -36,7 +36,7 @@ use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Tolerance of the integrals relative to the weights': integration errors must not cause halving of panels.
+/// Tolerance of the integrals relative to that of the weights, so that integration errors do not halve panels.
 pub(crate) const INTEGRAL_TOLERANCE_FACTOR: f64 = 0.03;
 /// Multiple of the tolerance to which a panel must be predicted as resolved to be sampled.
 ///
@@ -61,7 +61,7 @@ impl<'w, 'a> SampleProgress<'w, 'a> {
         Self { reporter, expected_range, computed_count: 0 }
     }
 
-    /// Reports `additional_count` samples in addition to the computed samples.
+    /// Reports the computed samples and `additional_count` further samples.
     fn reach(&mut self, additional_count: usize) -> Result<()> {
         let count = self.expected_range.start + self.computed_count + additional_count;
         self.reporter.reach(count.min(self.expected_range.end))
@@ -73,7 +73,7 @@ impl<'w, 'a> SampleProgress<'w, 'a> {
     }
 }
 
-/// Convolution quadrature: all data on which the weights depend.
+/// Convolution quadrature of a layered ground: all data on which its weights depend.
 #[derive(Debug)]
 pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> {
     pub(crate) profile: SoilProfile,
@@ -106,7 +106,7 @@ impl Quadrature {
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
-    /// Quadrature for any `integrals`.
+    /// Creates a quadrature for any `integrals`.
     ///
     /// `self_pairs` has, for each class, the classes of the pairs of its two elements with themselves.
     pub(crate) fn over(
@@ -140,7 +140,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         Ok(())
     }
 
-    /// Eigenvalues and weights at a z; `log_z`: ln |z| and angle.
+    /// Eigenvalues of Δ(z) and their weights; `log_z`: ln |z| and angle.
     pub(crate) fn nodes(&self, log_z: [f64; 2]) -> impl Iterator<Item = Node> {
         let CirclePoint { z, one_less_z } = on_circle(log_z[0], log_z[1]);
         self.stages.nodes(z, one_less_z)
@@ -186,7 +186,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             .map(|point| on_circle(log_radius, circle.angle(point)).one_less_z.inverse())
             .collect();
         let transform = RealPlanner::new().plan_fft_inverse(point_count);
-        // r⁻ⁿ/L.
+        // Factor r⁻ⁿ/L of each lag.
         let scales: Vec<_> = (first_index..first_index + lag_count)
             .map(|n| (-log_radius * n as f64).exp() / point_count as f64)
             .collect();
@@ -200,7 +200,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             for (input, (value, factor)) in input.iter_mut().zip(row.iter().zip(&transform_factors))
             {
                 // The exponent of the transform has the opposite sign.
-                *input = (*value * *factor).conj().inner();
+                *input = (*value * *factor).conj().to_complex64();
             }
             // The values at both ends of the half circle are real.
             input[0].im = 0.0;

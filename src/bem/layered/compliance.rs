@@ -45,13 +45,14 @@ pub(crate) struct SurfaceCompliance {
     pub(crate) xz: Complex,
 }
 
-/// Layer with its moduli at one Laplace variable.
+/// Layer with its shear modulus μ(s), q₁, q₂ and a² at one Laplace variable.
 #[derive(Debug, Clone, Copy)]
 struct LaplaceLayer {
     modulus: Complex,
     q1: Complex,
     q2: Complex,
     a2: f64,
+    /// Thickness, m; infinite for a half-plane.
     thickness: f64,
 }
 
@@ -73,9 +74,9 @@ pub(crate) struct LayeredCompliance {
     roots: Vec<[Complex; 2]>,
 }
 
-/// Largest |β|h of a thin layer: its power series converges in few terms.
+/// Largest |β|h of a thin layer, whose power series converges in few terms.
 const THIN_LAYER_PHASE: f64 = 0.2;
-/// Magnitude of the last term of the power series, relative to the first: below rounding.
+/// Magnitude of a term of the power series, relative to the first, below which the series ends: below rounding.
 const SERIES_TOLERANCE: f64 = 1e-18;
 
 impl LaplaceLayer {
@@ -135,7 +136,7 @@ struct PlaneState {
     stress: Square,
 }
 
-/// Depth, in decay lengths, below which reflections do not affect the surface: e^(−2·21) is 6e-19.
+/// Depth, in decay lengths, below which reflections do not affect the surface, because e^(−2·21) is 6e-19.
 const OPAQUE_DECAY_EXPONENT: f64 = 21.0;
 
 impl LayeredCompliance {
@@ -269,18 +270,18 @@ impl LayeredCompliance {
     }
 }
 
-/// Largest |x| for which 1 − e^(−x) is a sum of its series: twelve terms are exact to rounding.
+/// Largest |x| for which 1 − e^(−x) is computed by its series, of which thirteen terms are exact to rounding.
 const EXPONENTIAL_SERIES_LIMIT: f64 = 0.3;
 /// Largest power of x in this series.
 const EXPONENTIAL_SERIES_DEGREE: u32 = 13;
-/// Square of the largest |x| for which φ₁(x) = (eˣ − 1)/x is a sum of its series: nine terms are exact to rounding.
+/// Square of the largest |x| for which φ₁(x) = (eˣ − 1)/x is computed by its series, which is exact to rounding.
 const PHI_SERIES_LIMIT_SQUARED: f64 = 0.01;
-/// Largest power of x in this series.
-const PHI_SERIES_DEGREE: u32 = 10;
+/// Number of terms of this series.
+const PHI_SERIES_TERM_COUNT: u32 = 10;
 
-/// 1 − e^(−x) for Re x ≥ 0.
+/// Difference 1 − e^(−x) for Re x ≥ 0, without cancellation.
 fn one_less_exponential(x: Complex) -> Complex {
-    if x.square() > EXPONENTIAL_SERIES_LIMIT * EXPONENTIAL_SERIES_LIMIT {
+    if x.squared_modulus() > EXPONENTIAL_SERIES_LIMIT * EXPONENTIAL_SERIES_LIMIT {
         return Complex::real(1.0) - (-x).exp();
     }
     let exponents = (2..=EXPONENTIAL_SERIES_DEGREE).rev().map(f64::from);
@@ -288,11 +289,11 @@ fn one_less_exponential(x: Complex) -> Complex {
     x * exponents.fold(one, |sum, n| one - (x * sum).scale(1.0 / n))
 }
 
-/// Down-going and up-going waves of a layer.
+/// Down-going and up-going waves of a layer with the roots α and β.
 struct LayerWaves {
     alpha: Complex,
     beta: Complex,
-    /// β − α.
+    /// Difference β − α, 1/m.
     root_difference: Complex,
     /// U and T of the down-going waves at the top of the layer.
     down: PlaneState,
@@ -351,13 +352,13 @@ impl LayerWaves {
     fn transfer(&self, h: f64) -> Transfer {
         let pressure = self.alpha.scale(-h).exp();
         let x = self.root_difference.scale(-h);
-        if x.square() > PHI_SERIES_LIMIT_SQUARED {
+        if x.squared_modulus() > PHI_SERIES_LIMIT_SQUARED {
             let shear = self.beta.scale(-h).exp();
             return Transfer { pressure, shear, mixed: (pressure - shear) / self.root_difference };
         }
         // e^(−βh) = e^(−αh) eˣ, with eˣ from the series of φ₁(x) = (eˣ − 1)/x.
         let mut phi = Complex::real(1.0);
-        for n in (2..=PHI_SERIES_DEGREE).rev() {
+        for n in (2..=PHI_SERIES_TERM_COUNT).rev() {
             phi = Complex::real(1.0) + (phi * x).scale(1.0 / f64::from(n));
         }
         let shear = pressure * (Complex::real(1.0) + x * phi);
@@ -367,11 +368,11 @@ impl LayerWaves {
 
 /// Transfer matrix Λ of a layer's waves.
 struct Transfer {
-    /// e^(−αh).
+    /// Decay e^(−αh).
     pressure: Complex,
-    /// e^(−βh).
+    /// Decay e^(−βh).
     shear: Complex,
-    /// g.
+    /// Entry g, m.
     mixed: Complex,
 }
 

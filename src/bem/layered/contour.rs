@@ -27,7 +27,7 @@ use crate::linalg::Complex;
 
 /// Number of Chebyshev points of a panel.
 pub(crate) const CHEBYSHEV_POINTS: usize = 24;
-/// Number of halvings of θ = 0 … π for the first panels.
+/// Number of halvings of θ = 0 … π that yield the widest panels.
 const COARSEST_DEPTH: u32 = 2;
 /// −ln |z| of a panel, divided by its width.
 pub(super) const PANEL_OFFSET_RATIO: f64 = 1.0 / 20.0;
@@ -68,7 +68,7 @@ impl Circle {
     }
 }
 
-/// Factor of a panel's function in an eigenvalue's contribution to the mobility.
+/// Factor by which the contribution of an eigenvalue is divided before it is interpolated on a panel.
 ///
 /// `log_z`: ln |z| and angle.
 pub(crate) fn panel_factor(node: usize, log_z: [f64; 2]) -> Complex {

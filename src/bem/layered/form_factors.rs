@@ -17,19 +17,19 @@ use crate::linalg::gauss::Rule;
 
 /// Number of Gauss points of a panel.
 pub(crate) const PANEL_POINTS: usize = 16;
-/// Number of Legendre coefficients of the form factors on a panel: J₃₂(8) is 7e-17.
+/// Number of Legendre coefficients of the form factors on a panel; the next one is about J₃₂(8) = 7e-17.
 pub(crate) const LEGENDRE_DEGREES: usize = 32;
-/// Phase change of the fastest form factor over a panel, rad: 16 Gauss points resolve it to rounding.
+/// Phase change of the fastest form factor over a panel, rad, which 16 Gauss points resolve to rounding.
 const PANEL_PHASE: f64 = 16.0;
 /// Number of pairs in one block, summed by vector instructions.
 pub(crate) const PAIR_LANES: usize = 4;
-/// Number of panel widths, each twice the width before: they reach the largest number of panels.
+/// Number of panel widths, each twice the previous one.
 pub(crate) const PANEL_LEVEL_COUNT: usize = 14;
 /// Largest memory for tables at Gauss points, bytes; panels beyond it are computed at each use.
 const MAX_TABLE_BYTES: usize = 256 << 20;
 /// Largest number of stored narrow panels.
 const MAX_STORED_PANELS: usize = 1 << 14;
-/// Largest number of stored panels with Legendre coefficients: few panels are halved.
+/// Largest number of stored panels with Legendre coefficients, which only few panels need.
 const MAX_STORED_LEGENDRE_PANELS: usize = 1 << 12;
 /// Largest number of narrow panels of one integral that stored wide panels cover.
 const MAX_COVERED_PANELS: usize = 1 << 17;
@@ -148,6 +148,8 @@ impl FormFactors {
             .collect();
         let block_count = shapes.len().div_ceil(PAIR_LANES);
         let table_bytes = (block_count * PANEL_POINTS * size_of::<FormRow>()).max(1);
+        // Tables of Legendre coefficients are twice as long, and may take half of the memory; tables of each wide level
+        // may take an eighth.
         let max_tables = MAX_TABLE_BYTES / table_bytes;
         Self {
             width: PANEL_PHASE / classes.span(),
@@ -364,7 +366,7 @@ const LEGENDRE_RECURRENCE: [[f64; 2]; LEGENDRE_DEGREES] = {
 
 /// Adds Σ coefficient × row to the sums of all pairs.
 ///
-/// With many pairs, nearly all computing time is spent here.
+/// With many pairs, this function takes nearly all computing time.
 pub(crate) fn accumulate(rows: &[FormRow], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
     for (block_rows, block_sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
         // A local copy stays in registers.

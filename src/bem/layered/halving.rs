@@ -16,9 +16,9 @@ pub(crate) const ROUNDING_FLOOR_FACTOR: f64 = 3e-14;
 /// 16 points integrate products up to degree 31 exactly, so that the error is about the power 3/2 to 5/3 of the
 /// neglected coefficients.
 pub(crate) const PANEL_TOLERANCE_EXPONENT: f64 = 2.0 / 3.0;
-/// Largest number of successive halvings of a panel: narrower parts are below rounding of the wavenumber.
+/// Largest number of successive halvings of a panel; the width of narrower parts is a rounding error of the wavenumber.
 const MAX_HALVING_DEPTH: u32 = 44;
-/// Largest number of halves of one integral: halving must end if rounding exceeds [`ROUNDING_FLOOR_FACTOR`].
+/// Largest number of halves of one integral, so that halving ends if rounding exceeds [`ROUNDING_FLOOR_FACTOR`].
 const MAX_HALVES: usize = 1 << 16;
 
 /// Halves a panel until C is resolved on every part.
@@ -58,7 +58,9 @@ pub(crate) fn by_halves<S>(
     Ok(())
 }
 
-/// Median of the samples' magnitudes, for the integral's magnitude: a single sample near a pole does not represent it.
+/// Median of the samples' magnitudes, from which the integral's magnitude is estimated.
+///
+/// The largest sample would not represent the integral if it is near a pole.
 pub(crate) fn median(mut magnitudes: [f64; PANEL_POINTS]) -> f64 {
     *magnitudes.select_nth_unstable_by(PANEL_POINTS / 2, f64::total_cmp).1
 }

@@ -71,17 +71,17 @@ pub enum StripContact {
     Relaxed,
 }
 
-/// Relative tolerance of the element compliances: far below the discretisation error.
+/// Relative tolerance of the element compliances, far below the discretisation error.
 const COMPLIANCE_TOLERANCE: f64 = 1e-9;
-/// Largest Im μ/|μ| of an undamped layer: poles are then too close to the path.
+/// Largest Im μ/|μ| of an undamped layer, whose poles are too close to the path of the integrals.
 const UNDAMPED_LOSS_RATIO: f64 = 1e-6;
-/// Number of points of the extrapolation for a frequency.
+/// Number of points of the extrapolation for a frequency, with which it has engineering accuracy.
 const POINTS_PER_FREQUENCY: usize = 8;
 /// Largest distance between these points, relative to ω, for an accurate extrapolation.
 const MAX_SPACING_PER_FREQUENCY: f64 = 0.04;
 /// Largest distance between these points, times the travel time of waves, for an accurate extrapolation.
 const MAX_SPACING_BY_TRAVEL_TIME: f64 = 0.1;
-/// Largest relative difference between the extrapolations from 8 and from 7 points: engineering accuracy.
+/// Largest relative difference between the extrapolations from 8 and from 7 points, for engineering accuracy.
 const EXTRAPOLATION_TOLERANCE: f64 = 1e-3;
 
 /// Reporter of progress for impedances at `frequencies`: it counts Laplace variables, eight per frequency.
@@ -124,7 +124,7 @@ pub(in crate::bem) fn strip_impedances(
 
 /// Laplace variables at which the stiffness is evaluated for a `frequency` (Hz) and elements over `span` (m).
 ///
-/// The only variable is iω; with undamped layers, [`POINTS_PER_FREQUENCY`] points next to iω.
+/// With damped layers the only variable is iω; with undamped layers there are [`POINTS_PER_FREQUENCY`] points next to iω.
 pub(in crate::bem) fn laplace_variables(
     profile: &SoilProfile,
     span: f64,
@@ -145,7 +145,7 @@ pub(in crate::bem) fn laplace_variables(
     Ok((1..=POINTS_PER_FREQUENCY).map(|j| Complex::new(spacing * j as f64, omega)).collect())
 }
 
-/// K(iω) of each frequency from its samples at the [`laplace_variables`] of the frequency.
+/// Stiffness K(iω) of each frequency from its samples at the [`laplace_variables`] of the frequency.
 ///
 /// `stiffness` returns a sample; each is reported to `progress`. The entries in `checked_entries` must agree between the
 /// extrapolations from all samples and from all but the last.
@@ -173,7 +173,7 @@ pub(in crate::bem) fn extrapolated_stiffnesses<const N: usize>(
     Ok(stiffnesses)
 }
 
-/// K(iω) at one frequency, extrapolated from its samples.
+/// Stiffness K(iω) at one frequency, extrapolated from its samples.
 fn extrapolate<const N: usize>(
     samples: &[[Complex; N]],
     checked_entries: &[usize],

@@ -13,7 +13,7 @@ use crate::linalg::{Complex, Simd, WithSimd, vectorized};
 
 /// Number of points of a circle in one evaluation by vector instructions.
 const POINT_LANES: usize = 32;
-/// Approximate number of values between two calls of `report`: a hundredth of a second.
+/// Approximate number of values between two calls of `report`, computed in about a hundredth of a second.
 const VALUES_PER_REPORT: usize = 1 << 18;
 
 /// Chebyshev polynomials of all degrees at several points.
@@ -45,7 +45,7 @@ pub(super) fn evaluate(
     let PanelPolynomials { coefficients, phase } = polynomials;
     let function_count = coefficients.len() / CHEBYSHEV_POINTS;
     let points = panel.points_of(circle);
-    // Imaginary part of the panel's coordinate on the circle: polynomials are converted to the circle.
+    // On the circle, the coordinate of the panel has this imaginary part. The polynomials are converted to the circle.
     let shift = -(circle.log_radius + PANEL_OFFSET_RATIO * panel.width()) / (0.5 * panel.width());
     let mut values_on_circle = vec![Complex::default(); coefficients.len()];
     for (x, values) in nodes().zip(values_on_circle.chunks_exact_mut(function_count)) {
@@ -105,7 +105,7 @@ struct AddToSpectra<'a> {
 impl WithSimd for AddToSpectra<'_> {
     type Output = ();
 
-    // Plain loops: each multiplication and each addition is rounded in the same way on any processor.
+    // The loops have no fused operations, so that the results have the same bits on any processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { coefficients, chebyshev_values, factors, spectra, row_length, point_range } =

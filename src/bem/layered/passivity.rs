@@ -1,4 +1,4 @@
-//! Passivity check: convolution weights of a layered ground must not create energy.
+//! Check that the convolution weights of a layered ground create no energy.
 
 use basemat_fourier::num_complex::Complex64;
 
@@ -12,10 +12,10 @@ use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle of the passivity check: close to the unit circle, but with a smooth mobility.
 pub(crate) const CHECK_RADIUS: f64 = 0.99;
-/// Largest number of threads: each needs memory for two matrices of all pairs.
+/// Largest number of threads, each of which needs memory for two matrices of all pairs.
 const MAX_CHECK_THREADS: usize = 8;
 
-/// ln |z| and angle of `count` points on the upper half of the circle.
+/// Points of the check: ln |z| and angle of `count` points on the upper half of the circle.
 pub(crate) fn check_points(count: usize) -> impl Iterator<Item = [f64; 2]> {
     (0..count).map(move |point| {
         let angle = std::f64::consts::PI * (point as f64 + 0.5) / count as f64;
@@ -88,7 +88,7 @@ pub(crate) fn margin<const KINDS: usize>(
 
 /// Absolute mobility of an element, by class of the pair with itself and component; above zero.
 fn self_mobility<const KINDS: usize>(values: &[[Complex; KINDS]]) -> impl Fn(usize, usize) -> f64 {
-    |class, component| values[class][component].inner().norm().max(f64::MIN_POSITIVE)
+    |class, component| values[class][component].to_complex64().norm().max(f64::MIN_POSITIVE)
 }
 
 /// Real parts of the components.
@@ -101,8 +101,8 @@ pub(crate) fn assembled<const KINDS: usize>(
     classes: &PairClasses,
     values: &[[Complex; KINDS]],
 ) -> Vec<Complex64> {
-    let mut matrix = vec![Complex64::default(); classes.layout().square()];
-    classes.scatter(&mut matrix, |_, pair| values[pair.class].map(Complex::inner));
+    let mut matrix = vec![Complex64::default(); classes.layout().matrix_len()];
+    classes.scatter(&mut matrix, |_, pair| values[pair.class].map(Complex::to_complex64));
     matrix
 }
 

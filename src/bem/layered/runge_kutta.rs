@@ -11,14 +11,14 @@ use crate::error::{Error, Result};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Frequency of the reflections in [`Stages::for_profile`], Hz: a high frequency of strong motion.
+/// Frequency of the reflections in [`Stages::for_profile`], Hz, a high frequency of strong motion.
 const REFLECTION_FREQUENCY: f64 = 15.0;
-/// Largest phase error of these reflections with two stages, rad: far below errors of soil parameters.
+/// Largest phase error of these reflections with two stages, rad, far below the effect of errors in soil parameters.
 const MAX_PHASE_ERROR: f64 = 1e-3;
 
-/// Largest number of Aberth iterations, far above the number to converge: the loop must end.
+/// Largest number of Aberth iterations, far above the number in which they converge.
 const MAX_ROOT_ITERATIONS: usize = 60;
-/// Square of the relative change of roots at which the iteration ends: rounding.
+/// Square of the relative change of roots below which the iteration ends, a rounding error.
 const ROOT_TOLERANCE_SQUARED: f64 = 1e-31;
 
 /// Number of stages of the Runge–Kutta method for a ground in the time domain.
@@ -36,17 +36,17 @@ pub enum Stages {
 /// Eigenvalue of Δ(z) with its weight, a node of the quadrature.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Node {
-    /// λⱼ.
+    /// Eigenvalue λⱼ.
     pub(crate) lambda: Complex,
-    /// wⱼ λⱼ.
+    /// Weight times eigenvalue, wⱼ λⱼ.
     pub(crate) weight: Complex,
 }
 
 impl Stages {
-    /// Method by its number of stages.
+    /// Method with this number of stages.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is 2 or 3.
+    /// [`Error::Input`] unless the number is 2 or 3.
     pub fn from_count(count: usize) -> Result<Self> {
         match count {
             2 => Ok(Self::Two),
@@ -61,8 +61,8 @@ impl Stages {
 
     /// Selects two stages if they are accurate enough for `profile` and `time_step`, else three.
     ///
-    /// Two stages are enough if the phase error of reflections at 15 Hz is below 10⁻³ rad on the path down through the
-    /// layers and back: n (ωΔt)⁴/72 < 10⁻³ for a travel time of n steps.
+    /// Two stages are sufficient if the phase error of reflections at 15 Hz is below 10⁻³ rad on the path down through
+    /// the layers and back: n (ωΔt)⁴/72 < 10⁻³ for a travel time of n steps.
     pub fn for_profile(profile: &SoilProfile, time_step: f64) -> Self {
         let step_phase = std::f64::consts::TAU * REFLECTION_FREQUENCY * time_step;
         let phase_error = 2.0 * profile.travel_time() / time_step * step_phase.powi(4) / 72.0;
@@ -97,7 +97,7 @@ impl Stages {
         for index in 0..2 {
             let continuous_value =
                 -z.ln() + Complex::new(0.0, std::f64::consts::TAU * index as f64);
-            let distances = roots.map(|root| (root - continuous_value).square());
+            let distances = roots.map(|root| (root - continuous_value).squared_modulus());
             let nearest =
                 (index..self.count()).min_by(|&a, &b| distances[a].total_cmp(&distances[b]));
             roots.swap(index, nearest.unwrap_or(index));
@@ -117,8 +117,11 @@ impl Stages {
         let root = (z * z + z.scale(10.0) - Complex::real(2.0)).sqrt();
         let first_root = middle + root;
         let second_root = middle - root;
-        let larger_root =
-            if first_root.square() >= second_root.square() { first_root } else { second_root };
+        let larger_root = if first_root.squared_modulus() >= second_root.squared_modulus() {
+            first_root
+        } else {
+            second_root
+        };
         [larger_root, one_less_z.scale(6.0) / larger_root, Complex::default()]
     }
 
@@ -138,7 +141,7 @@ impl Stages {
                 let x = roots[i];
                 let value = ((x + c2) * x + c1) * x + c0;
                 let derivative = (x.scale(3.0) + c2.scale(2.0)) * x + c1;
-                if value.square() == 0.0 {
+                if value.squared_modulus() == 0.0 {
                     continue;
                 }
                 let newton_term = derivative / value;
@@ -149,8 +152,8 @@ impl Stages {
                 let correction = (newton_term - repulsion).inverse();
                 if correction.is_finite() {
                     roots[i] = roots[i] - correction;
-                    max_relative_change =
-                        max_relative_change.max(correction.square() / roots[i].square());
+                    max_relative_change = max_relative_change
+                        .max(correction.squared_modulus() / roots[i].squared_modulus());
                 }
             }
             if max_relative_change < ROOT_TOLERANCE_SQUARED {
@@ -298,7 +301,7 @@ mod tests {
             let CirclePoint { z, one_less_z } = on_circle(0.0, theta);
             let smallest = stages
                 .nodes(z, one_less_z)
-                .min_by(|a, b| a.lambda.square().total_cmp(&b.lambda.square()))
+                .min_by(|a, b| a.lambda.squared_modulus().total_cmp(&b.lambda.squared_modulus()))
                 .unwrap();
             let error = (smallest.lambda - Complex::new(0.0, -theta)).abs();
             assert!(

@@ -18,9 +18,9 @@ use crate::linalg::Complex;
 use crate::linalg::gauss;
 use crate::soil::SoilProfile;
 
-/// Relative tolerance of the integrals: static compliances are computed once.
+/// Relative tolerance of the integrals, which is small because static compliances are computed only once.
 const STATIC_TOLERANCE: f64 = 1e-11;
-/// Decay exponent ka at the end of the panels: e^(−40) is 4e-18.
+/// Decay exponent ka at the end of the panels, where e^(−40) is 4e-18.
 const STATIC_DECAY_EXPONENT: f64 = 40.0;
 /// Datum L₀ relative to the span of the elements; well above one, so that the matrix is positive definite.
 const DATUM_LENGTH_RATIO: f64 = 10.0;
@@ -39,7 +39,7 @@ pub(in crate::bem) fn static_compliance(
     elements: &[ContactElement],
     matrix: &mut [f64],
 ) -> Result<()> {
-    let entry_count = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
+    let entry_count = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).matrix_len();
     same_length("static compliance", matrix.len(), entry_count)?;
     let classes = PairClasses::new(elements.to_vec())?;
     let values = pair_compliances(profile, &classes)?;
@@ -53,9 +53,9 @@ pub(in crate::bem) fn static_compliance(
 /// Compliances of the half-plane below at large distances, times k.
 #[derive(Clone, Copy)]
 struct FarField {
-    /// (1 − ν)/μ, 1/Pa.
+    /// Factor (1 − ν)/μ of xx and zz, 1/Pa.
     diagonal: f64,
-    /// (1 − 2ν)/2μ, 1/Pa.
+    /// Factor (1 − 2ν)/2μ of xz, 1/Pa.
     coupling: f64,
 }
 

@@ -18,11 +18,11 @@ use std::sync::OnceLock;
 use super::form_factors::{FormFactors, FormRow, PAIR_LANES};
 use crate::linalg::Complex;
 
-/// Number of terms of the series: for |x| ≤ 1/16 the last is below rounding.
+/// Number of terms of the series, of which the last is below rounding for |x| ≤ 1/16.
 pub(crate) const TAIL_TERMS: usize = 16;
-/// Number of terms of products of series: the first terms of some products are zero.
+/// Number of terms of products of series, because the first terms of some products are zero.
 const PRODUCT_TERMS: usize = TAIL_TERMS + 2;
-/// Smallest K of the tail, relative to |√q₂|: the series then converges fast.
+/// Smallest K of the tail, relative to |√q₂|, for which the series converges fast.
 pub(crate) const TAIL_START_RATIO: f64 = 4.0;
 
 /// Coefficients dⱼ of the series of xx, zz and xz for a² = (`c_S`/`c_P`)².
@@ -63,7 +63,7 @@ fn series_quotient(numerator: &[f64], denominator: &[f64]) -> [f64; TAIL_TERMS] 
     series
 }
 
-/// Number of different K: eight multiples of each power of two of a 64-bit number.
+/// Number of different rounded numbers of panels: eight multiples of each power of two of a 64-bit number.
 const TAIL_TABLE_COUNT: usize = 8 * 61;
 
 /// Integrals beyond K for all pairs, computed at the first use of each K.
@@ -119,13 +119,13 @@ fn tail_table(forms: &FormFactors, max_k: f64) -> Box<[FormRow]> {
 
 /// Largest m of the integrals `E_m`.
 const MAX_TAIL_ORDER: usize = 2 * TAIL_TERMS + 1;
-/// Number of terms of the series of E₁ for κ < 1: the next term is below rounding.
+/// Number of terms of the series of E₁ for κ < 1, after which the next term is below rounding.
 const E1_SERIES_TERMS: u32 = 20;
-/// Largest number of terms of the continued fraction: the loop must end.
+/// Largest number of terms of the continued fraction, far above the number with which it converges.
 const MAX_FRACTION_TERMS: u32 = 2000;
-/// Relative change at which the continued fraction has converged: rounding.
+/// Relative change below which the continued fraction has converged, a rounding error.
 const FRACTION_TOLERANCE: f64 = 1e-16;
-/// Start of the numerators' ratio in Lentz's method, for infinity.
+/// Start of the numerators' ratio in Lentz's method, in place of infinity.
 const LENTZ_START: f64 = 1e300;
 
 /// Euler's constant γ.

@@ -20,13 +20,13 @@ use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Depth, in decay lengths, at which the bottom of the top layer does not affect the surface: e^(−2·20) is 4e-18.
+/// Depth, in decay lengths, at which the bottom of the top layer does not affect the surface, as e^(−2·20) is 4e-18.
 const OPAQUE_DECAY_LENGTHS: f64 = 20.0;
-/// Smallest K × shortest element for which the second differences of the tail are accurate.
+/// Smallest product of K and the shortest element for which the second differences of the tail are accurate.
 pub(super) const MIN_TAIL_PHASE: f64 = 0.05;
-/// Largest number of panels of one integral, to limit computing time and memory.
+/// Largest number of panels of one integral, which limits computing time and memory.
 const MAX_PANEL_COUNT: f64 = 65_536.0;
-/// Largest number of panels required by short elements: their errors are small relative to longer elements.
+/// Largest number of panels required by short elements, whose errors are small beside the compliance of longer ones.
 const MAX_PANELS_FOR_SHORT_ELEMENTS: f64 = 100.0;
 
 /// Lengths of a patch that determine the surrogate of its compliances, m.
@@ -138,6 +138,7 @@ pub(crate) struct StripWorkspace {
 pub(super) struct IntegralBuffers {
     /// C at the points of the widest panels.
     pub(super) samples: Vec<(Panel, [SurfaceCompliance; PANEL_POINTS])>,
+    /// Integrals so far, block by block of pairs.
     sums: Vec<Sums>,
     /// Stack of panels to be sampled.
     pub(super) panel_stack: Vec<Panel>,

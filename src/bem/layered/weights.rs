@@ -112,7 +112,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         let last = block_index(last_lag.max(1))?;
         let missing = self.blocks.missing(0..last + 1);
         self.check_memory(&missing)?;
-        // Upper limits: with panels of the circle, a long block needs far fewer samples.
+        // The numbers are upper limits: with panels of the circle, a long block needs far fewer samples.
         let mut sample_counts = vec![0; last + 1];
         for index in missing {
             sample_counts[index] = self.quadrature.max_samples(index);

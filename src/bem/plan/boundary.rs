@@ -1,16 +1,16 @@
 //! Boundary of a mat: the closed lines around the union of its faces.
 //!
 //! Edges that two faces share cancel, also if corners of one face divide the edge of the other. Corners on straight lines
-//! are dropped. The lines therefore depend on the outline alone, and not on the division into faces.
+//! are removed. The lines therefore depend only on the outline, and not on the division into faces.
 
 use std::collections::HashMap;
 
 use super::faces::{MatFace, side};
 use super::points::{Point, PointIndex, without_pairs};
 
-/// Largest distance by which sharp corners move, relative to the distance of their edges: longer tips are cut off.
+/// Largest shift of a corner relative to the shift of its edges; sharper corners are cut off at this distance.
 const MAX_CORNER_SHIFT: f64 = 3.0;
-/// Largest sine of the angle between two edges on one line: rounding of coordinates in files.
+/// Largest sine of the angle between two edges on one line, because coordinates in files are rounded.
 const MAX_STRAIGHT_SINE: f64 = 1e-6;
 
 /// Closed lines with the mat to their left: counter-clockwise around it, clockwise around its holes.
@@ -19,7 +19,7 @@ pub(super) struct MatBoundary {
     pub(super) loops: Vec<Vec<Point>>,
 }
 
-/// Edge that moves outwards, in parallel.
+/// Edge that is shifted outwards, parallel to itself.
 #[derive(Clone, Copy)]
 struct ShiftedEdge {
     /// End before the shift, m.
@@ -33,7 +33,7 @@ struct ShiftedEdge {
 }
 
 impl MatBoundary {
-    /// Boundary of each mat: faces that touch form one.
+    /// Boundary of each mat; faces that touch form one mat.
     pub(super) fn of_mats(faces: &[MatFace]) -> Vec<Self> {
         let face_mats = MatFace::mats(faces);
         let mat_count = face_mats.iter().max().map_or(0, |last| last + 1);
@@ -118,9 +118,9 @@ impl ShiftedEdge {
 
     /// Corners between this edge and the next edge, both shifted outwards.
     ///
-    /// In general it is one corner, where the shifted edges meet. If an edge is too short for this, or the corner too
-    /// sharp, both edges end before they meet. A corner of the mat is then cut off, and edges at a reentrant corner
-    /// cross each other.
+    /// In general there is one corner, where the shifted edges meet. If an edge is too short for this, or the corner too
+    /// sharp, both edges end before they meet. A salient corner is then cut off, and edges at a reentrant corner cross
+    /// each other.
     fn corners_to(&self, next: &Self) -> Vec<Point> {
         let corner = self.end;
         let sine = self.direction[0] * next.direction[1] - self.direction[1] * next.direction[0];
@@ -149,7 +149,7 @@ impl ShiftedEdge {
         }
     }
 
-    /// Largest fraction of an extension that the edge allows; it may lose half its length.
+    /// Largest allowed fraction of an extension, with which the edge loses at most half its length.
     fn allowed_fraction(&self, extension: f64, max_extension: f64) -> f64 {
         let allowed = if extension < 0.0 { 0.5 * self.length } else { max_extension };
         allowed / extension.abs()
@@ -158,7 +158,7 @@ impl ShiftedEdge {
 
 /// Closed lines of these edges.
 ///
-/// If several edges start at a point, a line takes the leftmost turn: it stays along its part of the mat.
+/// If several edges start at a point, the line continues with the leftmost turn, along its part of the mat.
 fn closed_lines(points: &PointIndex, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
     let mut edge_ends: HashMap<usize, Vec<usize>> = HashMap::new();
     for &[start, end] in &edges {

@@ -13,23 +13,23 @@ use crate::history::PairClasses;
 
 mod areas;
 
-/// Largest relative difference between the areas of mats and of their cells: faces that are wide enough have less.
+/// Largest relative difference between the areas of mats and of their cells; a larger one means that a face is too narrow.
 const MAX_AREA_ERROR: f64 = 0.01;
 /// Upper estimate of the memory for a cell before matrices exist, bytes.
 const BYTES_PER_CELL: f64 = 1000.0;
-/// Relative difference of a cell's sides below which they are equal but for rounding.
+/// Relative difference of a cell's sides below which the difference is a rounding error.
 const EQUAL_SIDES_TOLERANCE: f64 = 1e-12;
-/// Fraction of a union's rectangle outside its cells below which the rest is rounding.
+/// Fraction of a union's rectangle outside its cells below which the fraction is a rounding error.
 const UNION_AREA_TOLERANCE: f64 = 1e-9;
 
 /// Cells of one lattice under one or several mats.
 ///
 /// x points to the right, y away from the reader. Tractions are constant over each cell. Outer cells of a rigid mat
-/// with edges along x and y extend 0.105 of their side beyond its outline: piecewise constant tractions under a rigid
-/// base act like a mat whose edge lies this far inside. The overhang removes at least 0.9 of the error, which is of first
-/// order in the side of a cell. Oblique edges cut cells. The contact element of a cut cell is a rectangle with the area
-/// inside the outline about its centre of area. A spring in series with the soil increases its compliance as the area
-/// decreases.
+/// with edges along x and y extend 0.105 of their side beyond its outline: without this overhang, piecewise constant
+/// tractions under a rigid base act like a mat whose edge is this far inside. The overhang removes at least 0.9 of the
+/// error, which is of first order in the side of a cell. Oblique edges cut cells. The contact element of a cut cell is a
+/// rectangle about the centroid of its area inside the outline, with the same area. A spring in series with the soil
+/// increases its compliance as the area decreases.
 ///
 /// ```
 /// use basemat::bem::plan::Plan;
@@ -73,9 +73,9 @@ impl Plan {
 
     /// Plan under faces, with `cells` along the shorter side of all faces together.
     ///
-    /// A face is a convex polygon, a list of its corners (m) in either order. Faces that share a corner, or have a corner
-    /// on the other's edge, form one mat. Mats are at least one empty cell apart. Cells depend on the outline of the mats
-    /// alone, and not on their division into faces.
+    /// A face is a convex polygon, a list of its corners (m) in either order. Two faces form one mat if a corner of one
+    /// face is on a corner or an edge of the other. Mats must be at least one empty cell apart. Cells depend only on the
+    /// outline of the mats, and not on the division into faces.
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
@@ -160,7 +160,7 @@ impl Plan {
         })
     }
 
-    /// Unites cells to contact elements that are rectangles of cells.
+    /// Combines cells to contact elements that are rectangles of cells.
     ///
     /// `columns` and `rows` are the numbers of columns and rows of cells in each union, from the first column and row to the
     /// last. The ground still computes all cells. Under a rigid mat, unions of 1, 2, 2, 3, 3, 2, 2, 1 of sixteen cells are
@@ -195,7 +195,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Cuts the outermost cells off at the outline.
+    /// Removes the overhang: the outermost cells end at the outline.
     ///
     /// The contact area is then exact, for prescribed pressures and on springs. Under a rigid mat on soil the error is of
     /// first order in the side of a cell. The method has no effect on masks.

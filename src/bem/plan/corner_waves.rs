@@ -35,16 +35,16 @@ const ODD_IN_X_AND_Y: [[bool; 2]; CORNER_WAVE_COUNT] =
 /// Directions of the poles: angle, and its cosine and sine.
 const POLE_DIRECTIONS: [(f64, [f64; 2]); 4] =
     [(0.0, [1.0, 0.0]), (FRAC_PI_2, [0.0, 1.0]), (PI, [-1.0, 0.0]), (-FRAC_PI_2, [0.0, -1.0])];
-/// Half the number of points of the trapezoidal rule on the path.
+/// Half the number of points of the trapezoidal rule on the path, after which terms are below rounding.
 const PATH_HALF_POINTS: usize = 12;
-/// h √(kR) of the trapezoidal rule: the first neglected term and the error are both about 1e-16.
+/// Step h √(kR) of the trapezoidal rule, with which the first neglected term and the error are both about 1e-16.
 const PATH_STEP_FACTOR: f64 = 0.517;
 /// Number of Chebyshev points of a band.
 ///
 /// Amplitudes are singular at k = 0 alone, so that their coefficients decrease like 5.8⁻ⁿ. Forms at k × side = 16 are
 /// below 1e-4 of the forms at k = 0.
 const BAND_NODE_COUNT: usize = 16;
-/// Smallest wavenumber × shorter side of a cell, for an accurate rule.
+/// Smallest product of wavenumber and shorter side of a cell for which the rule is accurate.
 ///
 /// Branch points of the path add an error of e^(−2π√(kR)/[`PATH_STEP_FACTOR`]).
 const MIN_WAVENUMBER_SIDE: f64 = 16.0;
@@ -58,18 +58,18 @@ pub(super) struct CornerWaves {
     distances: Vec<f64>,
     /// Wavenumber at the start of the first band, 1/m.
     first_wavenumber: f64,
-    /// Chebyshev coefficients of the amplitudes on each band.
-    ///
-    /// Degree by degree, wave by wave, real and imaginary parts, all corners.
+    /// Chebyshev coefficients of each band's amplitudes: degree by degree, wave by wave, real and imaginary, all corners.
     bands: Vec<OnceLock<Vec<f64>>>,
 }
 
 /// Buffers of one thread.
 #[derive(Debug, Default)]
 pub(super) struct WaveBuffers {
+    /// Chebyshev polynomials at the wavenumbers, degree by degree.
     polynomials: Vec<f64>,
+    /// Amplitudes at the wavenumbers: wavenumber by wavenumber, as the coefficients of one degree.
     amplitudes: Vec<f64>,
-    /// H k⁴ of a wave at all corners.
+    /// Values H k⁴ of a wave at all corners.
     corner_values: Vec<f64>,
     /// Second differences in x of `corner_values`.
     x_differences: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Faces, convex polygons that form a mat, and the mats of cells.
+//! Faces of mats, which are convex polygons, and the grouping of faces and cells to mats.
 
 use std::collections::HashMap;
 
@@ -6,9 +6,9 @@ use crate::error::{Error, PlanError, Result};
 use crate::geometry::span;
 use crate::linalg::Partition;
 
-/// Largest area that two faces may share, relative to the smaller face: rounding of coordinates in files.
+/// Largest area that two faces may share, relative to the smaller face, because coordinates in files are rounded.
 const OVERLAP_TOLERANCE: f64 = 1e-6;
-/// Distance below which points touch, relative to the longest edge of a face: rounding of coordinates.
+/// Distance below which points touch, relative to the longest edge of a face: above the rounding of coordinates.
 const TOUCH_TOLERANCE_FACTOR: f64 = 1e-9;
 
 /// A convex polygon, counter-clockwise seen from above.
@@ -25,7 +25,7 @@ pub(crate) fn side([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
 }
 
 impl MatFace {
-    /// Face from its corners in either order; `face` is its number for errors.
+    /// Creates a face from its corners in either order; `face` is its index, for errors.
     ///
     /// # Errors
     /// [`Error::Item`] of [`Error::Scene`].
@@ -242,7 +242,7 @@ pub(super) fn sort_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
 mod tests {
     use super::*;
 
-    /// Two mats beside each other, and a third whose rows end between theirs.
+    /// Two mats side by side, and a third mat whose rows end between the rows of the two.
     #[test]
     fn cells_of_a_mat_follow_one_another() {
         let sorted = sort_by_mat(&cells("##.###.#.....##.", 4));

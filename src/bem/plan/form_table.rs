@@ -30,27 +30,27 @@ use crate::linalg::gauss::Rule;
 pub(super) const TAIL_TERMS: usize = 16;
 /// Smallest K relative to |√q₂|, for a fast decay of the series.
 const MIN_K_PER_ROOT: f64 = 2.5;
-/// Largest change of a form's phase over a panel, radians: 16 Gauss points resolve it to rounding.
+/// Largest change of a form's phase over a panel, rad, which 16 Gauss points resolve to rounding.
 const PANEL_PHASE: f64 = 16.0;
-/// Smallest K × shorter side of a cell: at larger wavenumbers static forms are small.
+/// Smallest product of K and the shorter side of a cell, beyond which static forms are small.
 const MIN_K_SIDE: f64 = 8.0;
-/// K* × shorter side of a cell if |√q₂| is 2/side: the error beyond K* is then small.
+/// Product of K* and the shorter side of a cell for |√q₂| = 2/side, with which the error beyond K* is small.
 const TABLE_END_SIDE: f64 = 64.0;
 /// Smallest ratio of K* to |√q₂|, for a fast decay of the series beyond K*.
 const MIN_END_PER_ROOT: f64 = 4.0;
 /// Smallest ratio of K* to the largest K, so that sums beyond K have panels over which to decrease to zero.
 const MIN_END_PER_K: f64 = 1.2;
-/// Number of panels whose forms are computed in parallel before their summation.
+/// Number of panels whose forms are computed in parallel before they are summed; it limits the memory.
 const PANEL_BATCH_SIZE: usize = 32;
-/// Smallest number of panels on which forms are sums over directions: they are faster there than waves from corners.
+/// Smallest number of panels on which forms are sums over directions, which are faster there than waves from corners.
 const DIRECT_PANEL_COUNT: usize = 64;
-/// Largest number of operations for a table and its compliances: a minute or two of computation.
+/// Largest number of operations for a table and its compliances, which take a minute or two.
 const MAX_OPERATIONS: f64 = 3e11;
-/// Operations for a corner's waves at one point, and for the compliances of some 500 Laplace variables there.
+/// Number of operations for the waves of a corner at one wavenumber, with the compliances of some 500 Laplace variables.
 const OPERATIONS_PER_WAVE: f64 = 2e3;
 /// Number of cells whose forms need as much time as the surface compliance.
 const CELLS_PER_SURFACE_COMPLIANCE: f64 = 80.0;
-/// Number of Gauss points for Legendre coefficients of the forms: eight more than coefficients, for their precision.
+/// Number of Gauss points for Legendre coefficients of the forms, eight more than coefficients, so that these are precise.
 const LEGENDRE_POINT_COUNT: usize = LEGENDRE_DEGREES + 8;
 
 /// Rows of forms: form by form, row by row, all classes.
@@ -61,6 +61,7 @@ pub(super) struct FormRows {
 }
 
 impl FormRows {
+    /// Creates rows of zeros.
     fn new(row_count: usize, class_count: usize) -> Self {
         let forms = [(); FORM_COUNT].map(|()| vec![0.0; row_count * class_count]);
         Self { forms, class_count }
@@ -86,7 +87,9 @@ impl FormRows {
         }
     }
 
-    /// Adds Σ weight × row of one form to sums; `weights` has a row for each of the first rows, a column for each sum.
+    /// Adds combinations Σ weight × row of one form to `sums`.
+    ///
+    /// `weights`: one row for each of the first rows, one column for each sum.
     pub(super) fn combine(&self, form: usize, weights: &[f64], sums: &mut [f64]) {
         let row_count = weights.len() * self.class_count / sums.len();
         let rows = &self.forms[form][..row_count * self.class_count];
@@ -271,7 +274,7 @@ impl FormTable {
         let values = FormRows::new(max_panels_to_k * PANEL_POINTS, class_count);
         let mut tabulated = TabulatedForms { values, tails: vec![] };
         let mut sums = FormRows::new(TAIL_TERMS, class_count);
-        // The factor of the sums decreases to zero towards K*: a sharp end would leave oscillations of the forms.
+        // The factor of the sums decreases to zero towards K*, because an abrupt end would cause oscillations.
         let fade_start = self.panel_width * max_panels_to_k.max(self.panel_count / 2) as f64;
         let fade_end = self.panel_width * self.panel_count as f64;
         let mut removed_integrals = integrals_beyond(fade_end, scale);
@@ -302,10 +305,10 @@ impl FormTable {
         Ok(())
     }
 
-    /// Adds the removed parts to the tails; `sums` over all panels leave them out.
+    /// Adds the removed parts, which `sums` over all panels do not contain, to the tails.
     ///
-    /// The removed part of a form is its total, in closed form, minus its sum. Forms are like k⁻³ there, so that all terms
-    /// are in proportion to `removed_integrals`, the integrals of k⁻³.
+    /// The removed part of a form is its total, in closed form, minus its sum. In this part the mean of a form is
+    /// proportional to k⁻³. All terms are therefore proportional to `removed_integrals`, the integrals of k⁻³.
     fn add_removed_parts(
         &self,
         sums: &FormRows,

@@ -7,8 +7,8 @@
 //! `g_c` = ⟨cos θ S s c′⟩,   `g_s` = ⟨sin θ S c s′⟩
 //!
 //! Form factors depend on the lattice alone. Their integrands are entire and periodic in θ. The midpoint rule therefore
-//! converges once its number of points exceeds the largest phase kD, D the diagonal of the lattice, by a few (kD)^⅓.
-//! This is the width of the transition of Bessel functions.
+//! converges once its number of points exceeds the largest phase kD, D the diagonal of the lattice, by a few times
+//! (kD)^⅓, the width of the transition of Bessel functions.
 //!
 //! Their integrals over k are integrals of static kernels over two cells, in closed form. They are second
 //! differences in x and in y (steps of the pitch, weights 1, −2, 1) of functions whose fourth derivative ∂⁴/∂x²∂y²
@@ -19,9 +19,9 @@ use crate::linalg::add_combined_rows;
 
 /// Number of form factors of a pair of cells.
 pub(super) const FORM_COUNT: usize = 6;
-/// Widths (kD)^⅓ of the transition of Bessel functions beyond which means converge to rounding.
+/// Number of transition widths (kD)^⅓ beyond the largest phase with which means converge to rounding.
 const TRANSITION_WIDTHS: f64 = 8.0;
-/// Number of directions of a circle at the wavenumber zero, enough for means to rounding.
+/// Number of directions of a circle at the wavenumber zero, with which means converge to rounding.
 const MIN_DIRECTION_COUNT: f64 = 40.0;
 /// Largest x at which sin x/x equals its first two series terms to rounding.
 const MAX_SINC_SERIES_ARGUMENT: f64 = 1e-4;
@@ -139,7 +139,7 @@ impl AngularMeans {
     }
 }
 
-/// cos nx and sin nx for n = 0, 1, … below `count`.
+/// Values cos nx and sin nx for n = 0, 1, … below `count`.
 fn cosines_and_sines(x: f64, count: usize) -> Vec<[f64; 2]> {
     let sin = x.sin();
     let cos = x.cos();
@@ -153,7 +153,7 @@ fn cosines_and_sines(x: f64, count: usize) -> Vec<[f64; 2]> {
     values
 }
 
-/// sin x/x.
+/// Function sin x/x.
 fn sinc(x: f64) -> f64 {
     if x.abs() < MAX_SINC_SERIES_ARGUMENT { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
@@ -215,7 +215,7 @@ mod tests {
     use super::*;
     use crate::linalg::gauss;
 
-    /// The definitions, over the whole circle.
+    /// Means equal their definitions, with sums over the whole circle.
     #[test]
     fn means_agree_with_sums_over_many_directions() {
         for lattice in [
@@ -305,7 +305,7 @@ mod tests {
         }
     }
 
-    /// Integrals over quarter cells sum up to the cell's; 1/r = x²/r³ + y²/r³; a unit square has the textbook's value.
+    /// Integrals over quarter cells sum up to that of the cell; 1/r = x²/r³ + y²/r³; a unit square has the known value.
     #[test]
     fn integrals_of_a_cell_are_sums_of_parts() {
         let pitch = [0.7, 0.4];

@@ -44,9 +44,9 @@ impl PlanImpedance {
     }
 }
 
-/// Relative tolerance of the cells' compliances: far below the discretisation error.
+/// Relative tolerance of the cells' compliances, far below the discretisation error.
 const COMPLIANCE_TOLERANCE: f64 = 1e-9;
-/// Smallest number of cells per wavelength: tractions are constant over a cell.
+/// Smallest number of cells per wavelength, because tractions are constant over a cell.
 const MIN_CELLS_PER_WAVELENGTH: f64 = 6.0;
 /// Number of entries of a stiffness matrix.
 const MATRIX_ENTRY_COUNT: usize = RIGID_MOTION_COUNT * RIGID_MOTION_COUNT;
@@ -56,8 +56,7 @@ const MATRIX_ENTRY_COUNT: usize = RIGID_MOTION_COUNT * RIGID_MOTION_COUNT;
 /// Frequency 0 is the static stiffness. Layers may have any damping, also hysteretic damping; without damping the
 /// computation takes eight times as long. In relaxed contact, vertical motions and rocking cause no shear tractions, and
 /// horizontal motions and torsion no pressure. Tractions are constant over the contact elements, which are cells or
-/// unions of cells.
-/// The observer counts points of the Laplace plane, eight per frequency.
+/// unions of cells. The progress for the observer is the number of Laplace variables, eight per frequency.
 ///
 /// ```
 /// use basemat::bem::layered::StripContact;

@@ -15,11 +15,11 @@ use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Largest number of cells for a passivity check of all cells: the time grows with the cube of the number.
+/// Largest number of cells for a passivity check of all cells, whose time grows with the cube of the number.
 const MAX_CELLS_CHECKED: usize = 512;
-/// Number of random cells that the passivity check tests if there are more.
+/// Number of random cells in the passivity check of a plan with more cells.
 const SAMPLED_CELL_COUNT: usize = 256;
-/// Number of points of the half circle for the search of the largest Laplace variable: the margin covers their distance.
+/// Number of points of the half circle for the largest Laplace variable; the margin below covers their distance.
 const CIRCLE_POINT_COUNT: usize = 256;
 /// Factor of the largest Laplace variable at these points, because the maximum may lie between two points.
 const LAPLACE_RADIUS_MARGIN: f64 = 1.02;
@@ -37,7 +37,7 @@ pub(in crate::bem) fn static_compliance(
     matrix: &mut [f64],
 ) -> Result<()> {
     let classes = plan.classes()?;
-    same_length("static compliance", matrix.len(), classes.layout().square())?;
+    same_length("static compliance", matrix.len(), classes.layout().matrix_len())?;
     let s = Complex::default();
     let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(&plan.lattice, profile, [s], tolerance, &mut progress)?;
@@ -92,7 +92,7 @@ impl LatticeKernel {
     /// Weights that the file contains are not computed again.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a bad time step,
+    /// [`Error::Input`](crate::Error::Input) for a time step that is not positive,
     /// [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal); as for [`CellIntegrals::untabulated`].
     pub(in crate::bem) fn in_plan(
         profile: SoilProfile,

@@ -1,9 +1,10 @@
-//! Static state of a scene: in stages; for walls after backfilling or in place of the soil.
+//! Static state of a scene, in stages; walls are backfilled or wished in place.
 
 use std::cell::RefCell;
 
 use super::backfilled;
 use super::static_stages::{state_under_load, state_under_weight};
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::gravity_stage::GravityStage;
@@ -16,27 +17,28 @@ use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::step_compliance::diagonal_inside_outline;
 use crate::error::{Result, all_finite, finite};
-use crate::interface::InterfaceLaw;
+use crate::interface::{InterfaceLaw, Mode, law_of};
 use crate::linalg::{CompressedMatrix, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
 /// Static state under the weight and the loads at t = 0; without gravity the state without forces.
 ///
-/// The function commits the structure's internal variables to this state. `shared_compliance` receives the compliance of
-/// the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
-/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on its
-/// ground is an error in every gravity stage, since it would overturn during the run.
+/// The function commits this state to the structure's internal variables. `shared_compliance` receives the compliance
+/// of the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
+/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on
+/// its ground is an error in every gravity stage, since it would overturn during the run.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,
     condensed: &mut Option<Condensed>,
     shared_compliance: &RefCell<Option<Compliance>>,
 ) -> Result<StaticState> {
-    let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
+    let mut state = StaticState::weightless(assembled.base.layout(), assembled.dofs());
+    open_gaps(&mut state, &assembled.base, &parts.builder.laws);
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
     let mut ground_compliance = CompressedMatrix::dense(Vec::new());
     if parts.builder.has_static_loads() {
-        ground_compliance = static_compliance(parts)?;
+        ground_compliance = static_compliance(parts, &assembled.base)?;
         let loads = StaticLoads::new(parts, assembled)?;
         let weight = &loads.weight;
         let load = &loads.load;
@@ -61,7 +63,7 @@ pub(crate) fn solve(
         };
         state.load = loads.structure_load;
     } else if has_p_delta {
-        ground_compliance = static_compliance(parts)?;
+        ground_compliance = static_compliance(parts, &assembled.base)?;
     }
     // On a fixed base the assembly has already checked buckling.
     if has_p_delta && !is_fixed_base(parts.ground.as_ref()) {
@@ -87,10 +89,21 @@ pub(crate) fn solve(
     Ok(state)
 }
 
+/// Opens the joints of an unloaded structure that have a gap.
+fn open_gaps(state: &mut StaticState, base: &PlacedBase, laws: &[Box<dyn InterfaceLaw>]) {
+    for e in base.joints().iter().flat_map(|joint| joint.elements.clone()) {
+        let gap = base.initial_gap(e);
+        if gap > 0.0 && law_of(laws, e).modes().contains(&Mode::Open) {
+            state.gap[e] = gap;
+            state.modes[e] = Mode::Open;
+        }
+    }
+}
+
 /// Static compliance of the ground, for tractions inside the outline.
 ///
-/// It is a diagonal if the step compliance is one.
-pub(crate) fn static_compliance(parts: &Parts) -> Result<CompressedMatrix> {
+/// It is a diagonal if the step compliance is one, and zero at joints.
+pub(crate) fn static_compliance(parts: &Parts, base: &PlacedBase) -> Result<CompressedMatrix> {
     if parts.step_compliance.as_diagonal().is_some()
         && let Some(compliance) = parts.ground.diagonal_compliance()?
     {
@@ -98,10 +111,10 @@ pub(crate) fn static_compliance(parts: &Parts) -> Result<CompressedMatrix> {
         let diagonal = diagonal_inside_outline(quantity, compliance.at_rest, &parts.elements)?;
         return Ok(CompressedMatrix::of_diagonal(diagonal));
     }
-    let mut compliance = vec![0.0; parts.elements.layout().square()];
+    let mut compliance = vec![0.0; parts.elements.layout().matrix_len()];
     parts.ground.static_compliance(&mut compliance)?;
     parts.elements.refer_inside(&mut compliance);
-    Ok(CompressedMatrix::dense(compliance))
+    Ok(CompressedMatrix::dense(base.spread_ground_matrix(compliance)))
 }
 
 /// Weight, and all other loads at t = 0, N; empty without a static state.
@@ -165,26 +178,27 @@ pub(crate) fn state_under_loads(
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
     let Parts { structure, builder, .. } = parts;
+    let gaps = assembled.base.initial_gaps();
     let problem = StaticProblem {
         assembled,
         structure: structure.as_ref(),
         ground_compliance: ground.compliance,
         is_frictionless: false,
-        jump_offset: &[],
+        jump_offset: &gaps,
         shared_compliance: ground.shared_compliance,
     };
     let has_walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
     if has_walls && builder.gravity_stage != GravityStage::WishedInPlace {
         return backfilled::state(parts, &problem, laws, [weight, load]);
     }
-    let mut jump_offset = vec![];
+    let mut jump_offset = gaps.clone();
     if has_walls {
         // Jumps are zero under the tractions of the soil at rest.
-        let traction = backfilled::traction_at_rest(parts, assembled.base.elements(), true)?;
-        jump_offset = vec![0.0; traction.len()];
+        let traction = backfilled::traction_at_rest(parts, &assembled.base, true)?;
+        jump_offset.resize(traction.len(), 0.0);
         dense_multiply_add(ground.compliance, -1.0, &traction, &mut jump_offset);
     }
     let problem = StaticProblem { jump_offset: &jump_offset, ..problem };
-    let placed_state = state_under_weight(&problem, laws, builder.gravity_stage, weight)?;
-    state_under_load(&problem, laws, placed_state, [weight, load])
+    let weight_state = state_under_weight(&problem, laws, builder.gravity_stage, weight)?;
+    state_under_load(&problem, laws, weight_state, [weight, load])
 }

@@ -67,9 +67,10 @@ impl Subspace<'_> {
     ) -> Vec<f64> {
         let vector_count = self.count();
         // X M Xᵀ without the components inside V.
-        let inside = row_products(overlaps, overlaps, vector_count);
-        let outside = inertia.iter().zip(&inside).map(|(whole, inside)| whole - inside).collect();
-        let weights = independent_combinations(outside, block_size, min_length * min_length);
+        let inner_inertia = row_products(overlaps, overlaps, vector_count);
+        let outer_inertia =
+            inertia.iter().zip(&inner_inertia).map(|(whole, inner)| whole - inner).collect();
+        let weights = independent_combinations(outer_inertia, block_size, min_length * min_length);
         let total_count = vector_count + block_size;
         let mut terms = vec![0.0; vector_count * total_count];
         (0..vector_count).for_each(|i| terms[i * (total_count + 1)] = 1.0);
@@ -102,17 +103,17 @@ impl Subspace<'_> {
         let mut border = Vec::with_capacity(block_size * total_count);
         for row in 0..block_size {
             for vector in 0..total_count {
-                let (force, inertia) = if vector < vector_count {
+                let (force_product, mass_product) = if vector < vector_count {
                     let is_loaded = vector == first + row;
                     (f64::from(u8::from(is_loaded)), overlaps[row * vector_count + vector])
                 } else {
-                    let other = vector - vector_count;
+                    let column = vector - vector_count;
                     (
-                        overlaps[other * vector_count + first + row],
-                        inertia[row * block_size + other],
+                        overlaps[column * vector_count + first + row],
+                        inertia[row * block_size + column],
                     )
                 };
-                let product = inertia_factor * force - mass_factor * inertia;
+                let product = inertia_factor * force_product - mass_factor * mass_product;
                 border.push(product / stiffness_factor);
             }
         }

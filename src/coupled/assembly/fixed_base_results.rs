@@ -11,7 +11,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
-use crate::structure::{HeldBase, stiffest};
+use crate::structure::{SpringSupportedBase, max_diagonal_stiffness};
 
 /// Results of a structure with a fixed base.
 pub(super) struct FixedBaseResults {
@@ -50,17 +50,18 @@ impl FixedBaseResults {
     }
 
     /// The stiffness, with or without a shift, if the static state's factor is positive definite.
-    pub(super) fn positive_definite<'a>(
+    pub(super) fn positive_definite_stiffness<'a>(
         &self,
         assembled: &'a Assembled,
         shifted_stiffness: Option<&'a ShiftedStiffnessFactor>,
     ) -> Option<&'a SparseMatrix> {
         let stiffness = shifted_stiffness?.positive_definite()?;
-        // The part of K outside the base, which is factored with a fixed base, is positive definite too.
+        // For a condensed structure the factor is that of the condensed stiffness. The remaining part of K, which has
+        // been factored with a fixed base, is positive definite too.
         Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
     }
 
-    /// Takes the input of reduced coordinates, with the static state's factor; `None` for other coordinates.
+    /// Input of reduced coordinates, with the static state's factor, moved out of `self`; `None` for other coordinates.
     pub(super) fn take_reduction_input(
         &mut self,
         assembled: &Assembled,
@@ -92,7 +93,11 @@ impl FixedBaseResponses {
         let stiffness: &SparseMatrix = &assembled.stiffness;
         let dofs = assembled.dofs();
         let translations = assembled.influence.part_vectors(dofs);
-        let springs = HeldBase::new(assembled.base.nodes(), stiffness, stiffest(stiffness));
+        let springs = SpringSupportedBase::new(
+            assembled.base.nodes(),
+            stiffness,
+            max_diagonal_stiffness(stiffness),
+        );
         let mut rotations = Vec::new();
         for part in assembled.influence.parts() {
             let nodes = part.nodes(&assembled.base);
@@ -100,7 +105,7 @@ impl FixedBaseResponses {
             let middle_x = nodes.iter().map(|node| node.x).sum::<f64>() / node_count;
             let middle_y = nodes.iter().map(|node| node.y).sum::<f64>() / node_count;
             let middle = [middle_x, middle_y];
-            rotations.extend(springs.turns(nodes.iter().copied(), middle).concat());
+            rotations.extend(springs.rotation_forces(nodes.iter().copied(), middle).concat());
         }
         factor.solve_many(&mut rotations);
         let inertia = mass.times(&translations);

@@ -30,7 +30,7 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, ShiftedStiffnessFactor, initial_shift};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{ContactElement, axis_name, far_ends, min_interval_count};
+use crate::geometry::{ContactElement, axis_name, enclosing_interval, min_interval_count};
 use crate::linalg::{dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
@@ -42,7 +42,7 @@ const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
 const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
 /// Relative difference of static shapes on n and on 2n elements above which the base is an error.
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
-/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have 0.
+/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have p = 0.
 const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
 /// Largest exponent p in ρ ~ nᵖ, for beams and plates.
 const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
@@ -52,7 +52,7 @@ const MIN_REFINEMENT_FACTOR: f64 = 1.25;
 const PROJECTION_ROUNDING_TOLERANCE: f64 = 1e-12;
 /// Distance of a node from the line of its face that counts as rounding, relative to an element.
 const ON_FACE_TOLERANCE: f64 = 1e-9;
-/// Asymmetry of K that counts as rounding.
+/// Relative asymmetry of K that counts as rounding.
 const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
@@ -103,7 +103,7 @@ fn check_structure(
 ) -> Result<Option<Warning>> {
     let assembled = loaded.assembled;
     let base = &assembled.base;
-    let ground_compliance = at_rest::static_compliance(parts)?;
+    let ground_compliance = at_rest::static_compliance(parts, base)?;
     let ground = StaticGround { compliance: &ground_compliance, shared_compliance };
     let Some(factor) = shared_factor(parts, assembled, ground)? else {
         return Ok(None);
@@ -128,7 +128,7 @@ fn check_structure(
         exponent = refined_shape.map_or(MAX_REFINEMENT_EXPONENT, |refined| {
             (refined.stiffness_ratio / shape.stiffness_ratio).log2()
         });
-        if parts.builder.has_static_loads() {
+        if parts.builder.has_static_loads() && parts.joints.is_empty() {
             let refined_assembled = assembled.with_base(refined_base);
             let refined = LoadedStructure { assembled: &refined_assembled, ..loaded };
             difference =
@@ -192,7 +192,7 @@ fn needed_elements(
     needed
 }
 
-/// Factored stiffness of the compliance on the base's elements; computes the shared compliance if it is missing.
+/// Factored stiffness behind the shared compliance, which the function computes if it is missing.
 ///
 /// `None` if the stiffness is not symmetric or cannot be factored.
 fn shared_factor(
@@ -237,13 +237,13 @@ fn largest_difference(
                 face_nodes.push(node);
             }
         }
-        let first = normal_displacements(&face_nodes, element, first_state);
-        let second = normal_displacements(&face_nodes, element, second_state);
-        let change = first.iter().zip(&second).map(|(a, b)| a - b).collect();
+        let first_shape = normal_displacements(&face_nodes, element, first_state);
+        let second_shape = normal_displacements(&face_nodes, element, second_state);
+        let change = first_shape.iter().zip(&second_shape).map(|(a, b)| a - b).collect();
         shapes.push((
             foundation,
             bending_norm(&face_nodes, change),
-            bending_norm(&face_nodes, second),
+            bending_norm(&face_nodes, second_shape),
         ));
     }
     let mut worst_face = (0, 0.0);
@@ -304,7 +304,7 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
 struct FaceElements {
     /// Number of the foundation.
     foundation: usize,
-    /// Axis along which the elements are counted: z for a wall, in plan the one of the shorter side.
+    /// Axis along which the elements are counted: z for a wall, in plan the axis of the shorter side.
     axis: Option<char>,
     /// Number of elements along the axis.
     count: usize,
@@ -321,7 +321,7 @@ impl FaceElements {
         }
         let sides = patch.layout().axes().map(|axis| {
             let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
-            let edges = far_ends(ends.iter().copied());
+            let edges = enclosing_interval(ends.iter().copied());
             (edges[1] - edges[0], min_interval_count(ends), axis)
         });
         let shorter_side = sides.min_by(|(a, ..), (b, ..)| a.total_cmp(b));
@@ -343,7 +343,7 @@ mod tests {
     use crate::structure::FemModel;
     use crate::{Simulation, Soil};
 
-    /// A solid of 16 × 16 × 12 hexahedra on 3 × 3 contact elements.
+    /// A solid of 16 × 16 × 12 hexahedra, stiff in a column on one side, on 3 × 3 contact elements.
     fn parts() -> Result<Parts> {
         let mut mesh = Mesh::in_space();
         let coordinates: Vec<f64> = (0..17).map(|k| 10.0 * (f64::from(k) / 16.0 - 0.5)).collect();
@@ -351,12 +351,11 @@ mod tests {
             mesh.add_grid(17, 17, |row, column| [coordinates[column], coordinates[row], 0.0])?;
         let heights: Vec<f64> = (1..=12).map(|k| 0.4 * f64::from(k)).collect();
         for (k, brick) in foot.extrude(&mut mesh, &heights)?.into_iter().enumerate() {
-            // A stiff column on one side.
             let modulus = if k % 256 == 37 { 3e10 } else { 3e8 };
             mesh.add(Hex8::new(brick, Material::new(modulus, 0.2, 2000.0)?))?;
         }
-        let plan = Plan::rectangle(-5.0..5.0, -5.0..5.0, 3)?;
-        let ground = ElasticGround::in_plan(Soil::new(3e8, 0.3, 1900.0)?, plan)?;
+        let soil = Soil::new(3e8, 0.3, 1900.0)?;
+        let ground = ElasticGround::in_plan(soil, Plan::rectangle(-5.0..5.0, -5.0..5.0, 3)?)?;
         let scene = Simulation::builder(0.01).structure(FemModel::on_base(mesh)?).ground(ground);
         Parts::new(scene.interface(Coulomb::new(0.4)?))
     }
@@ -365,7 +364,8 @@ mod tests {
     #[test]
     fn a_condensed_structure_has_the_same_static_state_and_check() -> Result<()> {
         let mut parts = parts()?;
-        let (assembled, fixed_factor) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let structure = parts.structure.as_ref();
+        let (assembled, fixed_factor) = Assembled::new(structure, &parts.elements, &[])?;
         let condensed = FixedBaseResults::new(&parts, &assembled, fixed_factor)?.condensed;
         assert!(condensed.is_some());
         let results = [condensed, None].map(|mut condensed| {

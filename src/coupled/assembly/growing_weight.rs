@@ -16,9 +16,10 @@ const MIN_WEIGHT_INCREMENT: f64 = 1.0 / 64.0;
 
 /// Follows the static state while the weight grows, after a search under the whole weight has failed.
 ///
-/// Under the whole weight a structure with P–Δ tilts before the soil resists, and a search may pass the equilibrium. The
-/// path starts from the state and contact without weight. The function returns the failed search's `error` for a structure
-/// without P–Δ, and [`StabilityError::Toppling`] if the path ends before the whole weight.
+/// Under the whole weight a structure with P–Δ tilts before the soil resists, and a search may pass the equilibrium.
+/// The path starts from the state and contact without weight. If it ends before the whole weight, the error is
+/// [`StabilityError::Toppling`]. The function returns the failed search's `error` if this error has a known cause, if
+/// no part of the weight has an equilibrium, and for a structure that is condensed or has no P–Δ.
 pub(super) fn state_under_growing_weight(
     problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -71,9 +72,9 @@ pub(super) fn state_under_growing_weight(
     }
 }
 
-/// Whether the cause of the missing equilibrium is unknown or rounding.
+/// Whether the cause of the missing equilibrium is unknown, or is only rounding.
 ///
-/// A weight has no torque. Without friction the rounding of its torque exceeds the resistance.
+/// A weight has no torque. Without friction a torque that is rounding exceeds the resistance, which is zero.
 fn is_unexplained(error: &Error) -> bool {
     match error {
         Error::Preload { .. } => true,

@@ -3,7 +3,8 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | F | weights of the degrees of freedom in forces and in probes, a row each |
-//! | σ | shifts; the first is the shift √(a/k) of the time scheme, 2/Δt for the midpoint rule |
+//! | a, d | factors of Δu in the scheme's acceleration and displacement |
+//! | σ | shifts; the first is the shift √(a/d) of the time scheme, 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for the others |
 //!
 //! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe 1984;
@@ -32,15 +33,19 @@ use crate::structure::proportional_factors;
 const SHIFT_RATIO: f64 = 4.0;
 /// Number of forces from which vibration modes and static responses replace shifts.
 const MANY_FORCES_THRESHOLD: usize = 100;
-/// Smallest fraction of a direction outside the space for which it is added.
+/// A direction is added if at least this fraction of it is outside the space.
 pub(super) const MIN_NEW_FRACTION: f64 = 1e-2;
-/// Smallest fraction outside the space, relative to the root of the tolerance: responses depend on its square.
+/// Smallest fraction of a direction outside the space, relative to the root of the tolerance.
+///
+/// Errors of responses depend on the square of an omitted fraction.
 const NEW_FRACTION_PER_ROOT_TOLERANCE: f64 = 10.0;
 /// Smallest fraction of a direction outside the space in the last rounds.
 pub(super) const FINAL_MIN_NEW_FRACTION: f64 = 1e-7;
+/// Factor of the smallest fraction for a repetition that finds no new direction.
+const NEW_FRACTION_REDUCTION: f64 = 1e-2;
 /// Largest number of rounds; the reduction ends after half of them if it will not reach the tolerance.
 const MAX_KRYLOV_ROUNDS: usize = 16;
-/// Smallest ratio of the lowest shift to the scheme's shift.
+/// Smallest ratio of the lowest shift to the scheme's shift; it bounds the number of shifts to about ten.
 const MIN_SHIFT_RATIO: f64 = 1e-6;
 /// Largest number of steps over which responses are compared; it bounds the time of a comparison.
 const MAX_COMPARED_STEPS: usize = 10_000;
@@ -172,8 +177,8 @@ impl<'a> Reduction<'a> {
                     let modes = space.ritz()?;
                     return self.basis_with_damping(space, &modes, &factors, tolerance);
                 }
-                // Repeats with a lower limit for omitted directions.
-                min_fraction = FINAL_MIN_NEW_FRACTION.max(MIN_NEW_FRACTION * min_fraction);
+                // Repeat with a lower limit for omitted directions.
+                min_fraction = FINAL_MIN_NEW_FRACTION.max(NEW_FRACTION_REDUCTION * min_fraction);
                 blocks.fill(rows.clone());
                 continue;
             }

@@ -15,13 +15,13 @@ use crate::coupled::assembly::subspace::{RitzModes, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::{Error, Result};
-use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
+use crate::linalg::{ModeLimit, SparseFactor, SparseMatrix, lowest_modes};
 
 /// Growth of the frequency limit of vibration modes from one round to the next.
 const FREQUENCY_LIMIT_GROWTH: f64 = std::f64::consts::SQRT_2;
 /// Largest number of vibration modes; more would take longer than the full structure.
 const MAX_VIBRATION_MODES: usize = 600;
-/// Residual of vibration modes, relative to the root of the tolerance: responses depend on its square.
+/// Residual of vibration modes, relative to the root of the tolerance: errors of responses depend on its square.
 const MODE_RESIDUAL_FACTOR: f64 = 0.1;
 /// Rounding of the vectors' orthogonality after one pass, relative to the square of the tolerance.
 const ORTHOGONALITY_ROUNDING_FACTOR: f64 = 1e-4;
@@ -44,6 +44,8 @@ const WEAK_PROBE_FACTOR: f64 = 10.0;
 const MIN_PROBE_FACTOR: f64 = 1e-2;
 /// Number of steps over which forces grow in the comparison of responses, with binomial weights.
 const FORCE_GROWTH_STEPS: usize = 32;
+/// Length of omitted directions, relative to the root of the tolerance: errors of responses depend on its square.
+const OMITTED_LENGTH_FACTOR: f64 = 0.5;
 
 /// Adds the static responses to the forces of `block`, and returns the index of the first one.
 ///
@@ -70,8 +72,8 @@ fn first_frequency_limit(scheme_shift: f64, tolerance: f64) -> f64 {
 impl Reduction<'_> {
     /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
     ///
-    /// A third round, which few reductions need, factors the matrix again. To store the factor would increase the peak
-    /// memory of all reductions.
+    /// The factor of the shifted stiffness is not stored between rounds, which would increase the peak memory. A third
+    /// round, which few reductions need, factors the matrix again.
     pub(super) fn modes_for_many_forces(
         &self,
         tolerance: f64,
@@ -92,7 +94,7 @@ impl Reduction<'_> {
         let mut changes = ResponseChanges::none();
         // Index of the first vector of the last extension.
         let mut first_new = 0;
-        let mut min_length = 0.5 * tolerance.sqrt();
+        let mut min_length = OMITTED_LENGTH_FACTOR * tolerance.sqrt();
         for round in 0..MAX_MODE_ROUNDS {
             // The second round adds only a power of K_eff, for the comparison with the first.
             if round != 1 {
@@ -106,7 +108,9 @@ impl Reduction<'_> {
                     effective = Some(self.effective_factor()?);
                 }
             }
-            effective = effective.inspect(|factor| factor.solve_many(&mut block));
+            if let Some(factor) = &effective {
+                factor.solve_many(&mut block);
+            }
             if round == 0 && !self.probes().is_empty() {
                 space.extend_products(&mut products, rows);
                 min_length *= self.probe_length_factor(&space, &products)?;
@@ -181,7 +185,7 @@ impl Reduction<'_> {
 
     /// Adds the vibration modes up to a frequency limit (1/s), and returns the factor for static responses.
     ///
-    /// `None` for too many modes.
+    /// The result is `None` if there are too many modes.
     fn add_modes(
         &self,
         space: &mut Subspace<'_>,
@@ -196,7 +200,7 @@ impl Reduction<'_> {
             &shifted.factor,
             &self.assembled.mass,
             MAX_VIBRATION_MODES,
-            Some((max_eigenvalue, max_residual)),
+            Some(ModeLimit { eigenvalue: max_eigenvalue, residual_tolerance: max_residual }),
         );
         let all_modes = modes.filter(|modes| modes.values.len() < MAX_VIBRATION_MODES);
         Ok(all_modes.map(|modes| {

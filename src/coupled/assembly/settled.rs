@@ -13,7 +13,7 @@ const STATE_VARIABLE_TOLERANCE: f64 = 1e-6;
 
 /// Computes the equilibrium under `load`, from the state and contact of the previous stage.
 ///
-/// For laws with state variables the computation is repeated until these are constant.
+/// For laws with state variables the computation is repeated until the state variables are constant.
 pub(super) fn settle(
     problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -21,8 +21,8 @@ pub(super) fn settle(
     mut state: StaticState,
     load: &[f64],
 ) -> Result<(StaticState, PreviousContacts)> {
-    let first_variables = start.state_variables().to_vec();
-    let mut state_variables = first_variables.clone();
+    let initial_variables = start.state_variables().to_vec();
+    let mut state_variables = initial_variables.clone();
     for pass in 1..=MAX_SETTLING_PASSES {
         let contact;
         (state, contact) = problem.equilibrium(laws, &start, state, load)?;
@@ -39,7 +39,7 @@ pub(super) fn settle(
         start.update_state_variables(laws, &law_contact, &state.modes, &mut state_variables)?;
         let is_settled = state_variables == start.state_variables();
         if pass == MAX_SETTLING_PASSES && !is_settled {
-            check_settled(&first_variables, &start, &state_variables)?;
+            check_settled(&initial_variables, &start, &state_variables)?;
         }
         start.advance(&contact, &state.modes, &state_variables);
         start.slip_rates_mut().for_each(|rate| *rate = 0.0);
@@ -52,16 +52,18 @@ pub(super) fn settle(
 
 /// Error for state variables that change at rest by more than rounding.
 ///
-/// Of an element that hardly bears they are rounding themselves: a change counts relative to the variable, or to the
-/// largest change of the same variable of any element since the `first_values`.
-fn check_settled(first_values: &[f64], start: &PreviousContacts, values: &[f64]) -> Result<()> {
+/// The state variables of an element with almost no pressure may be rounding themselves. The change is therefore
+/// relative to the larger of two numbers: the variable, and the largest change of the same variable in any element
+/// since `initial_values`.
+fn check_settled(initial_values: &[f64], start: &PreviousContacts, values: &[f64]) -> Result<()> {
     let ends = start.state_variable_ends();
     let count_of = |element: usize| ends[element] - if element > 0 { ends[element - 1] } else { 0 };
     let mut total_changes = vec![0.0; (0..ends.len()).map(count_of).max().unwrap_or(0)];
     let mut variable_indices = Vec::with_capacity(values.len());
     (0..ends.len()).for_each(|element| variable_indices.extend(0..count_of(element)));
-    for (index, (first, value)) in variable_indices.iter().zip(first_values.iter().zip(values)) {
-        total_changes[*index] = f64::max(total_changes[*index], (value - first).abs());
+    for (index, (initial, value)) in variable_indices.iter().zip(initial_values.iter().zip(values))
+    {
+        total_changes[*index] = f64::max(total_changes[*index], (value - initial).abs());
     }
     let mut largest_change = 0.0_f64;
     let previous_values = start.state_variables();

@@ -41,21 +41,20 @@ pub(super) fn state_under_weight(
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
     let has_frictionless_laws = is_frictionless && !has_frictionless_limits && can_open;
-    let placing_laws = if has_frictionless_laws { &frictionless_laws } else { laws };
+    let weight_laws = if has_frictionless_laws { &frictionless_laws } else { laws };
     let at_rest =
         PreviousContact::new(ContactState::default(), Mode::Stick, GRAVITY_STAGE_TIME_STEP);
-    let initial_contact = PreviousContacts::new(placing_laws, &vec![at_rest; element_count])?;
+    let initial_contact = PreviousContacts::new(weight_laws, &vec![at_rest; element_count])?;
     let mut state = StaticState::weightless(layout, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
-        *mode = law_of(placing_laws, e).modes()[0];
+        *mode = law_of(weight_laws, e).modes()[0];
     }
     let problem = StaticProblem { is_frictionless: has_frictionless_limits, ..*problem };
-    let equilibrium =
-        settle(&problem, placing_laws, initial_contact.clone(), state.clone(), weight);
+    let equilibrium = settle(&problem, weight_laws, initial_contact.clone(), state.clone(), weight);
     let (mut state, contact) = equilibrium.or_else(|error| {
-        let error = cause(&problem, placing_laws, weight, error);
+        let error = cause(&problem, weight_laws, weight, error);
         let start = (&initial_contact, state);
-        state_under_growing_weight(&problem, placing_laws, start, weight, error)
+        state_under_growing_weight(&problem, weight_laws, start, weight, error)
     })?;
     if has_frictionless_laws {
         check_frictionless_state(laws, &state, &contact)?;
@@ -84,7 +83,7 @@ pub(super) fn state_under_load(
         return Ok(state);
     }
     // Under further loads the base sticks at its present position.
-    state.modes = state.modes_with(laws);
+    state.modes = state.initial_modes(laws);
     state_under_growing_load(problem, laws, (state, &contact), [weight, load])
 }
 

@@ -18,7 +18,9 @@ use crate::linalg::{largest, row_products};
 
 /// Rounding of a response, relative to the largest response.
 const RESPONSE_ROUNDING_TOLERANCE: f64 = 1e-13;
-/// Smallest predicted ratio of the changes of two successive rounds.
+/// Number of a compared step over its distance from the next: few steps then represent long runs.
+const COMPARED_STEP_DIVISOR: usize = 8;
+/// Smallest predicted ratio of the changes of two successive rounds; a faster decrease is not extrapolated.
 const MIN_CHANGE_RATIO: f64 = 0.1;
 
 /// Responses of all outputs (rows) to all forces, at some steps.
@@ -54,7 +56,7 @@ impl StepResponses {
         }
         let norms = normalise_rows(&mut modal_rows, &effective_stiffness);
         let compared_steps: Vec<usize> =
-            std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
+            std::iter::successors(Some(1), |step| Some(step + 1 + step / COMPARED_STEP_DIVISOR))
                 .take_while(|step| *step <= step_count)
                 .collect();
         let growth_weights = binomial_weights(growth_steps);
@@ -103,9 +105,10 @@ impl StepResponses {
 
     /// Weakest response: the smallest of the largest displacements of some outputs.
     ///
-    /// It is at most about 1, the response of a row of unit energy norm to a force on itself. The row of a section force has
-    /// a large norm because of the stiffness at the section, and small responses to distant tractions. Directions that the
-    /// modes do not contain cause errors relative to the norms. These errors are larger relative to a small response.
+    /// The response is at most about 1, which is that of a row of unit energy norm to the force of the same row. The
+    /// row of a section force has a large norm because of the stiffness at the section, and small responses to distant
+    /// tractions. Directions that the modes do not contain cause errors relative to the norms. These errors are larger
+    /// relative to a small response.
     pub(crate) fn weakest_response(&self, outputs: Range<usize>) -> f64 {
         let mut max_values = vec![0.0_f64; outputs.len()];
         for responses in self.displacements.chunks_exact(self.output_count.max(1)) {
@@ -117,7 +120,7 @@ impl StepResponses {
 
     /// Largest difference of any output from `other`, relative to the largest value of this output.
     ///
-    /// It is not smaller than rounding.
+    /// The result is not smaller than the rounding of a response.
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
         let Self { output_count, first_acceleration, .. } = *self;
         let rounding = RESPONSE_ROUNDING_TOLERANCE / tolerance;
@@ -161,7 +164,7 @@ impl ResponseChanges {
         self.last = change;
     }
 
-    /// Change that the next round will cause, at the ratio of the last two.
+    /// Predicted change in the next round, at the ratio of the last two changes.
     pub(super) fn next(&self) -> f64 {
         self.last * self.ratio
     }
@@ -261,7 +264,8 @@ fn mode_states(
 
 /// A step of one mode under a unit force.
 ///
-/// The rows have the weights of the old displacement, velocity and acceleration and of 1 in the new ones.
+/// The rows are the new displacement, velocity and acceleration. The columns are the weights of the old displacement,
+/// velocity and acceleration in them, and the response to the unit force.
 #[derive(Clone, Copy)]
 struct ModeStep([[f64; 4]; 3]);
 

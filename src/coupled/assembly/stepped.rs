@@ -1,6 +1,7 @@
 //! The structure in its stepping coordinates: degrees of freedom, all modes, or Ritz modes.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::vibration_modes::vibration_modes;
 use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
@@ -10,14 +11,15 @@ use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::Model;
 use crate::coupled::model::assembled::Assembled;
-use crate::coupled::model::mechanism::unresisted;
+use crate::coupled::model::joint_compliance::{step_compliance_ratio, with_joint_compliance};
+use crate::coupled::model::mechanism::unresisted_mechanism;
 use crate::coupled::model::operators::{Operators, StiffnessFactorization};
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::interface::LawForm;
-use crate::linalg::SparseMatrix;
+use crate::linalg::{CompressedMatrix, SparseMatrix};
 use crate::structure::{NonlinearForce, Structure, Tangent};
 
 /// Number of steps for the choice of coordinates if the expected number is unknown.
@@ -27,7 +29,8 @@ const DEFAULT_EXPECTED_STEPS: usize = 4_000;
 const MAX_FALLBACK_DOFS: usize = 1_000;
 /// Largest number of degrees of freedom for the same replacement with many forces.
 ///
-/// With many forces Ritz modes often do not reach tolerances below 1e-4. All modes of this number take seven seconds.
+/// With many forces Ritz modes often do not reach tolerances below 1e-4. All modes of a structure of this size take
+/// seven seconds.
 const MAX_FALLBACK_DOFS_OF_MANY_FORCES: usize = 2_500;
 
 /// Properties that [`Coordinates::Modes`] needs, for errors.
@@ -35,15 +38,15 @@ const MODAL_COORDINATES_NEED: &str = "a linear structure with symmetric matrices
 
 /// Times in nanoseconds for the choice of coordinates, as measured by `benches/studies/benches/step.rs`.
 mod cost {
-    /// For each use of an entry of a sparse factor or matrix.
+    /// Time for each use of an entry of a sparse factor or matrix.
     pub(crate) const SPARSE_ENTRY: f64 = 1.0;
-    /// For each mode and step.
+    /// Time for each mode and step.
     pub(crate) const MODE_AND_STEP: f64 = 4.0;
-    /// For each mode, contact component and step, in addition to the time in degrees of freedom.
+    /// Time for each mode, contact component and step, in addition to the time in degrees of freedom.
     pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
-    /// For the computation of all modes, times the square of their number.
+    /// Time for the computation of all modes, over the square of their number.
     pub(crate) const ALL_MODES_SQUARE: f64 = 60.0;
-    /// For the computation of all modes, times the cube of their number.
+    /// Time for the computation of all modes, over the cube of their number.
     pub(crate) const ALL_MODES_CUBE: f64 = 0.45;
 }
 
@@ -52,6 +55,8 @@ pub(crate) struct SteppedStructure {
     pub(crate) model: Model,
     pub(crate) base: PlacedBase,
     pub(crate) operators: Operators,
+    /// Step compliance of the ground, with the numerical compliance of joints.
+    pub(crate) step_compliance: Arc<CompressedMatrix>,
 }
 
 impl SteppedStructure {
@@ -114,9 +119,28 @@ impl SteppedStructure {
             (physical, StiffnessFactorization::Sparse(factor))
         };
         let base = assembled.base.stepped(&model.transformation);
-        let operators = Operators::new(&model, &base, &parts.step_compliance, factor, tangent)?;
-        Ok(Self { model, base, operators })
+        let mut factor = factor;
+        let step_compliance = compliance_with_joints(parts, &base, &model, &mut factor);
+        let operators = Operators::new(&model, &base, &step_compliance, factor, tangent)?;
+        Ok(Self { model, base, operators, step_compliance })
     }
+}
+
+/// Step compliance of the ground, with the numerical compliance of joints.
+fn compliance_with_joints(
+    parts: &Parts,
+    base: &PlacedBase,
+    model: &Model,
+    factor: &mut StiffnessFactorization,
+) -> Arc<CompressedMatrix> {
+    let ground_compliance = Arc::clone(&parts.step_compliance);
+    if base.joints().is_empty() {
+        return ground_compliance;
+    }
+    let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
+    let count = model.coordinate_count;
+    let ratio = step_compliance_ratio(parts.builder.time_step);
+    Arc::new(with_joint_compliance(solve, base, &ground_compliance, count, ratio))
 }
 
 /// Returns an error for an unsymmetric tangent in plan, where contact needs a symmetric compliance.
@@ -129,7 +153,7 @@ fn check_tangent(structure: &dyn Structure, assembled: &Assembled) -> Result<()>
     Err(Error::Scene { quantity, needed: "symmetric on a base in plan" })
 }
 
-/// Ritz modes of a tolerance, or all modes of a small structure whose Ritz modes do not reach it.
+/// Ritz modes that reach a tolerance, or all modes of a small structure whose Ritz modes do not reach it.
 fn ritz_modes(
     reduction: &Reduction<'_>,
     assembled: &Assembled,
@@ -157,7 +181,8 @@ fn singularity_cause(
     let Assembled { mass, damping, stiffness, .. } = assembled;
     let terms = [(1.0, &**stiffness), (1.0, tangent)];
     let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
-    let mechanism = sum.and_then(|sum| unresisted(structure, &sum, [&**damping, &**mass]));
+    let mechanism =
+        sum.and_then(|sum| unresisted_mechanism(structure, &sum, [&**damping, &**mass]));
     mechanism.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 

@@ -25,7 +25,7 @@ const MIN_NONZERO_EIGENVALUE_RATIO: f64 = 1e-10;
 /// Name of reduced coordinates in errors.
 pub(crate) const REDUCED_COORDINATES_NAME: &str = "reduced coordinates";
 
-/// Smallest fraction of a translation that is independent of the others.
+/// Smallest fraction of a translation outside the other translations, for an independent direction.
 const MIN_TRANSLATION_REMAINDER: f64 = 1e-7;
 
 /// Subspace V with the projected damping and stiffness.
@@ -142,12 +142,12 @@ impl<'a> Subspace<'a> {
     pub(super) fn ritz_of(
         &self,
         count: usize,
-        [damping, stiffness]: &[Vec<f64>; 2],
+        [projected_damping, projected_stiffness]: &[Vec<f64>; 2],
     ) -> Result<RitzModes> {
-        let translations = self.translation_count;
-        let deforming_count = count - translations;
-        let rows = (translations..count)
-            .flat_map(|i| &stiffness[i * count + translations..(i + 1) * count]);
+        let translation_count = self.translation_count;
+        let deforming_count = count - translation_count;
+        let rows = (translation_count..count)
+            .flat_map(|i| &projected_stiffness[i * count + translation_count..(i + 1) * count]);
         let eigenpairs = symmetric_modes(&rows.copied().collect::<Vec<f64>>(), deforming_count);
         let Some(Eigenpairs { mut values, vectors: deforming_modes }) = eigenpairs else {
             let needed = "it must be finite in the subspace";
@@ -160,24 +160,23 @@ impl<'a> Subspace<'a> {
             .filter(|value| value.abs() <= ZERO_EIGENVALUE_RATIO * max_eigenvalue)
             .for_each(|value| *value = 0.0);
         let nonzero = values.iter().filter(|value| **value != 0.0);
-        let ratio =
+        let min_ratio =
             nonzero.fold(max_eigenvalue, |min, value| value.abs().min(min)) / max_eigenvalue;
-        if ratio < MIN_NONZERO_EIGENVALUE_RATIO {
+        if min_ratio < MIN_NONZERO_EIGENVALUE_RATIO {
             let quantity = "smallest nonzero eigenvalue, relative to the largest,";
             let needed = "at least 1e-10, which double precision distinguishes from zero";
-            return Err(
-                Error::Input { quantity, value: ratio, needed }.within(REDUCED_COORDINATES_NAME)
-            );
+            return Err(Error::Input { quantity, value: min_ratio, needed }
+                .within(REDUCED_COORDINATES_NAME));
         }
         let mut combinations = vec![0.0; count * count];
-        (0..translations).for_each(|i| combinations[i * (count + 1)] = 1.0);
+        (0..translation_count).for_each(|i| combinations[i * (count + 1)] = 1.0);
         for (i, row) in deforming_modes.chunks_exact(deforming_count.max(1)).enumerate() {
-            let start = (translations + i) * count;
-            combinations[start + translations..start + count].copy_from_slice(row);
+            let start = (translation_count + i) * count;
+            combinations[start + translation_count..start + count].copy_from_slice(row);
         }
         let mut products = vec![0.0; count * count];
         let mut modal_damping = vec![0.0; count * count];
-        add_combined_rows(damping, &combinations, count, 1.0, &mut products);
+        add_combined_rows(projected_damping, &combinations, count, 1.0, &mut products);
         add_combined_rows(&combinations, &products, count, 1.0, &mut modal_damping);
         let damping: Vec<f64> = (0..count).map(|j| modal_damping[j * (count + 1)]).collect();
         (0..count).for_each(|j| modal_damping[j * (count + 1)] = 0.0);
@@ -190,7 +189,7 @@ impl<'a> Subspace<'a> {
                 Error::Input { quantity, value: coupling, needed }.within(REDUCED_COORDINATES_NAME)
             );
         }
-        let mut stiffness = vec![0.0; translations];
+        let mut stiffness = vec![0.0; translation_count];
         stiffness.extend(values);
         Ok(RitzModes { stiffness, damping, combinations })
     }
@@ -210,7 +209,7 @@ impl<'a> Subspace<'a> {
         row_products(&self.rows.vectors()[first * self.order()..], rows, self.order())
     }
 
-    /// Adds the products of the newest vectors to those of all earlier ones, a row for each vector.
+    /// Adds the products of the newest vectors to the products of all earlier vectors, a row for each vector.
     pub(super) fn extend_products(&self, products: &mut Vec<f64>, rows: &[f64]) {
         let row_count = (rows.len() / self.order()).max(1);
         products.extend(self.products(products.len() / row_count, rows));

@@ -40,7 +40,8 @@ pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let max_eigenvalue = largest(&values);
     let rounding = ZERO_EIGENVALUE_RATIO * max_eigenvalue;
     let rigid_count = values.iter().filter(|value| value.abs() <= rounding).count();
-    // An eigenvalue below the rounding belongs to a rigid motion, unless there are too many of them.
+    // An eigenvalue below the rounding belongs to a rigid motion. More such eigenvalues than rigid motions are an
+    // error.
     let nonzero_values = values.iter().map(|v| v.abs()).filter(|v| *v > rounding);
     let min_eigenvalue = nonzero_values.fold(max_eigenvalue, f64::min);
     let mut parts = Partition::new(order);
@@ -82,7 +83,7 @@ fn modal_damping(
 ) -> Option<Vec<f64>> {
     let order = assembled.dofs();
     let mut dampings = Vec::with_capacity(order);
-    // Of damping and stiffness.
+    // The first entry is of the damping, the second of the stiffness.
     let mut max_forces = [0.0_f64; 2];
     let mut max_residuals = [0.0_f64; 2];
     for (mode, square) in modes.chunks_exact(order).zip(squared_frequencies) {

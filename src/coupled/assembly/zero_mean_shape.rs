@@ -60,13 +60,14 @@ impl RefinedBase {
         }
         let refined_patch = patch.refined().ok()?;
         let mut compliance = parts.ground.finer_compliance().ok()??;
-        if compliance.len() != refined_patch.layout().square() {
+        if compliance.len() != refined_patch.layout().matrix_len() {
             return None;
         }
         refined_patch.refer_inside(&mut compliance);
+        let base = PlacedBase::of(parts.structure.as_ref(), &refined_patch, &parts.joints).ok()?;
         Some(Self {
-            base: PlacedBase::of(parts.structure.as_ref(), &refined_patch).ok()?,
-            ground_compliance: CompressedMatrix::dense(compliance),
+            ground_compliance: CompressedMatrix::dense(base.spread_ground_matrix(compliance)),
+            base,
         })
     }
 }
@@ -95,9 +96,10 @@ impl ZeroMeanShape {
             SparseMatrix::new(FIXED_MEANS_STIFFNESS_NAME, &deviation_springs).ok()?;
         let compliance = ground.shared_compliance.borrow();
         let Compliance { factor, traction_responses, delassus } = compliance.as_ref()?;
-        let mut mean_spring_factor = mean_spring_factor(&moduli, delassus, ground.compliance)?;
+        let mut spring_matrix = factored_spring_matrix(&moduli, delassus, ground.compliance)?;
         let mut traction = vec![0.0; layout.len()];
-        // The initial vector has entries of mixed signs and magnitudes. The quotient ends some per cent above the smallest.
+        // The initial vector has entries of mixed signs and magnitudes. The iteration ends some per cent above the
+        // smallest ratio.
         let mut shape: Vec<f64> = (0..dofs).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         let mut stiffness_ratio = f64::INFINITY;
         for _ in 0..MAX_POWER_ITERATIONS {
@@ -116,7 +118,7 @@ impl ZeroMeanShape {
             for (value, modulus) in traction.iter_mut().zip(&moduli) {
                 *value *= MEAN_SPRING_FACTOR * modulus;
             }
-            mean_spring_factor.solve(&mut traction);
+            spring_matrix.solve(&mut traction);
             transposed_multiply_add(traction_responses, -1.0, &traction, &mut shape);
             let next_ratio = 1.0 / deviation_stiffness.form(&shape, &shape).sqrt();
             let previous_ratio = std::mem::replace(&mut stiffness_ratio, next_ratio);
@@ -148,9 +150,9 @@ fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize
 
 /// Factored matrix 1 + MEAN_SPRING_FACTOR · modulus · D, with the structure's part D of the Delassus operator.
 ///
-/// Its solution for the element means without springs, times MEAN_SPRING_FACTOR · modulus, is the tractions of springs that
-/// fix the element means.
-fn mean_spring_factor(
+/// The right-hand sides are the element means without springs, times MEAN_SPRING_FACTOR · modulus. The solutions are
+/// the tractions of springs that fix the element means.
+fn factored_spring_matrix(
     moduli: &[f64],
     delassus: &[f64],
     ground_compliance: &[f64],
@@ -183,16 +185,19 @@ fn soil_moduli(
         let face_elements = face.map_or(e..e + 1, |face| faces[face].clone());
         let neighbours = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
         let mut compliance = neighbours
-            .filter(|other| face_elements.contains(other))
-            .map(|other| alternating_compliance(base, ground_compliance, component, [e, other]))
+            .filter(|neighbour| face_elements.contains(neighbour))
+            .map(|neighbour| {
+                alternating_compliance(base, ground_compliance, component, [e, neighbour])
+            })
             .fold(ground_compliance[i * layout.len() + i], f64::min);
         if let (1, Some(refined), Some(face)) = (face_elements.len(), halves, face) {
             let RefinedBase { base, ground_compliance } = refined;
-            let halves = self::faces(base).nth(face).map_or(0..1, |(.., elements)| elements);
-            let first = halves.start;
-            for other in first + 1..halves.end {
-                let value =
-                    alternating_compliance(base, ground_compliance, component, [first, other]);
+            let refined_elements =
+                self::faces(base).nth(face).map_or(0..1, |(.., elements)| elements);
+            let first_half = refined_elements.start;
+            for other_half in first_half + 1..refined_elements.end {
+                let pair = [first_half, other_half];
+                let value = alternating_compliance(base, ground_compliance, component, pair);
                 compliance = f64::min(compliance, value);
             }
         }
@@ -267,7 +272,7 @@ mod tests {
         let mut traction: Vec<f64> = (0..mean_count)
             .map(|i| MEAN_SPRING_FACTOR * moduli[i] * mean(&computed, i))
             .collect();
-        mean_spring_factor(&moduli, &delassus, &soil).unwrap().solve(&mut traction);
+        factored_spring_matrix(&moduli, &delassus, &soil).unwrap().solve(&mut traction);
         transposed_multiply_add(&traction_responses, -1.0, &traction, &mut computed);
         assert!(
             computed

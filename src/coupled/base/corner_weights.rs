@@ -53,7 +53,7 @@ fn triangle_weights([a, b, c]: [Point; 3], p: Point) -> [f64; 3] {
 }
 
 /// Weights of the corners of a quadrilateral at coordinates s, t, which are from 0 to 1 inside.
-pub(crate) fn bilinear_weights([s, t]: Point) -> [f64; 4] {
+pub(crate) fn bilinear_weights([s, t]: [f64; 2]) -> [f64; 4] {
     [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]
 }
 
@@ -68,7 +68,7 @@ impl Quadrilateral {
     }
 
     /// Newton step from the coordinates `[s, t]` towards a point; `None` for a singular Jacobian.
-    fn newton_step(&self, [s, t]: Point, p: Point) -> Option<Point> {
+    fn newton_step(&self, [s, t]: [f64; 2], p: Point) -> Option<[f64; 2]> {
         let weights = bilinear_weights([s, t]);
         let residual = [0, 1].map(|k| p[k] - self.weighted_sum(weights, k));
         let [s_derivatives, t_derivatives] = weight_derivatives([s, t]);
@@ -81,7 +81,7 @@ impl Quadrilateral {
     }
 
     /// Coordinates of a point, by Newton's method from the middle; `None` without convergence.
-    fn coordinates(&self, p: Point) -> Option<Point> {
+    fn coordinates(&self, p: Point) -> Option<[f64; 2]> {
         let mut s = 0.5_f64;
         let mut t = 0.5_f64;
         for _ in 0..MAX_NEWTON_ITERATIONS {
@@ -110,7 +110,7 @@ impl Quadrilateral {
     }
 
     /// Coordinates of a point inside the quadrilateral, by the quadratic equation for t.
-    fn coordinates_within(&self, p: Point) -> Option<Point> {
+    fn coordinates_within(&self, p: Point) -> Option<[f64; 2]> {
         let [b, c, d] = self.0;
         let twist = [0, 1].map(|k| c[k] - b[k] - d[k]);
         // Coefficients of t², t and 1.
@@ -118,7 +118,7 @@ impl Quadrilateral {
         let linear = cross(p, twist) - cross(d, b);
         let constant = cross(p, b);
         let root = linear.mul_add(linear, -4.0 * quadratic * constant).max(0.0).sqrt();
-        // Without cancellation; the two roots are q/a and c/q (Press et al. 2007, § 5.6).
+        // The two roots are q/quadratic and constant/q, without cancellation (Press et al. 2007, § 5.6).
         let q = -0.5 * (linear + root.copysign(linear));
         let candidates =
             [q / quadratic, constant / q].into_iter().filter(|t| t.is_finite()).map(|t| {
@@ -129,7 +129,7 @@ impl Quadrilateral {
                 [s, t]
             });
         let distance_from_middle =
-            |[s, t]: &Point| [s, t].into_iter().map(|x| (x - 0.5).abs()).fold(0.0, f64::max);
+            |[s, t]: &[f64; 2]| [s, t].into_iter().map(|x| (x - 0.5).abs()).fold(0.0, f64::max);
         let coordinates = candidates
             .min_by(|a, b| distance_from_middle(a).total_cmp(&distance_from_middle(b)))?;
         let is_finite = coordinates.iter().all(|x| x.is_finite());
@@ -143,7 +143,7 @@ fn cross(a: Point, b: Point) -> f64 {
 }
 
 /// Derivatives of [`bilinear_weights`] with respect to s and to t.
-fn weight_derivatives([s, t]: Point) -> [[f64; 4]; 2] {
+fn weight_derivatives([s, t]: [f64; 2]) -> [[f64; 4]; 2] {
     [[t - 1.0, 1.0 - t, t, -t], [s - 1.0, -s, s, 1.0 - s]]
 }
 

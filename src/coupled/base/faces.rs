@@ -27,17 +27,17 @@ impl PlacedBase {
         let mut foundations = Vec::with_capacity(mats.len());
         let mut first_node = 0;
         for mat in &mats {
-            let range = first_node..first_node + mat.iter().map(Vec::len).sum::<usize>();
-            let mut rotations = BaseNode::mean_rotations(&nodes[range.clone()]);
+            let mat_nodes = first_node..first_node + mat.iter().map(Vec::len).sum::<usize>();
+            let mut rotations = BaseNode::mean_rotations(&nodes[mat_nodes.clone()]);
             // By the right-hand rule an upward slope to the right is a negative rotation about y.
             rotations[0] = -rotations[0].clone();
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
-            first_node = range.end;
-            let corners = hull(nodes[range.clone()].iter());
-            let settlement = faces.settlement(&range);
+            first_node = mat_nodes.end;
+            let corners = hull(nodes[mat_nodes.clone()].iter());
+            let settlement = faces.settlement(&mat_nodes);
             let elements = 0..0;
             foundations.push(PlacedFoundation {
-                nodes: range,
+                nodes: mat_nodes,
                 elements,
                 settlement,
                 rotations,
@@ -104,9 +104,9 @@ impl<'a> DividedFaces<'a> {
     fn new(nodes: &'a [BaseNode], corner_counts: &[usize]) -> Result<Self> {
         let mut faces = Self { nodes, pieces: Vec::new() };
         let mut first_node = 0;
-        for (number, &corner_count) in corner_counts.iter().enumerate() {
+        for (face_number, &corner_count) in corner_counts.iter().enumerate() {
             let face: Vec<usize> = (first_node..first_node + corner_count).collect();
-            MatFace::new(number, &faces.corners(&face))?;
+            MatFace::new(face_number, &faces.corners(&face))?;
             if corner_count <= 4 {
                 faces.pieces.push(face);
             } else {
@@ -172,12 +172,12 @@ impl<'a> DividedFaces<'a> {
     ) -> Result<Vec<(usize, f64)>> {
         let mut weights = Vec::with_capacity(16);
         for point in gauss_points(element, patch) {
-            let (corner_weights, value) = self.corner_weights(point);
-            if value.is_nan() || value > max_distance {
+            let (corner_weights, distance) = self.corner_weights(point);
+            if distance.is_nan() || distance > max_distance {
                 let quantity = "distance of a contact element from the faces of the base, m";
                 let needed =
                     "half an element or less: all elements must lie under the structure's base";
-                let error = Error::Input { quantity, value, needed };
+                let error = Error::Input { quantity, value: distance, needed };
                 return Err(error.within(format!("contact element {element}")));
             }
             weights.extend(corner_weights.into_iter().map(|(node, weight)| (node, 0.25 * weight)));
@@ -193,8 +193,8 @@ impl<'a> DividedFaces<'a> {
 
     /// Integration points for the elements of a mat.
     ///
-    /// They are the Gauss points of its faces. An element that contains fewer than four of these has its own 2 × 2 Gauss
-    /// points.
+    /// They are the Gauss points of the mat's faces. An element that contains fewer than four of these has the 2 × 2
+    /// Gauss points of the element instead.
     fn integration_points(&self, mat: &PlacedFoundation, patch: &Patch) -> Vec<BasePoint> {
         let mut weights_by_element = vec![Vec::new(); mat.elements.len()];
         for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {
@@ -248,9 +248,9 @@ impl<'a> DividedFaces<'a> {
 /// Groups faces into mats; faces that touch belong to one mat.
 fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
     let mut mat_faces = Vec::with_capacity(faces.len());
-    for (number, face) in faces.iter().enumerate() {
+    for (face_number, face) in faces.iter().enumerate() {
         let corners: Vec<Point> = face.iter().map(BaseNode::place).collect();
-        mat_faces.push(MatFace::new(number, &corners)?);
+        mat_faces.push(MatFace::new(face_number, &corners)?);
     }
     MatFace::check_overlap(&mat_faces)?;
     let mat_numbers = MatFace::mats(&mat_faces);
@@ -326,13 +326,18 @@ mod tests {
             .collect()
     }
 
-    /// Mean over a cell of a field with values at the corners.
-    fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
+    /// Mean over a cell `[left, right, front, back]` of a field with values at the corners.
+    fn mean(
+        corners: &[Point],
+        corner_counts: &[usize],
+        cell: [f64; 4],
+        field: fn(Point) -> f64,
+    ) -> f64 {
         let cell = ContactElement::in_plan([cell[0], cell[1]], [cell[2], cell[3]]);
         let patch = Patch::new(vec![cell]).unwrap();
         let nodes = nodes(corners);
         let mut sum = 0.0;
-        let faces = DividedFaces::new(&nodes, faces).unwrap();
+        let faces = DividedFaces::new(&nodes, corner_counts).unwrap();
         for (node, weight) in faces.mean_weights(0, &patch, 1.0).unwrap() {
             sum += weight * field(corners[node]);
         }

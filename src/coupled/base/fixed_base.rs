@@ -7,33 +7,37 @@
 //! | γ | stiffness of the springs between the nodes of a foundation |
 
 use crate::bem::{DiagonalCompliance, Ground};
+use crate::coupled::base::joint_line::JointLine;
 use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{dot, largest};
 use crate::structure::{
-    BaseNode, HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness,
-    stiffest,
+    Base, BaseNode, MassAndStiffness, NonlinearForce, SpringSupportedBase, Structure, Triplets,
+    mass_and_stiffness, max_diagonal_stiffness,
 };
 
 /// Stiffness of the ground over 4 m/Δt², the resistance of the structure's mass m in a step.
 const FIXED_GROUND_STIFFNESS_RATIO: f64 = 1e6;
 /// Stiffness that makes foundations rigid, relative to the structure's largest stiffness.
 const RIGID_FOUNDATION_STIFFNESS_RATIO: f64 = 1e5;
-/// Fraction of a node's displacement that counts as rounding.
+/// Fraction of a node's displacement or of a motion's norm that counts as rounding.
 const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 
 /// The structure with rigid foundations, and an almost rigid ground under it.
 pub(crate) fn on_fixed_base(
     structure: Box<dyn Structure>,
     elements: &Patch,
+    joints: &[JointLine],
     time_step: f64,
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
-    let base = PlacedBase::of(structure.as_ref(), elements)?;
+    let base = PlacedBase::of(structure.as_ref(), elements, joints)?;
     let dofs = structure.dofs();
     let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure.as_ref())?;
-    let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
-    let mut translation = springs.pulls().swap_remove(0);
+    let springs =
+        SpringSupportedBase::new(base.nodes(), &stiffness, max_diagonal_stiffness(&stiffness));
+    // Forces of the springs for a unit translation to the right, and then the translation itself.
+    let mut translation = springs.translation_forces().swap_remove(0);
     // Without a factor the assembly later returns an error that names the mechanism.
     if let Ok(mut factor) = springs.factor() {
         factor.solve(&mut translation);
@@ -42,7 +46,7 @@ pub(crate) fn on_fixed_base(
     let resistance = 4.0 * mass.form(&translation, &translation) / (time_step * time_step);
     // The reference of a massless structure is its stiffness.
     let has_inertia = resistance > 0.0 && resistance.is_finite();
-    let resistance = if has_inertia { resistance } else { stiffest(&stiffness) };
+    let resistance = if has_inertia { resistance } else { max_diagonal_stiffness(&stiffness) };
     let ground = FixedGround {
         elements: elements.clone(),
         compliance: total_area / (FIXED_GROUND_STIFFNESS_RATIO * resistance),
@@ -51,7 +55,7 @@ pub(crate) fn on_fixed_base(
     for (nodes, _) in base.foundations() {
         add_rigid_foundation(
             nodes,
-            RIGID_FOUNDATION_STIFFNESS_RATIO * stiffest(&stiffness),
+            RIGID_FOUNDATION_STIFFNESS_RATIO * max_diagonal_stiffness(&stiffness),
             &mut foundation_stiffness,
         );
     }
@@ -71,6 +75,15 @@ pub(crate) fn without_rigid_foundations(structure: &dyn Structure) -> &dyn Struc
         .map_or(structure, |wrapper| wrapper.structure.as_ref())
 }
 
+/// The structure that the builder received, by value.
+pub(crate) fn into_structure(mut structure: Box<dyn Structure>) -> Box<dyn Structure> {
+    let wrapper: &mut dyn std::any::Any = structure.as_mut();
+    match wrapper.downcast_mut::<StructureOnRigidFoundations>() {
+        Some(wrapper) => std::mem::replace(&mut wrapper.structure, Box::new(NoStructure)),
+        None => structure,
+    }
+}
+
 /// Whether the ground belongs to a fixed base.
 pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
@@ -81,10 +94,12 @@ pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
 ///
 /// It resists all motions of the nodes except rigid ones.
 fn add_rigid_foundation(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
-    let Some(directions) = nodes.first().map(BaseNode::directions) else { return };
-    let rigid_motions = rigid_motions(nodes, directions);
+    let Some(direction_count) = nodes.first().map(BaseNode::direction_count) else {
+        return;
+    };
+    let rigid_motions = rigid_motions(nodes, direction_count);
     let rows: Vec<_> =
-        nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
+        nodes.iter().flat_map(|node| node.rows().into_iter().take(direction_count)).collect();
     let dofs = dofs_of(nodes);
     let dense_row = |row: usize| {
         let mut values = vec![0.0; dofs.len()];
@@ -125,38 +140,39 @@ fn add_rigid_foundation(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) 
 /// Columns of Q, the orthonormal rigid motions of nodes.
 ///
 /// The components of each node are those along x, upwards and, in plan, along y.
-fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
+fn rigid_motions(nodes: &[BaseNode], direction_count: usize) -> Vec<Vec<f64>> {
     let node_count = nodes.len() as f64;
-    let x = nodes.iter().map(|node| node.x).sum::<f64>() / node_count;
-    let y = nodes.iter().map(|node| node.y).sum::<f64>() / node_count;
-    let z = nodes.iter().map(|node| node.z).sum::<f64>() / node_count;
+    let center_x = nodes.iter().map(|node| node.x).sum::<f64>() / node_count;
+    let center_y = nodes.iter().map(|node| node.y).sum::<f64>() / node_count;
+    let center_z = nodes.iter().map(|node| node.z).sum::<f64>() / node_count;
     let motion = |node_motion: &dyn Fn(&BaseNode) -> [f64; 3]| -> Vec<f64> {
         nodes
             .iter()
-            .flat_map(|node| node_motion(node).into_iter().take(directions))
+            .flat_map(|node| node_motion(node).into_iter().take(direction_count))
             .collect()
     };
     let mut motions = vec![
         motion(&|_| [1.0, 0.0, 0.0]),
         motion(&|_| [0.0, 1.0, 0.0]),
-        motion(&|node| [z - node.z, node.x - x, 0.0]),
+        motion(&|node| [center_z - node.z, node.x - center_x, 0.0]),
     ];
-    if directions == 3 {
+    if direction_count == 3 {
         motions.push(motion(&|_| [0.0, 0.0, 1.0]));
-        motions.push(motion(&|node| [0.0, node.y - y, 0.0]));
-        motions.push(motion(&|node| [y - node.y, 0.0, node.x - x]));
+        motions.push(motion(&|node| [0.0, node.y - center_y, 0.0]));
+        motions.push(motion(&|node| [center_y - node.y, 0.0, node.x - center_x]));
     }
     let mut orthonormal: Vec<Vec<f64>> = Vec::new();
     for mut motion in motions {
         let initial_norm = dot(&motion, &motion).sqrt();
-        for other in orthonormal.iter().chain(&orthonormal) {
-            let component = dot(other, &motion);
-            motion.iter_mut().zip(other).for_each(|(x, y)| *x -= component * y);
+        // Two passes remove rounding.
+        for direction in orthonormal.iter().chain(&orthonormal) {
+            let component = dot(direction, &motion);
+            motion.iter_mut().zip(direction).for_each(|(entry, unit)| *entry -= component * unit);
         }
         let norm = dot(&motion, &motion).sqrt();
         if norm > RIGID_MOTION_TOLERANCE * initial_norm {
-            for x in &mut motion {
-                *x /= norm;
+            for entry in &mut motion {
+                *entry /= norm;
             }
             orthonormal.push(motion);
         }
@@ -190,6 +206,27 @@ impl Structure for StructureOnRigidFoundations {
     }
 }
 
+/// What stays in a wrapper without its structure.
+struct NoStructure;
+
+impl Structure for NoStructure {
+    fn dofs(&self) -> usize {
+        0
+    }
+
+    fn base(&self) -> Base {
+        Base::Lines(Vec::new())
+    }
+
+    fn mass(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+
+    fn stiffness(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+}
+
 /// Springs under each element, so stiff that the base moves with the free field.
 struct FixedGround {
     elements: Patch,
@@ -198,7 +235,7 @@ struct FixedGround {
 }
 
 impl FixedGround {
-    /// Writes the diagonal compliance to a full matrix.
+    /// Writes the compliance to the diagonal of a full matrix.
     fn write_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let order = self.elements.layout().len();
         same_length("matrix of the fixed ground", matrix.len(), order * order)?;

@@ -24,11 +24,11 @@ impl PlacedBase {
         for line in lines {
             check_line(line)?;
             check_left_to_right(line[0].x, line[line.len() - 1].x)?;
-            let range = first_node..first_node + line.len();
+            let line_nodes = first_node..first_node + line.len();
             let floor = BaseNode::floor(line);
-            let last_node = range.end - 1;
+            let last_node = line_nodes.end - 1;
             // The elements end in the middle between this foundation and the next.
-            let element_end = nodes.get(range.end).map_or(elements.len(), |next| {
+            let element_end = nodes.get(line_nodes.end).map_or(elements.len(), |next| {
                 let middle = 0.5 * (nodes[last_node].x + next.x);
                 elements.partition_point(|element| element.center()[0] < middle)
             });
@@ -36,7 +36,7 @@ impl PlacedBase {
                 elements: first_element..element_end,
                 settlement: Weights::Sparse(mean_settlement(floor)),
                 rotations: vec![Weights::Sparse(chord_rotation(floor))],
-                nodes: range,
+                nodes: line_nodes,
                 corners: Vec::new(),
             });
             first_node = last_node + 1;
@@ -45,11 +45,16 @@ impl PlacedBase {
         check_covered(&foundations)?;
         let mut weights = Vec::with_capacity(elements.len());
         let mut points = Vec::new();
-        for PlacedFoundation { nodes: range, elements: foundation_elements, .. } in &foundations {
-            let line = &nodes[range.clone()];
-            // From indices in the line to indices in the base.
+        for PlacedFoundation { nodes: line_nodes, elements: foundation_elements, .. } in
+            &foundations
+        {
+            let line = &nodes[line_nodes.clone()];
+            // Converts indices in the line to indices in the base.
             let to_base_indices = |weights: Vec<(usize, f64)>| {
-                weights.into_iter().map(|(k, weight)| (range.start + k, weight)).collect::<Vec<_>>()
+                weights
+                    .into_iter()
+                    .map(|(k, weight)| (line_nodes.start + k, weight))
+                    .collect::<Vec<_>>()
             };
             let is_flexible = !BaseNode::are_flat(line);
             for e in foundation_elements.clone() {
@@ -102,7 +107,7 @@ fn chord_rotation(nodes: &[BaseNode]) -> SparseVector {
 }
 
 /// The nodes on the line of an element.
-struct NodesOnElement {
+pub(super) struct NodesOnElement {
     /// Index of the first node in its line.
     first_node: usize,
     /// Coordinates of the nodes along the element's tangent, m.
@@ -112,6 +117,13 @@ struct NodesOnElement {
 }
 
 impl NodesOnElement {
+    /// All nodes of a straight line parallel to an element, which they cover.
+    pub(super) fn along(nodes: &[BaseNode], element: &ContactElement) -> Self {
+        let coordinate = |node: &BaseNode| element.components([node.x, node.y, node.z])[1];
+        let coordinates = nodes.iter().map(coordinate).collect();
+        Self { first_node: 0, coordinates, ends: element.span() }
+    }
+
     /// Selects the nodes on the line of an element; an error unless they cover the element.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         // Coordinates along the element's normal and tangent.
@@ -159,13 +171,17 @@ impl NodesOnElement {
     }
 
     /// Indices and weights of nodes in the mean displacement of the element.
-    fn mean_weights(&self) -> Vec<(usize, f64)> {
+    pub(super) fn mean_weights(&self) -> Vec<(usize, f64)> {
         let length = self.ends[1] - self.ends[0];
         let mut weights = Vec::new();
         for ElementPiece { node, x0, x1, start, end } in self.pieces() {
-            let middle = (0.5 * (start + end) - x0) / (x1 - x0);
+            // Weight of the second node in the displacement of the piece's middle.
+            let second_weight = (0.5 * (start + end) - x0) / (x1 - x0);
             let fraction = (end - start) / length;
-            weights.extend([(node, fraction * (1.0 - middle)), (node + 1, fraction * middle)]);
+            weights.extend([
+                (node, fraction * (1.0 - second_weight)),
+                (node + 1, fraction * second_weight),
+            ]);
         }
         weights
     }

@@ -18,9 +18,9 @@ const TEAR_ROUNDING_TOLERANCE: f64 = 1e-6;
 pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
     let Base::Faces(faces) = base else { return Ok(None) };
     let mut mat_faces = Vec::with_capacity(faces.len());
-    for (number, face) in faces.iter().enumerate() {
+    for (face_number, face) in faces.iter().enumerate() {
         let corners: Vec<Point> = face.iter().map(BaseNode::place).collect();
-        mat_faces.push(MatFace::new(number, &corners)?);
+        mat_faces.push(MatFace::new(face_number, &corners)?);
     }
     let coincidence_distance = mat_faces.iter().map(MatFace::touch_distance).fold(0.0, f64::max);
     let mut points = PointIndex::new(coincidence_distance);
@@ -32,7 +32,7 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
         for node in face {
             let point = points.index_of(node.place());
             match point_nodes.get(point) {
-                Some(other) if rises_differently(node, &[(other, 1.0)]) => {
+                Some(first_node) if rises_differently(node, &[(first_node, 1.0)]) => {
                     torn_points.insert(point);
                 }
                 Some(_) => {}

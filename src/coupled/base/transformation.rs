@@ -152,7 +152,7 @@ impl Rows {
         x: &[f64],
         force: &mut [f64],
     ) {
-        // So many scaled values fit into a buffer on the stack.
+        // Number of scaled values in the buffer, which lies on the stack.
         const ROW_BLOCK_SIZE: usize = 64;
         match self {
             Self::Sparse(rows) => {
@@ -178,7 +178,7 @@ impl Rows {
     }
 }
 
-/// Modal coordinate of a rigid translation that counts as rounding, relative to the largest.
+/// Modal coordinate of a rigid translation that counts as rounding, relative to its largest modal coordinate.
 const RIGID_COORDINATE_ROUNDING: f64 = 1e-12;
 
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
@@ -240,7 +240,7 @@ impl ModalBasis {
         coordinates
     }
 
-    /// Modal coordinates of a rigid translation; only rigid modes have nonzero ones.
+    /// Modal coordinates of a rigid translation, which are nonzero only for rigid modes.
     pub(crate) fn rigid_translation(
         &self,
         vector: &[(usize, f64)],

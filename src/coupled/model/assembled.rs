@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
+use crate::coupled::base::joint_line::JointLine;
 use crate::coupled::model::mechanism::StructureAtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
@@ -19,11 +20,11 @@ use crate::geometry::Patch;
 use crate::linalg::matrix::spread;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
-    BaseNode, HeldBase, Structure, StructureError, Tangent, Triplets, check_attached,
-    check_damping, check_mass, check_stiffness, proportional_factors, stiffest,
+    BaseNode, SpringSupportedBase, Structure, StructureError, Tangent, Triplets, check_attached,
+    check_damping, check_mass, check_stiffness, max_diagonal_stiffness, proportional_factors,
 };
 
-/// Number of passes that refine the influence vectors.
+/// Number of passes of iterative refinement of the influence vectors.
 const INFLUENCE_REFINEMENT_COUNT: usize = 3;
 /// Largest ratio √(inertia/stiffness) (s) of the springs under the base.
 ///
@@ -47,12 +48,16 @@ pub(crate) struct Assembled {
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements`, and factors its stiffness at rest with a fixed base.
+    /// Assembles a structure over `elements` with joints, and factors its stiffness at rest with a fixed base.
     ///
     /// Returns an error for matrices of wrong sign, parts without connection to the base, supports besides the ground, and
     /// mechanisms that cannot be factored.
-    pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
-        let base = PlacedBase::of(structure, elements)?;
+    pub(crate) fn new(
+        structure: &dyn Structure,
+        elements: &Patch,
+        joints: &[JointLine],
+    ) -> Result<(Self, SparseFactor)> {
+        let base = PlacedBase::of(structure, elements, joints)?;
         let dofs = structure.dofs();
         let is_linear = structure.nonlinear().is_none();
         at_least("list of degrees of freedom", dofs, 1)?;
@@ -89,7 +94,7 @@ impl Assembled {
         };
         let stiffness = assembled.stiffness_at_rest();
         check_attached(structure, stiffness, &assembled.mass, &assembled.base.dofs())?;
-        // Rounding determines the error of a mechanism, but a mechanism never has the wrong sign.
+        // Which error a mechanism causes depends on rounding, but a mechanism never causes `Indefinite`.
         let (influence, fixed_factor) =
             assembled.compute_influence().map_err(|error| match error {
                 Error::Indefinite { .. } => assembled.buckling(structure).unwrap_or(error),
@@ -239,7 +244,7 @@ impl Assembled {
 
     /// Stiffness of the springs at the contact nodes that fix the base, N/m.
     pub(super) fn base_spring_stiffness(&self) -> f64 {
-        stiffest(self.stiffness_at_rest())
+        max_diagonal_stiffness(self.stiffness_at_rest())
             .max(self.base_inertia() / (MAX_BASE_SPRING_TIME * MAX_BASE_SPRING_TIME))
     }
 
@@ -251,30 +256,38 @@ impl Assembled {
     fn compute_influence(&self) -> Result<(Influence, SparseFactor)> {
         let stiffness = self.stiffness_at_rest();
         let dofs = self.dofs();
-        let max_stiffness = stiffest(stiffness);
+        let max_stiffness = max_diagonal_stiffness(stiffness);
         let spring = self.base_spring_stiffness();
-        let springs = HeldBase::new(self.base.nodes(), stiffness, spring);
-        let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &springs.matrix)?;
-        let is_condensed =
-            self.is_linear && self.base.is_flexible() && !self.base.elements().has_walls();
+        let springs = SpringSupportedBase::new(self.base.nodes(), stiffness, spring);
+        let matrix = SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &springs.matrix)?;
+        let is_condensed = self.is_linear
+            && self.base.is_flexible()
+            && self.base.joints().is_empty()
+            && !self.base.elements().has_walls();
         let elimination_ending_with_base =
             if is_condensed { self.elimination.ending_with(&self.base.dofs()) } else { None };
         let elimination = elimination_ending_with_base.as_ref().unwrap_or(&self.elimination);
-        let factor =
-            SparseFactor::with_elimination(HeldBase::STIFFNESS_NAME, &matrix, elimination)?;
+        let factor = SparseFactor::with_elimination(
+            SpringSupportedBase::STIFFNESS_NAME,
+            &matrix,
+            elimination,
+        )?;
         if self.is_linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
-        let pulls = springs.pulls().concat();
-        let mut solution = vec![0.0; pulls.len()];
+        let spring_forces = springs.translation_forces().concat();
+        let mut solution = vec![0.0; spring_forces.len()];
         for _ in 0..=INFLUENCE_REFINEMENT_COUNT {
             let mut residual = matrix.times(&solution);
-            residual.iter_mut().zip(&pulls).for_each(|(r, pull)| *r = pull - *r);
+            residual.iter_mut().zip(&spring_forces).for_each(|(r, force)| *r = force - *r);
             factor.solve_many(&mut residual);
             solution.iter_mut().zip(&residual).for_each(|(r, d)| *r += d);
         }
         if solution.iter().any(|r| !r.is_finite()) {
-            return Err(Error::Singular { matrix: HeldBase::STIFFNESS_NAME, order: dofs });
+            return Err(Error::Singular {
+                matrix: SpringSupportedBase::STIFFNESS_NAME,
+                order: dofs,
+            });
         }
         let mut translations: Vec<_> = solution.chunks_exact(dofs).map(<[f64]>::to_vec).collect();
         let spring_ratio = spring / max_stiffness;
@@ -289,8 +302,14 @@ impl Assembled {
                 node_dofs.for_each(|dof| parts.join(first_dof, dof));
             }
         }
+        for node in self.base.joints().iter().flat_map(|joint| joint.line.sides()).flatten() {
+            let mut node_dofs = node.dofs();
+            if let Some(first_dof) = node_dofs.next() {
+                node_dofs.for_each(|dof| parts.join(first_dof, dof));
+            }
+        }
         let part_labels: Vec<usize> = (0..dofs).map(|dof| parts.root(dof)).collect();
-        let influence = Influence::split(&self.base, &translations, &part_labels);
+        let influence = Influence::split(&self.base, &translations, &part_labels)?;
         supports::check_parts(&influence, &self.base, dofs)?;
         Ok((influence, factor))
     }

@@ -49,11 +49,11 @@ impl Condensed {
         let Some(mut stiffness) = fixed_factor.condensed(&dofs) else {
             return Ok(None);
         };
-        let Ok(weight_and_load) = weight_and_load() else { return Ok(None) };
+        let Ok(whole_forces) = weight_and_load() else { return Ok(None) };
         let order = dofs.len();
         let whole_dofs = whole.dofs();
         let spring = whole.base_spring_stiffness();
-        let mut solutions = weight_and_load.concat();
+        let mut solutions = whole_forces.concat();
         fixed_factor.solve_many(&mut solutions);
         let mut responses = solutions.chunks_exact(whole_dofs);
         let [weight, load] = std::array::from_fn(|_| {

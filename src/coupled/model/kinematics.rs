@@ -51,8 +51,8 @@ impl Translation {
 
 /// Motion of the structure: relative displacement, total velocity and total acceleration.
 ///
-/// The displacement is relative to the free field's translation. Degrees of freedom are computed at their first use and
-/// stored.
+/// The displacement is relative to the free field's translation. Values in degrees of freedom are computed at their
+/// first use and stored.
 #[derive(Clone)]
 pub(crate) struct Kinematics {
     pub(crate) displacement: Vec<f64>,
@@ -76,7 +76,7 @@ pub(crate) enum DofResponse {
 }
 
 impl Kinematics {
-    /// Motion at rest.
+    /// Zero displacement, velocity and acceleration.
     pub(crate) fn new(model: &Model) -> Self {
         Self {
             displacement: vec![0.0; model.coordinate_count],

@@ -14,7 +14,7 @@ use std::fmt;
 /// ([`GravityStage`](crate::coupled::GravityStage)). A sudden load is zero at t = 0.
 ///
 /// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once,
-/// at the time at which the scheme writes the equation of motion: t + Δt/2 for
+/// at the time of the scheme's equation of motion: t + Δt/2 for
 /// [`Midpoint`](crate::coupled::Midpoint) and [`DissipativeMidpoint`](crate::coupled::DissipativeMidpoint), t + Δt
 /// for [`Newmark`](crate::coupled::Newmark). All iterations of a nonlinear structure use this value. If a failed step is
 /// tried again, the load is evaluated again. Between the steps, [`set_load`](crate::Simulation::set_load) sets a force
@@ -106,15 +106,13 @@ impl Load {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }
 
-    /// `force` times the samples of a record, linear between them and zero beyond its ends.
-    ///
-    /// The factor of each sample is its value in m/s².
+    /// `force` times the accelerations of a record in m/s², linear between its samples and zero beyond its ends.
     pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
         let record = record.clone();
         Self::new(row, move |time| force * record.at(time).acceleration)
     }
 
-    /// `forces` at `times` (s, ascending), linear between them and zero outside.
+    /// `forces` at `times` (s, ascending), linear between these times and zero before and after them.
     ///
     /// # Errors
     /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers
@@ -212,10 +210,10 @@ impl SteppedLoad {
     ///
     /// Returns the difference of the load and its static force.
     pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
-        let value = self.set_force.unwrap_or_else(|| self.load.value(time)) - self.static_force;
-        if value != 0.0 {
-            self.weights.add_scaled(value, force);
+        let change = self.set_force.unwrap_or_else(|| self.load.value(time)) - self.static_force;
+        if change != 0.0 {
+            self.weights.add_scaled(change, force);
         }
-        value
+        change
     }
 }

@@ -3,17 +3,17 @@
 use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
-use crate::structure::{HeldBase, Structure, Triplets, dof_list_text};
+use crate::structure::{SpringSupportedBase, Structure, Triplets, dof_list_text};
 
-/// Regularising mass of mechanisms, relative to a mass as large as the stiffness.
+/// Largest regularising term on the diagonal, relative to the largest stiffness.
 const REGULARISING_MASS_RATIO: f64 = 1e-12;
-/// Largest work of a mechanism on the stiffness, relative to the work of its largest entries.
+/// Largest work of a mechanism on the stiffness, relative to the sum of the magnitudes of its terms.
 const MAX_MECHANISM_WORK_RATIO: f64 = 1e-12;
 /// Largest relative work of a mechanism where no factorization has failed.
 ///
 /// The sum of elements has a rounding of 3e-17. A column of a thousand beams, although not a mechanism, has 1e-12.
 const MAX_CERTAIN_MECHANISM_WORK_RATIO: f64 = f64::EPSILON;
-/// Smallest relative work of the softest displacement without a mechanism.
+/// Relative work of the softest displacement above which the structure has no mechanism.
 const FIRM_WORK_RATIO: f64 = 1e-6;
 /// Smallest displacement of a degree of freedom of a mechanism, relative to the largest.
 const MIN_MECHANISM_DISPLACEMENT_RATIO: f64 = 0.1;
@@ -67,7 +67,7 @@ impl StructureAtRest<'_> {
 }
 
 /// The mechanism without resistance by stiffness, damping and mass; `None` if there is none.
-pub(crate) fn unresisted(
+pub(crate) fn unresisted_mechanism(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
     mass_and_damping: [&SparseMatrix; 2],
@@ -101,7 +101,9 @@ pub(crate) struct RegularisedStiffness {
 
 impl RegularisedStiffness {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
-    pub(crate) fn on_firm_springs<'a>(at_rest: &StructureAtRest<'a>) -> (HeldBase<'a>, Self) {
+    pub(crate) fn on_firm_springs<'a>(
+        at_rest: &StructureAtRest<'a>,
+    ) -> (SpringSupportedBase<'a>, Self) {
         Self::on_springs(at_rest, 1.0)
     }
 
@@ -109,11 +111,11 @@ impl RegularisedStiffness {
     pub(crate) fn on_springs<'a>(
         at_rest: &StructureAtRest<'a>,
         factor: f64,
-    ) -> (HeldBase<'a>, Self) {
+    ) -> (SpringSupportedBase<'a>, Self) {
         let StructureAtRest { stiffness, mass, base, .. } = *at_rest;
         let max_entry = stiffness.entries().fold(0.0_f64, |max, (_, _, k)| max.max(k.abs()));
         let spring = factor * if max_entry > 0.0 { max_entry } else { 1.0 };
-        let springs = HeldBase::new(base.nodes(), stiffness, spring);
+        let springs = SpringSupportedBase::new(base.nodes(), stiffness, spring);
         let regularised = Self::new(springs.matrix.clone(), spring, &mass.diagonal());
         (springs, regularised)
     }
@@ -153,7 +155,7 @@ impl RegularisedStiffness {
     pub(crate) fn factor(&self) -> Option<SparseFactor> {
         let mut sum = self.matrix.clone();
         self.regularisation.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        SparseFactor::new(HeldBase::STIFFNESS_NAME, &sum).ok()
+        SparseFactor::new(SpringSupportedBase::STIFFNESS_NAME, &sum).ok()
     }
 
     /// Degrees of freedom of all mechanisms with a relative work of at most `max_work_ratio`, ascending.
@@ -212,8 +214,8 @@ impl RegularisedStiffness {
 
     /// Work of a displacement on the matrix, relative to the sum of the magnitudes of its terms.
     ///
-    /// A degree of freedom without entries contributes the work of a spring to the sum. Compared with its displacement,
-    /// all others are rounding.
+    /// A degree of freedom without entries contributes the work of a spring to the sum. If it moves, all other
+    /// displacements are only rounding.
     fn relative_work(&self, shape: &[f64]) -> f64 {
         let mut scale: f64 = self.empty_dofs.iter().map(|&i| self.spring * shape[i].powi(2)).sum();
         let mut work = 0.0_f64;

@@ -24,8 +24,9 @@ pub(crate) struct Operators {
     pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
-    /// Tractions and mean displacements of the elements, for new responses; empty before the first change of the tangent.
+    /// Buffer of zeros for the tractions of the elements; empty before the first change of the tangent.
     unit_traction: Vec<f64>,
+    /// Buffer for the mean displacements of the elements; empty before the first change of the tangent.
     means: Vec<f64>,
 }
 
@@ -93,7 +94,11 @@ impl Operators {
                 *factorization = StiffnessFactorization::Changing(Box::new(stiffness));
             }
         }
-        self.tangent.copy_from(tangent);
+        if has_same_pattern {
+            self.tangent.copy_values(tangent);
+        } else {
+            self.tangent.clone_from(tangent);
+        }
         let factorization = &mut self.factorization;
         if self.delassus.on_bed().is_some() {
             let solve = |rhs: &mut [f64]| factorization.solve_many(rhs);
@@ -221,7 +226,7 @@ impl StiffnessFactorization {
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.
-    fn solve_many(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn solve_many(&mut self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
             Self::Changing(stiffness) => stiffness.factor.solve_many(rhs),

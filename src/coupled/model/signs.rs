@@ -3,7 +3,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result};
 use crate::linalg::{Elimination, SparseMatrix, indefinite_row};
-use crate::structure::{HeldBase, Triplets, stiffest};
+use crate::structure::{SpringSupportedBase, Triplets, max_diagonal_stiffness};
 
 /// Stiffness of the springs that fix the base and replace constraints, relative to the largest stiffness.
 ///
@@ -17,13 +17,15 @@ pub(crate) fn check_signs(
     base: &PlacedBase,
     [mass, damping, stiffness]: [&SparseMatrix; 3],
 ) -> Result<()> {
-    let max_stiffness = stiffest(stiffness);
-    let springs = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * max_stiffness);
-    let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &springs.matrix)?;
+    let max_stiffness = max_diagonal_stiffness(stiffness);
+    let springs =
+        SpringSupportedBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * max_stiffness);
+    let matrix = SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &springs.matrix)?;
     if matrix.asymmetry() > SIGN_ROUNDING_TOLERANCE {
         return Ok(());
     }
-    let constrained = constrain(&matrix, &multipliers(&matrix, [mass, damping]), springs.spring)?;
+    let constrained =
+        constrain(&matrix, &multipliers(&matrix, [mass, damping]), springs.spring_stiffness)?;
     match indefinite_row(
         &constrained,
         SIGN_ROUNDING_TOLERANCE,
@@ -32,7 +34,7 @@ pub(crate) fn check_signs(
     ) {
         Some(row) => {
             let diagonal = stiffness.diagonal()[row];
-            Err(Error::Indefinite { matrix: HeldBase::STIFFNESS_NAME, row, diagonal })
+            Err(Error::Indefinite { matrix: SpringSupportedBase::STIFFNESS_NAME, row, diagonal })
         }
         None => Ok(()),
     }
@@ -92,5 +94,5 @@ fn constrain(matrix: &SparseMatrix, is_multiplier: &[bool], penalty: f64) -> Res
             constrained.add_outer(&constraint, penalty);
         }
     }
-    SparseMatrix::new(HeldBase::STIFFNESS_NAME, &constrained)
+    SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &constrained)
 }

@@ -52,6 +52,8 @@ const NONLINEAR_ROUNDING_FACTOR: f64 = 16.0;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
 const TRANSLATION_ERROR_TOLERANCE: f64 = 1e-14;
+/// Tolerance of an element's mean displacement over that of a node, apart from the rounding of its terms.
+const MEAN_TOLERANCE_FACTOR: f64 = 10.0;
 /// Translations (m) that no nonlinear force may resist: from a small slip to the extent of a site.
 const TRIAL_TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 
@@ -109,7 +111,8 @@ pub(crate) fn check(
 pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes of an element, and each term may be rounded.
-    let tolerance = 10.0 * TRANSLATION_ERROR_TOLERANCE + base.nodes().len() as f64 * f64::EPSILON;
+    let tolerance = MEAN_TOLERANCE_FACTOR * TRANSLATION_ERROR_TOLERANCE
+        + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
             base.means(&spread(vector, dofs), &mut means);
@@ -148,7 +151,8 @@ pub(crate) fn parts_connected_by_force(
     let tangent = Tangent::at(structure, static_displacement)?;
     let max_stiffness = largest(&tangent.matrix.diagonal()).max(largest(&stiffness.diagonal()));
     let max_displacement = largest(static_displacement);
-    let largest_resistance = |translation: &[f64]| -> Result<Option<RowForce>> {
+    // The first force beyond rounding against a translation.
+    let find_resistance = |translation: &[f64]| -> Result<Option<RowForce>> {
         let magnitudes = RowProducts::new(&tangent.matrix, translation).magnitudes;
         let mut forces = vec![0.0; dofs];
         for distance in TRIAL_TRANSLATIONS {
@@ -171,14 +175,14 @@ pub(crate) fn parts_connected_by_force(
         Ok(None)
     };
     for (translation, direction) in influence.whole_vectors(dofs).iter().zip(TRANSLATION_NAMES) {
-        if let Some(RowForce { force, dof, ratio }) = largest_resistance(translation)? {
+        if let Some(RowForce { force, dof, ratio }) = find_resistance(translation)? {
             return Err(StructureError::Restrained { direction, force, dof, ratio }.into());
         }
     }
     if parts.len() > 1 {
         for (part, is_connected) in parts.iter().zip(&mut is_connected) {
             for vector in &part.vectors {
-                *is_connected |= largest_resistance(&spread(vector, dofs))?.is_some();
+                *is_connected |= find_resistance(&spread(vector, dofs))?.is_some();
             }
         }
     }
@@ -212,16 +216,16 @@ struct Resistance {
 impl Resistance {
     /// Resistance of a stiffness to a translation r.
     fn new(stiffness: &SparseMatrix, translation: &[f64]) -> Self {
-        let whole: Vec<f64> = translation.iter().map(|r| r.round()).collect();
-        let differences: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
+        let rounded: Vec<f64> = translation.iter().map(|r| r.round()).collect();
+        let differences: Vec<f64> = translation.iter().zip(&rounded).map(|(r, s)| r - s).collect();
         let bending = largest(&differences);
         let mut products = RowProducts::new(stiffness, translation);
         let work: f64 = translation.iter().zip(&products.forces).map(|(r, f)| r * f).sum();
         let scale: f64 =
             translation.iter().zip(&products.magnitudes).map(|(r, f)| (r * f).abs()).sum();
-        let is_whole = bending <= MAX_ROUNDING_DISTANCE;
-        if is_whole {
-            products = RowProducts::new(stiffness, &whole);
+        let is_nearly_whole = bending <= MAX_ROUNDING_DISTANCE;
+        if is_nearly_whole {
+            products = RowProducts::new(stiffness, &rounded);
         }
         let RowProducts { forces, magnitudes } = products;
         let diagonal = stiffness.diagonal();
@@ -237,7 +241,7 @@ impl Resistance {
             work: ratio_or_zero(work.abs(), scale),
             reaction: ratio_or_zero(work.abs(), stiffest(stiffness, &diagonal)),
             bending,
-            is_free: is_whole && is_free,
+            is_free: is_nearly_whole && is_free,
             row_force: RowForce { force, dof, ratio: ratio(dof) },
         }
     }

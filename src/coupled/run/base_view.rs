@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::coupled::state::foundation::FoundationChecks;
 use crate::coupled::{Foundation, State};
-use crate::geometry::far_ends;
+use crate::geometry::enclosing_interval;
 use crate::interface::{ContactState, Mode};
 
 /// The whole base, or one foundation of it.
@@ -103,7 +103,7 @@ impl<'a> BaseView<'a> {
         let footings = &self.state.context.footings;
         let indices = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
         let footings = footings.get(indices).unwrap_or_default();
-        [0, 1].map(|axis| far_ends(footings.iter().map(|footing| footing.ends[axis])))
+        [0, 1].map(|axis| enclosing_interval(footings.iter().map(|footing| footing.ends[axis])))
     }
 
     /// The smallest factor of safety of the foundations; NaN if none has one.

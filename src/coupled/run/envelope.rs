@@ -67,8 +67,8 @@ pub(crate) fn tension_warning(
 ) -> Option<Warning> {
     let pressures = envelope.iter().map(|element| element.static_pressure);
     let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
-    let closed_elements = envelope.iter().enumerate().filter(|(e, _)| !can_open(*e));
-    let tensioned_element = closed_elements
+    let elements_without_opening = envelope.iter().enumerate().filter(|(e, _)| !can_open(*e));
+    let tensioned_element = elements_without_opening
         .map(|(_, element)| element)
         .min_by(|a, b| a.pressure.lowest.value.total_cmp(&b.pressure.lowest.value))?;
     let tension = -tensioned_element.pressure.lowest.value;

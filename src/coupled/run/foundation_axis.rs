@@ -1,9 +1,9 @@
 //! Number of elements that the rocking of a foundation needs along an axis.
 
 use crate::coupled::state::foundation::Foundation;
-use crate::geometry::{Patch, far_ends, min_interval_count};
+use crate::geometry::{Patch, enclosing_interval, min_interval_count};
 
-/// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
+/// Ratios of base moment to base shear times width, and the number of elements that a foundation needs above each.
 ///
 /// Below the last ratio rocking is negligible.
 const ELEMENTS_FOR_ROCKING: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
@@ -27,7 +27,7 @@ pub(crate) struct FoundationAxis {
 impl FoundationAxis {
     /// Axis before the first step; `element_ends`: coordinates of each element's ends along the axis, m.
     fn new(element_ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
-        let edges = far_ends(element_ends.iter().copied());
+        let edges = enclosing_interval(element_ends.iter().copied());
         Self {
             element_count: min_interval_count(element_ends),
             width: edges[1] - edges[0],

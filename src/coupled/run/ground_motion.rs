@@ -1,4 +1,4 @@
-//! Peak and records of the ground motion in a run, for its page.
+//! Peak and records of the ground motion in a run, for the printed report.
 
 use std::fmt;
 

@@ -45,8 +45,8 @@ pub enum Mistake {
     /// The ground is then of first order in the time step, and adds numerical damping. See
     /// [`Ground`](crate::bem::Ground#elastic-parts-in-the-mid-step-form).
     #[error(
-        "ground of first order: an elastic part follows the traction of the step, which damps; \
-         the traction belongs to the middle of the step"
+        "ground of first order: an elastic part applies the traction of a step at the end of the step, which adds \
+         numerical damping; apply it in the middle of the step"
     )]
     FirstOrderGround,
     /// A soil with impossible numbers: probably in another unit, unless the model is not to scale.
@@ -61,7 +61,8 @@ pub enum Mistake {
     /// A structure with an unusually long period: probably a stiffness in another unit.
     #[error("structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?")]
     LongPeriod {
-        /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
+        /// Period on a fixed base, s: Rayleigh's quotient of the deflection under a horizontal force equal to the
+        /// weight.
         period: f64,
     },
     /// Ground acceleration above 2 g, or a record too weak in m/s²: probably in another unit.

@@ -275,12 +275,12 @@ impl Run {
         }
         self.wall = self.wall_start.map_or(Duration::ZERO, |start| start.elapsed());
         self.resolution.sample_ground(ground, motion, self.start..self.end);
-        let total_length: f64 = self.envelope.iter().map(ElementEnvelope::shortest_side).sum();
+        let side_sum: f64 = self.envelope.iter().map(ElementEnvelope::shortest_side).sum();
         let Summary { base_rotation, rotation_across, twist, .. } = &self.whole;
         let rotations = [base_rotation, rotation_across, twist].map(Extremes::magnitude);
         self.warnings = Warning::of_results(
             self.whole.largest_slip.highest.value,
-            total_length / self.envelope.len() as f64,
+            side_sum / self.envelope.len() as f64,
             rotations.into_iter().fold(0.0, f64::max),
             &self.energy_balance,
             self.smallest_algorithmic_energy,

@@ -6,7 +6,9 @@ use crate::coupled::run::ground_motion::seconds;
 use crate::coupled::run::quantity_row::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::geometry::{axis_name, middle, resultant, span};
-use crate::text::readable_number::{PrintedUnit, number, of_body, printed, thousandths};
+use crate::text::readable_number::{
+    PrintedUnit, number, printed_unit, thousandths, whole_body_unit,
+};
 use crate::text::table::Table;
 
 /// Approximate number of rows above which the pressure envelope omits elements.
@@ -32,7 +34,7 @@ impl fmt::Display for Run {
                 f,
                 "Weight on the base: {:.1} {}",
                 1e-3 * weight,
-                of_body("kN/m", self.in_plan)
+                whole_body_unit("kN/m", self.in_plan)
             )?;
         }
         writeln!(f, "\n{}", self.peak_table().text())?;
@@ -77,10 +79,10 @@ impl Run {
         let mut rows = Vec::new();
         for quantity in Quantity::shown(ShownIn::Page, self.in_plan) {
             let extremes = self.whole.extremes(quantity);
-            rows.push(peak_row(quantity.name(), quantity.printed(self.in_plan), &extremes));
+            rows.push(peak_row(quantity.name(), quantity.printed_unit(self.in_plan), &extremes));
         }
         for probe in &self.probes {
-            rows.push(peak_row(&probe.name, printed(&probe.unit), &probe.extremes));
+            rows.push(peak_row(&probe.name, printed_unit(&probe.unit), &probe.extremes));
         }
         Table { heading: heading.map(str::to_owned).to_vec(), repeated_column_count: 1, rows }
     }
@@ -91,7 +93,8 @@ impl Run {
         let mut headings = vec!["Foundation, m".to_owned()];
         for quantity in &quantities {
             let is_factor_of_safety = quantity.limit_label().is_some();
-            let unit = if is_factor_of_safety { "" } else { quantity.printed(self.in_plan).symbol };
+            let unit =
+                if is_factor_of_safety { "" } else { quantity.printed_unit(self.in_plan).symbol };
             headings.push(format!("{} {unit}", quantity.short_name()).trim_end().to_owned());
         }
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
@@ -116,7 +119,7 @@ impl Run {
             cells.push(if quantity.limit_label().is_some() {
                 safety_text(value)
             } else {
-                number(quantity.printed(self.in_plan).factor * value)
+                number(quantity.printed_unit(self.in_plan).factor * value)
             });
         }
         cells.push(summary.sliding.events.len().to_string());
@@ -297,7 +300,7 @@ impl Run {
             return write!(f, "\n{}", self.energy_balance);
         }
         let input_kj = 1e-3 * self.energy_balance.input;
-        let unit = of_body("kJ/m", self.in_plan);
+        let unit = whole_body_unit("kJ/m", self.in_plan);
         let fractions = self.energy_balance.fractions();
         let ending = if fractions.is_some() { ", of which" } else { "" };
         writeln!(f, "\nEnergy: input {input_kj:.4} {unit}{ending}")?;

@@ -19,7 +19,7 @@ impl Peak {
         self.value.abs()
     }
 
-    /// Keeps a value of larger magnitude, with its time.
+    /// Replaces the peak by a value of larger magnitude, with its time.
     pub(crate) fn update(&mut self, value: f64, time: f64) {
         if value.abs() > self.value.abs() {
             *self = Self { value, time };
@@ -27,7 +27,7 @@ impl Peak {
     }
 }
 
-/// Smallest and largest value, with their times; the first of equal values.
+/// Smallest and largest value, with their times; of equal values, the first.
 ///
 /// NaN is ignored unless there are no other values.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Peak of a single value.
+    /// Extremes of a single value.
     pub(crate) fn single(value: f64, time: f64) -> Self {
         let peak = Peak { value, time };
         Self { lowest: peak, highest: peak }

@@ -13,8 +13,8 @@ use crate::coupled::run::quantity_row::{QuantityRow, Scale, ShownIn};
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::column;
-use crate::text::readable_number::{PrintedUnit, of_body, printed};
-use crate::text::words::unknown;
+use crate::text::readable_number::{PrintedUnit, printed_unit, whole_body_unit};
+use crate::text::words::unknown_word_error;
 
 /// Declares the enum, its table, and the summary of a run or a foundation, from rows in the order of columns.
 macro_rules! quantities {
@@ -50,20 +50,20 @@ macro_rules! quantities {
         /// Summary of the whole base or of one foundation: extremes with their times, uplift, sliding.
         ///
         /// Quantities are named and signed as in [`State`]. Moments of a foundation are about the middle of its
-        /// elements, in plan of its outline. So the moments of one structure do not depend on the others.
+        /// elements, in plan of its outline. The moments of one foundation then do not depend on other foundations.
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
         pub struct Summary {
-            /// Elements of the foundation, as indices of all.
+            /// Indices of the foundation's elements among all elements.
             pub elements: Range<usize>,
             /// Left and right end of the foundation, m; in plan of its outline.
             pub ends: [f64; 2],
             /// Front and back end of the foundation along y, m, in plan; zeros in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub depth: [f64; 2],
-            /// Normal force at the start, of weight and loads, N/m.
+            /// Normal force at the start, due to weight and loads, N/m (in plan N).
             pub static_normal_force: f64,
             $($(#[$doc])* pub $field: Extremes,)+
             /// Mean slip at the end, m.
@@ -153,7 +153,7 @@ quantities! {
     /// Total pressure on the soil, N/m.
     NormalForce normal_force, "normal force", "N/m", Scale::Unit, [Page],
         |base| base.whole_or(base.state.normal_force, |foundation| foundation.normal_force);
-    /// Length of open elements over the length of the base.
+    /// Length of open elements over the length of the base; in plan their area over its area.
     UpliftedFraction uplifted_fraction, "uplifted fraction", "", Scale::Percent, [Foundations, Comparison],
         |base| base.whole_or(base.state.uplifted_fraction, |foundation| foundation.uplifted_fraction);
     /// Slip averaged over the base, m; tangential motion of open elements counts.
@@ -189,17 +189,18 @@ quantities! {
         |base| base.state.free_field[1];
     /// Resistance of the interface over the base shear: φN/|H|.
     ///
-    /// Infinite without shear, NaN in flight and for a base with walls. NaN throughout if an element's law has no friction coefficient and
-    /// [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It is computed from
-    /// the actual tractions: on a base that may slide it reaches one during sliding, and never falls below. On a
-    /// bonded base it may fall below one, and shows the missing resistance. Of several foundations the smallest.
+    /// Infinite without shear, NaN in flight and for a base with walls. NaN throughout if an element's law has no
+    /// friction coefficient and [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It
+    /// is computed from the actual tractions: on a base that may slide it reaches one during sliding, and never falls
+    /// below. On a bonded base it may fall below one, and shows the missing resistance. Of several foundations the
+    /// smallest.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
         |base| base.smallest_safety(|checks| checks.sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to.
     ///
-    /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with
-    /// walls. On a base that may open it reaches one when the base stands on its edge, and never falls below. Of several foundations the
-    /// smallest.
+    /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with walls.
+    /// On a base that may open it reaches one when the base stands on its edge, and never falls below. Of several
+    /// foundations the smallest.
     ///
     /// In plan over the left or the right edge: N times the distance of the edge from the middle of the outline;
     /// on a round or many-sided outline, of each edge that faces x more than y. Pressure acts at the middle of the
@@ -287,7 +288,7 @@ impl Quantity {
     ///
     /// Per metre of thickness in the plane, of the whole body in plan.
     pub fn unit(self, in_plan: bool) -> &'static str {
-        of_body(self.row().unit, in_plan)
+        whole_body_unit(self.row().unit, in_plan)
     }
 
     /// Column of the quantity in files: its word and unit.
@@ -298,12 +299,12 @@ impl Quantity {
     }
 
     /// Unit in which values are printed.
-    pub(crate) fn printed(self, in_plan: bool) -> PrintedUnit<'static> {
+    pub(crate) fn printed_unit(self, in_plan: bool) -> PrintedUnit<'static> {
         let unit = match self.row().scale {
             Scale::Percent => PrintedUnit { factor: 1e2, symbol: "%" },
-            Scale::Unit | Scale::Safety(_) => printed(self.row().unit),
+            Scale::Unit | Scale::Safety(_) => printed_unit(self.row().unit),
         };
-        PrintedUnit { symbol: of_body(unit.symbol, in_plan), ..unit }
+        PrintedUnit { symbol: whole_body_unit(unit.symbol, in_plan), ..unit }
     }
 
     /// Label of the limit of one for a factor of safety; `None` for other quantities.
@@ -338,7 +339,7 @@ impl FromStr for Quantity {
     fn from_str(text: &str) -> Result<Self> {
         let quantity =
             Self::ALL_QUANTITIES.into_iter().find(|quantity| quantity.row().word == text);
-        quantity.ok_or_else(|| unknown("quantity", text, QUANTITY_WORDS))
+        quantity.ok_or_else(|| unknown_word_error("quantity", text, QUANTITY_WORDS))
     }
 }
 

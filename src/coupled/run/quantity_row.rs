@@ -17,7 +17,7 @@ pub(super) struct QuantityRow {
 /// Scale for drawing and printing a quantity.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Scale {
-    /// Scale of the engineer's unit.
+    /// Scale of the unit in which values are printed.
     Unit,
     /// A ratio, printed in per cent.
     Percent,

@@ -116,13 +116,13 @@ pub(crate) struct Resolution {
     previous_shear: [f64; 2],
     /// Mean free field at the step before the previous one, and at the previous one, m.
     previous_fields: [[f64; COMPONENTS_IN_SPACE]; 2],
-    /// Second difference of these fields and the one before, m.
+    /// Second difference of these fields and the field before them, m.
     second_difference: [f64; COMPONENTS_IN_SPACE],
     /// Largest component of the free field's second difference, m, after the first steps.
     max_second_difference: f64,
     /// Largest |free field| so far, m.
     max_free_field: [f64; COMPONENTS_IN_SPACE],
-    /// Number of steps since the last omitted one.
+    /// Number of steps since the last step that was not recorded.
     consecutive_steps: usize,
     base_shear: Variation,
     ground: Variation,

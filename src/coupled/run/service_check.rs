@@ -3,7 +3,7 @@
 use crate::coupled::State;
 use crate::coupled::run::peak::Peak;
 use crate::coupled::serviceability::{Criterion, Serviceability};
-use crate::text::readable_number::{PrintedUnit, number, printed};
+use crate::text::readable_number::{PrintedUnit, number, printed_unit};
 use std::fmt;
 
 /// A criterion of [`Serviceability`] after a run.
@@ -76,7 +76,7 @@ impl fmt::Display for ServiceCheck {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PrintedUnit { factor, symbol } = match self.criterion {
             Criterion::UpliftedFraction => PrintedUnit { factor: 100.0, symbol: "%" },
-            criterion => printed(criterion.unit()),
+            criterion => printed_unit(criterion.unit()),
         };
         write!(
             f,

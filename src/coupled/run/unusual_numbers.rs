@@ -32,7 +32,7 @@ const MAX_GROUND_ACCELERATION: f64 = 2.0 * STANDARD_GRAVITY;
 ///
 /// Design motions start at 0.5 m/s², where earthquakes are rare.
 const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
-/// Time steps of records, s.
+/// Usual time steps of records, s.
 const RECORD_INTERVALS: [f64; 2] = [1e-4, 0.2];
 /// Velocity at the end of a record over the largest velocity, above which the record drifts.
 ///
@@ -54,8 +54,10 @@ const WEAK_BONDS: [f64; 2] = [0.5, 1e3];
 const MAX_WEAK_BOND_RATIO: f64 = 0.01;
 /// Friction coefficients that are probably angles in degrees or percentages.
 const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
-/// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
+/// Plausible accelerations of gravity, m/s²: the moon has 1.6, Jupiter 25.
 const GRAVITY_RANGE: [f64; 2] = [1.5, 30.0];
+/// Time step over the mean period of a record above which the steps cannot resolve the record.
+const MAX_STEP_PER_RECORD_PERIOD: f64 = 0.5;
 /// Recommended number of time steps per mean period of a record.
 const STEPS_PER_RECORD_PERIOD: f64 = 15.0;
 /// Recommended number of time steps per period of a structure.
@@ -111,9 +113,9 @@ impl Warning {
         weight: &Weight,
     ) {
         let description = structure.description();
-        let is_unusual =
+        let is_unusual_soil =
             |warning: &Self| matches!(warning, Self::Mistake(Mistake::UnusualSoil { .. }));
-        let is_to_scale = !warnings.iter().any(is_unusual);
+        let is_to_scale = !warnings.iter().any(is_unusual_soil);
         warnings.extend(Self::of_units(is_to_scale, scene, weight, &description));
         if is_to_scale {
             warnings.extend(Self::of_weight(weight, soils, scene.base.elements().has_walls()));
@@ -211,7 +213,7 @@ impl Warning {
         let periods = records.iter().map(|record| (mean_period(record), record.time_step()));
         let finite_periods = periods.filter(|(period, _)| period.is_finite());
         let (period, interval) = finite_periods.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        if time_step <= 0.5 * period {
+        if time_step <= MAX_STEP_PER_RECORD_PERIOD * period {
             return None;
         }
         let mut needed = period / STEPS_PER_RECORD_PERIOD;
@@ -264,10 +266,10 @@ impl Warning {
     pub(super) fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
         let speeds_and_densities =
             soils.iter().map(|soil| (soil.shear_wave_speed(), soil.density()));
-        let unusual = speeds_and_densities.filter(|(speed, density)| {
+        let unusual_soils = speeds_and_densities.filter(|(speed, density)| {
             !(is_within(SOIL_WAVE_SPEEDS, *speed) && is_within(SOIL_DENSITIES, *density))
         });
-        unusual.map(|(shear_wave_speed, density)| {
+        unusual_soils.map(|(shear_wave_speed, density)| {
             Self::Mistake(Mistake::UnusualSoil { shear_wave_speed, density })
         })
     }

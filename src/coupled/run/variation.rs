@@ -34,9 +34,9 @@ pub(crate) struct Variation {
 
 impl Variation {
     /// Adds a pair of neighbouring samples.
-    pub(crate) fn update(&mut self, before: f64, after: f64) {
-        self.changes += (after - before).powi(2);
-        self.sums += (after + before).powi(2);
+    pub(crate) fn update(&mut self, sample: f64, next_sample: f64) {
+        self.changes += (next_sample - sample).powi(2);
+        self.sums += (next_sample + sample).powi(2);
     }
 
     /// The ratio r; NaN for a series of zeros.
@@ -89,7 +89,7 @@ impl Sampler<'_> {
         let mut ratio = self.acceleration_ratio(interval);
         for _ in 1..MAX_SAMPLE_INTERVALS {
             let halved_ratio = self.acceleration_ratio(0.5 * interval);
-            // Samples at intervals of one period vary slowly, but samples at half this interval do not.
+            // Samples at intervals of one period may vary slowly, but samples at half this interval do not.
             if ratio <= MAX_FREE_VIBRATION_RATIO && halved_ratio <= MAX_HALVING_RATIO * ratio {
                 return Some(ratio / (PI * interval));
             }
@@ -114,9 +114,9 @@ impl Sampler<'_> {
                 sample
             });
             for k in 0..layout.components() {
-                let before = samples[2][k] - 2.0 * samples[1][k] + samples[0][k];
-                let after = samples[3][k] - 2.0 * samples[2][k] + samples[1][k];
-                variation.update(before, after);
+                let difference = samples[2][k] - 2.0 * samples[1][k] + samples[0][k];
+                let next_difference = samples[3][k] - 2.0 * samples[2][k] + samples[1][k];
+                variation.update(difference, next_difference);
             }
         }
         variation.ratio()

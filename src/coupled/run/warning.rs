@@ -149,6 +149,18 @@ pub enum Warning {
         /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
         axis: Option<char>,
     },
+    /// A flexible side of a joint on fewer contact elements than segments between its nodes.
+    ///
+    /// The contact of the joint does not resist bending between the middles of its elements.
+    #[error("elements of joint {joint}: {elements}, its flexible side needs {needed}")]
+    CoarseJoint {
+        /// Number of the joint, in the order of the builder, from 0.
+        joint: usize,
+        /// Elements of the joint.
+        elements: usize,
+        /// Number needed: of the segments between nodes, along the elements.
+        needed: usize,
+    },
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.
@@ -188,8 +200,8 @@ pub enum Warning {
     },
     /// A base in plan may slide with friction of 3 or more.
     ///
-    /// Some steps then have several solutions, and the mirror image of a scene may follow another one. In one scene of a
-    /// hundred this changes peaks by tens of per cent.
+    /// Some steps then have several solutions, and the mirror image of a scene may follow another solution. In one
+    /// scene of a hundred this changes peaks by tens of per cent.
     #[error(
         "friction of {friction} in plan: steps may have several solutions; run a mirror image too"
     )]

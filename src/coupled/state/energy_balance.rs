@@ -3,14 +3,14 @@
 use std::fmt;
 
 use crate::text::column::column;
-use crate::text::readable_number::{number, of_body};
+use crate::text::readable_number::{number, whole_body_unit};
 
 /// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
-    /// Left-hand side of the balance: stored or recoverable energy.
+    /// Left-hand side of the balance: energy that is stored, and energy that the time scheme creates or removes.
     Balance,
-    /// Left-hand side: energy that the structure has lost as heat or to the ground.
+    /// Left-hand side of the balance: energy that the structure has lost as heat or to the ground.
     Lost,
     /// Right-hand side of the balance.
     Input,
@@ -107,15 +107,15 @@ energies! {
     /// [`remainder`](crate::structure::NonlinearForce::remainder) of the nonlinear force; without one it is zero. In each
     /// step it is of second order in the time step, but it accumulates. For [`Iwan`](crate::fem::Iwan), and for
     /// [`DruckerPrager`](crate::fem::DruckerPrager) with equal angles of friction and dilation, it never decreases: the
-    /// time scheme takes energy. With a smaller angle of dilation it has either sign.
+    /// time scheme removes energy. With a smaller angle of dilation it has either sign.
     MidstepRemainder midstep_remainder (default), Balance, "mid-step remainder";
     /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
     ///
-    /// Total tractions times minus the change of the jump, without its elastic part. It falls by the work of the
-    /// weight of soil that follows a wall ([`EarthPressure`](crate::interface::EarthPressure)), and with no other
-    /// law of the crate.
+    /// It is the work of the total tractions on minus the change of the jump, without the elastic part of this change.
+    /// It decreases only by the work of the weight of soil that follows a wall
+    /// ([`EarthPressure`](crate::interface::EarthPressure)), and for no other law of the crate.
     Contact contact, Lost, "friction and impact";
     /// Elastic energy stored in compliant interfaces, as a change against the static state.
     ///
@@ -133,7 +133,7 @@ energies! {
     /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is approximate.
     ///
     /// The terms above balance with the approximate history, so the residual does not contain this error. With the
-    /// exact history the soil may take this much more or less energy.
+    /// exact history the energy of the soil may be larger or smaller by up to this bound.
     SoilErrorBound soil_error_bound, Beside, "error bound of the soil";
     /// Largest energy since the start, to which residuals are relative.
     ///
@@ -154,7 +154,7 @@ impl EnergyTerm {
         let field = ENERGY_TERM_ROWS[self as usize].0;
         let name =
             if field.contains("bound") { field.to_owned() } else { format!("{field} energy") };
-        column(&name, of_body("J/m", in_plan))
+        column(&name, whole_body_unit("J/m", in_plan))
     }
 
     /// Whether the structure has lost the term's energy as heat or to the ground.

@@ -28,7 +28,7 @@ pub struct Foundation {
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
-    /// Length of its open elements over the length of all its elements.
+    /// Length of its open elements over the length of all its elements; in plan area over area.
     pub uplifted_fraction: f64,
     /// Slip averaged over its elements, m.
     pub mean_slip: f64,
@@ -152,8 +152,8 @@ impl Foundation {
 
     /// Computes forces, uplift, slip and factors of safety from the contact of all elements of `patch`.
     ///
-    /// `footing`: shape of this foundation. `friction`: coefficients of all elements (one for all, one each, or
-    /// none).
+    /// `footing` is the shape of this foundation. `friction` has one coefficient for all elements of the patch, one for
+    /// each, or none.
     pub(crate) fn update(
         &mut self,
         footing: &Footing,
@@ -287,12 +287,12 @@ mod tests {
     #[test]
     fn factors_of_safety_by_hand() {
         let state = contact([30.0, 10.0], [-10.0, 6.0]);
-        let of = |friction: &[f64]| safety(&patch(), &[], friction, &state);
-        assert!((of(&[0.4]).sliding - 0.4 * 70.0 / 14.0).abs() < 1e-14);
-        assert!((of(&[0.5, 0.1]).sliding - 31.0 / 14.0).abs() < 1e-14);
-        assert!(of(&[]).sliding.is_nan());
-        assert!((of(&[]).overturning[0] - 70.0 * 1.5 / 20.0).abs() < 1e-14);
-        assert_eq!(of(&[]).overturning[1], f64::INFINITY);
+        let checks = |friction: &[f64]| safety(&patch(), &[], friction, &state);
+        assert!((checks(&[0.4]).sliding - 0.4 * 70.0 / 14.0).abs() < 1e-14);
+        assert!((checks(&[0.5, 0.1]).sliding - 31.0 / 14.0).abs() < 1e-14);
+        assert!(checks(&[]).sliding.is_nan());
+        assert!((checks(&[]).overturning[0] - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+        assert_eq!(checks(&[]).overturning[1], f64::INFINITY);
     }
 
     /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5)
@@ -319,22 +319,23 @@ mod tests {
     }
 
     #[test]
-    fn limits() {
+    fn factors_of_safety_in_limiting_cases() {
         let patch = patch();
-        let of = |friction: f64, state: &[ContactState; 2]| safety(&patch, &[], &[friction], state);
+        let checks_of =
+            |friction: f64, state: &[ContactState; 2]| safety(&patch, &[], &[friction], state);
         let flight = contact([0.0; 2], [0.0; 2]);
         let pressed = contact([1.0; 2], [0.0; 2]);
         for friction in [0.0, 0.4, f64::INFINITY] {
-            let checks = of(friction, &flight);
+            let checks = checks_of(friction, &flight);
             assert!(checks.sliding.is_nan() && checks.overturning[0].is_nan());
         }
         // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
-        let checks = of(0.4, &pressed);
+        let checks = checks_of(0.4, &pressed);
         assert_eq!([checks.sliding, checks.overturning[0]], [f64::INFINITY; 2]);
-        assert_eq!(of(0.0, &pressed).sliding, 0.0);
+        assert_eq!(checks_of(0.0, &pressed).sliding, 0.0);
         let sheared = contact([1.0, 0.0], [0.3, 0.0]);
-        assert_eq!(of(f64::INFINITY, &sheared).sliding, f64::INFINITY);
+        assert_eq!(checks_of(f64::INFINITY, &sheared).sliding, f64::INFINITY);
         // The base as a whole is in tension: nothing resists.
-        assert_eq!(of(0.4, &contact([-1.0; 2], [0.0; 2])).overturning[0], 0.0);
+        assert_eq!(checks_of(0.4, &contact([-1.0; 2], [0.0; 2])).overturning[0], 0.0);
     }
 }

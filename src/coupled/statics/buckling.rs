@@ -18,13 +18,15 @@ use crate::interface::{InterfaceLaw, law_of};
 use crate::linalg::{
     CompressedMatrix, SparseFactor, SparseMatrix, Triplets, largest, row_products,
 };
-use crate::structure::{Structure, Tangent, stiffest};
+use crate::structure::{Structure, Tangent, max_diagonal_stiffness};
 
 /// Name of K + BᵀA S⁻¹ B in errors.
 const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
 /// Name of S in errors.
 const GROUND_COMPLIANCE_NAME: &str = "static compliance of the ground";
-/// Uniform compliance that is added to one without a datum, relative to its largest entry.
+/// Compliance of an element of a joint, relative to the largest entry of the ground's compliance.
+const CLOSED_JOINT_COMPLIANCE_RATIO: f64 = 1e-6;
+/// Uniform compliance that is added to a compliance without a datum, relative to the largest entry of the latter.
 const UNIFORM_COMPLIANCE_FACTOR: f64 = 10.0;
 
 /// A structure on the static compliance of its ground.
@@ -68,10 +70,14 @@ pub(crate) fn check(
         return Ok(());
     };
     let is_closed = |element: usize| at_rest.modes[element].is_closed();
-    let smaller = condensed.unwrap_or(assembled);
-    let smaller_ground =
-        GroundStiffness::new(GroundedStructure { assembled: smaller, ..grounded }, is_closed);
-    if smaller_ground.is_none_or(|ground| ground.is_stable_with(smaller.stiffness_at_rest())) {
+    // The first check uses the condensed structure, if there is one.
+    let first_structure = condensed.unwrap_or(assembled);
+    let first_ground = GroundStiffness::new(
+        GroundedStructure { assembled: first_structure, ..grounded },
+        is_closed,
+    );
+    if first_ground.is_none_or(|ground| ground.is_stable_with(first_structure.stiffness_at_rest()))
+    {
         return Ok(());
     }
     let Some(ground) = GroundStiffness::new(grounded, is_closed) else {
@@ -156,7 +162,7 @@ impl<'a> GroundStiffness<'a> {
     fn is_stable_with(&self, stiffness: &SparseMatrix) -> bool {
         let terms = [(1.0, stiffness), (1.0, &self.matrix)];
         let matrices = self.assembled.matrices();
-        let penalty = FIRM_SPRING_FACTOR * stiffest(stiffness);
+        let penalty = FIRM_SPRING_FACTOR * max_diagonal_stiffness(stiffness);
         SparseMatrix::sum(GROUNDED_STIFFNESS_NAME, stiffness.order(), &terms)
             .and_then(|sum| with_constraints(sum, matrices, penalty))
             .and_then(|sum| SparseFactor::positive_definite(GROUNDED_STIFFNESS_NAME, &sum))
@@ -198,11 +204,17 @@ fn factored_compliance(
             }
         }
     }
+    let entries = compliance.entries().iter();
+    let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
+    // The compliance of hard contact between bodies is zero.
+    for (row, &i) in contact_indices.iter().enumerate() {
+        if layout.origin(i)[1] >= base.elements().len() {
+            compliance.add(row, row, CLOSED_JOINT_COMPLIANCE_RATIO * max_entry);
+        }
+    }
     if let Some(factor) = positive_definite(&compliance) {
         return Some(factor);
     }
-    let entries = compliance.entries().iter();
-    let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
     let mut means = vec![0.0; layout.len()];
     for translation in assembled.influence.whole_vectors(assembled.dofs()) {
         base.means(&translation, &mut means);

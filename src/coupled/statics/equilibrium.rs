@@ -316,7 +316,7 @@ impl FictitiousSprings {
         force
     }
 
-    /// Whether the structure would be unstable on softer springs.
+    /// Whether the springs have their smallest stiffness, as for a structure that is unstable on softer springs.
     fn must_stay_stiff(&self) -> bool {
         self.min_shift == self.shift
     }

@@ -6,7 +6,7 @@
 //! | r | displacements of the structure in that motion of its contact nodes |
 
 use crate::coupled::base::faces::hull;
-use crate::coupled::model::mechanism::{RegularisedStiffness, unresisted};
+use crate::coupled::model::mechanism::{RegularisedStiffness, unresisted_mechanism};
 use crate::coupled::model::signs::FIRM_SPRING_FACTOR;
 use crate::coupled::statics::buckling::{GroundedStructure, load_factor};
 use crate::coupled::statics::equilibrium::StaticProblem;
@@ -37,7 +37,7 @@ pub(crate) fn cause(
         .mechanism()
         .or_else(|| {
             if is_singular {
-                unresisted(structure, at_rest.stiffness, mass_and_damping)
+                unresisted_mechanism(structure, at_rest.stiffness, mass_and_damping)
             } else {
                 None
             }
@@ -59,13 +59,17 @@ fn base_failure(
     let at_rest = assembled.structure_at_rest(problem.structure);
     let (springs, regularised) = RegularisedStiffness::on_springs(&at_rest, FIRM_SPRING_FACTOR);
     let mut factor = regularised.factor()?;
+    // The load on the base of a part that carries others does not follow from its own weight.
+    if !base.joints().is_empty() {
+        return None;
+    }
     assembled.influence.parts().iter().find_map(|part| {
         let [right, upward, away] = part.resultants(load);
         let nodes = part.nodes(base);
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         // A moment is the work of the load on a unit rotation.
         let mut moments = [0.0; 3];
-        let rotation_forces = springs.turns(nodes.iter().copied(), bounds.map(middle));
+        let rotation_forces = springs.rotation_forces(nodes.iter().copied(), bounds.map(middle));
         for (moment, forces) in moments.iter_mut().zip(rotation_forces) {
             *moment = work(&mut factor, forces, load);
         }

@@ -15,30 +15,32 @@ pub(crate) struct StaticState {
     pub(crate) gap: Vec<f64>,
     /// Displacement of the degrees of freedom, m and rad.
     pub(crate) displacement: Vec<f64>,
+    /// Contact mode of each element.
     pub(crate) modes: Vec<Mode>,
     /// Load that the structure defines at t = 0, N.
     pub(crate) load: Vec<f64>,
-    /// State variables of each element's law; empty where the law starts with its initial ones.
+    /// State variables of each element's law; empty where the law starts with its initial state variables.
     pub(crate) state_variables: Vec<Vec<f64>>,
     /// Nonlinear force f(u), N; empty for a linear structure.
     pub(crate) force: Vec<f64>,
     /// Energies of the nonlinear force, if the structure returns them.
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient that replaced a larger one on a sliding element; `None` if none was replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
+    /// replaced.
     pub(crate) substituted_friction: Option<f64>,
 }
 
 impl StaticState {
     /// State without weight: all elements are closed, without pressure.
-    pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
-        let elements = layout.elements();
+    pub(crate) fn weightless(layout: ContactLayout, dof_count: usize) -> Self {
+        let element_count = layout.elements();
         Self {
             layout,
             traction: vec![0.0; layout.len()],
-            gap: vec![0.0; elements],
-            displacement: vec![0.0; dofs],
-            modes: vec![Mode::Stick; elements],
-            load: vec![0.0; dofs],
+            gap: vec![0.0; element_count],
+            displacement: vec![0.0; dof_count],
+            modes: vec![Mode::Stick; element_count],
+            load: vec![0.0; dof_count],
             state_variables: Vec::new(),
             force: Vec::new(),
             energy: None,
@@ -46,17 +48,17 @@ impl StaticState {
         }
     }
 
-    /// Modes at the start of the next stage or run: closed elements stick.
-    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+    /// Contact modes at the start of the next static stage or of the run: closed elements stick.
+    pub(crate) fn initial_modes(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
-            let modes = law_of(laws, e).modes();
-            if modes.contains(mode) && !mode.is_closed() {
+            let law_modes = law_of(laws, e).modes();
+            if law_modes.contains(mode) && !mode.is_closed() {
                 return *mode;
             }
             match form {
-                LawForm::Modes => modes[0],
-                LawForm::Limits => modes[0].in_any_direction(),
+                LawForm::Modes => law_modes[0],
+                LawForm::Limits => law_modes[0].in_any_direction(),
             }
         });
         modes.collect()
@@ -66,13 +68,13 @@ impl StaticState {
     pub(crate) fn set_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
-        start: &PreviousContacts,
+        previous_contacts: &PreviousContacts,
         states: &[ContactState],
     ) -> Result<()> {
         let form = LawForm::of(self.layout);
         for (e, gap) in self.gap.iter_mut().enumerate() {
             let law = law_of(laws, e);
-            let previous = start.element(e);
+            let previous = previous_contacts.element(e);
             let mode = self.modes[e];
             let pressure = self.traction[e];
             let prescribed = match form {

@@ -36,16 +36,16 @@ pub(crate) struct InterfaceStrength {
 impl InterfaceStrength {
     /// Strength of an element under this mean pressure (Pa).
     ///
-    /// `frictionless` omits friction and cohesion from limits.
+    /// `is_frictionless` omits friction and cohesion from limits.
     pub(crate) fn at_pressure(
         law: &dyn InterfaceLaw,
         pressure: f64,
         form: LawForm,
-        frictionless: bool,
+        is_frictionless: bool,
     ) -> Self {
         match form {
             LawForm::Modes => Self::from_modes(law, pressure),
-            LawForm::Limits => Self::from_limits(law, pressure, frictionless),
+            LawForm::Limits => Self::from_limits(law, pressure, is_frictionless),
         }
     }
 
@@ -66,10 +66,10 @@ impl InterfaceStrength {
         }
     }
 
-    fn from_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
+    fn from_limits(law: &dyn InterfaceLaw, pressure: f64, is_frictionless: bool) -> Self {
         let limits = limits_at_rest(law, pressure.max(0.0));
-        let limits = if frictionless { limits.frictionless() } else { limits };
-        let friction_coefficient = law.friction_coefficient().filter(|_| !frictionless);
+        let limits = if is_frictionless { limits.frictionless() } else { limits };
+        let friction_coefficient = law.friction_coefficient().filter(|_| !is_frictionless);
         let attraction_friction = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
         let cohesion = limits.shear_strength + attraction_friction * limits.attraction;
         let sliding_ratio = limits.friction + cohesion / pressure.max(f64::MIN_POSITIVE);
@@ -102,7 +102,7 @@ pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     }
 }
 
-/// Smaller one of a bond's tensile and shear strength on an element at rest, Pa; `None` without bonds.
+/// Smaller of a bond's tensile and shear strength on an element at rest, Pa; `None` without bonds.
 ///
 /// `pressure` is the mean pressure, Pa. A law without limits has no bond strength.
 pub(crate) fn bond_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<f64> {
@@ -121,7 +121,7 @@ pub(crate) fn compliance_at_rest(law: &dyn InterfaceLaw) -> [f64; 2] {
 
 /// Limits of a law on an element that has not moved.
 ///
-/// A law without limits has the default ones. The build has reported such a law before, where it is an error.
+/// A law without limits has the default limits. Where such a law is an error, the build has already returned it.
 fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
     let under_pressure = ContactState { pressure, ..ContactState::default() };
     let start = PreviousContact::new(under_pressure, Mode::Stick, TRIAL_TIME_STEP);

@@ -69,9 +69,9 @@ impl IncrementSearch {
 
     /// Moves `iterate` and `linear_force` back to where the out-of-balance force does no work on the increment.
     ///
-    /// They are the end of the increment, with the nonlinear force `nonlinear_force`. `evaluate` returns the nonlinear force
-    /// at an iterate in its last argument's place, and is called last for the result. Nothing changes unless the increment
-    /// has passed such a point.
+    /// The arguments have the values at the end of the increment. `evaluate` writes the nonlinear force at its first
+    /// argument to its second argument. Its last call is for the result. Nothing changes unless the increment has
+    /// passed such a point.
     pub(super) fn search(
         &mut self,
         iterate: &mut [f64],
@@ -151,12 +151,12 @@ impl Bracket {
 mod tests {
     use super::*;
 
-    /// A spring with a kink: the work vanishes at the kink's side where the force balances.
+    /// A spring with a kink: the search ends beyond the kink, where the forces balance.
     #[test]
     fn search_ends_where_the_force_balances() {
         let law = |u: f64| if u < 0.25 { u } else { 0.25 + 40.0 * (u - 0.25) };
         let mut search = IncrementSearch::new(1);
-        // L = 0.75 − 2u: balance at u = 0.25 + 0/42.
+        // L = 0.85 − 2u: balance at u = 0.25 + 0.1/42.
         let linear = |u: f64| 0.85 - 2.0 * u;
         search.start_at(&[0.0], &[linear(0.0)], &[law(0.0)]);
         let mut iterate = [1.0];
@@ -174,7 +174,7 @@ mod tests {
         assert!((iterate[0] - balance).abs() < 1e-3, "{} {balance}", iterate[0]);
         assert!((linear_force[0] - linear(iterate[0])).abs() < 1e-12);
         assert!(nonlinear_force[0] == law(iterate[0]) && count < MAX_EVALUATIONS, "{count}");
-        // An increment that stops short is kept.
+        // An increment that ends before the balance does not change.
         search.start_at(&[0.0], &[linear(0.0)], &[law(0.0)]);
         let mut short = [0.1];
         let mut forces = ([linear(0.1)], [law(0.1)]);

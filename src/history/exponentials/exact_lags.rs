@@ -53,9 +53,9 @@ impl ConvolutionWeights for WindowedWeights<'_> {
     }
 }
 
-/// Coefficients of lags 1 to W.
+/// Coefficients of lags 1 to W of all classes.
 ///
-/// Lag 1 does not belong to the history; the check for passivity needs it.
+/// Lag 1 does not belong to the history, but the check for passivity needs it.
 #[derive(Debug, Clone)]
 pub(super) struct Lags {
     /// Coefficients of each kind, class by class; the coupling only while it is not zero.
@@ -79,7 +79,7 @@ impl Lags {
         Ok(Self { kinds })
     }
 
-    /// The last lag, W.
+    /// Number of lags, W.
     pub(super) fn length(&self) -> usize {
         self.kinds[0].first().map_or(0, Vec::len)
     }

@@ -9,9 +9,9 @@ use crate::error::{Error, Result};
 use crate::history::convolution_weights::{ConvolutionWeights, LateWeights};
 use crate::history::shared_spectra::SharedSpectra;
 
-/// Ratio of an attempt's target tolerance to the target of the attempt before.
+/// Ratio of an attempt's target tolerance to that of the previous attempt.
 const TOLERANCE_REDUCTION: f64 = 0.2;
-/// Largest number of attempts: enough to reach rounding from any tolerance.
+/// Largest number of attempts: the last one has 5e-7 of the required tolerance as its target.
 const MAX_FIT_ATTEMPTS: usize = 10;
 
 /// Window, horizon and tolerance of a fit.
@@ -19,7 +19,9 @@ const MAX_FIT_ATTEMPTS: usize = 10;
 pub(super) struct FitRequest {
     /// Number of lags in the window.
     pub(super) lags: usize,
+    /// Last lag up to which the tolerance must be satisfied.
     pub(super) horizon: usize,
+    /// Largest error of a coefficient, relative to the largest coefficient of its lag.
     pub(super) tolerance: f64,
 }
 
@@ -34,7 +36,7 @@ pub(super) struct TailFit {
 }
 
 impl TailFit {
-    /// Fits the fewest exponentials that are accurate and passive.
+    /// Fits exponentials, more in each attempt, until they are accurate and passive.
     pub(super) fn new(
         kernel: &dyn ConvolutionWeights,
         late: &dyn LateWeights,
@@ -55,7 +57,7 @@ impl TailFit {
             }
             let PassivityMargin { min_eigenvalue, frequency } =
                 passivity::margin(kernel, &exact_lags, &tail, horizon as f64);
-            // A NaN is an error as well.
+            // NaN is not passive.
             if min_eigenvalue.is_nan() || min_eigenvalue < 0.0 {
                 failure = Some(Error::NotPassive {
                     quantity: "history by exponentials",
@@ -72,6 +74,7 @@ impl TailFit {
     }
 }
 
+/// Error for a fit whose error is `reached`, above `tolerance`.
 fn inaccurate(tolerance: f64, reached: f64) -> Error {
     let remedy = "with the largest number of poles tried".to_owned();
     Error::Accuracy { quantity: "history by exponentials", reached, tolerance, remedy }
@@ -100,4 +103,28 @@ pub(super) fn store_fit(stored: &mut Vec<StoredFit>, fit: Arc<TailFit>) -> Store
     let new_fit = StoredFit { fit, spectra };
     stored.push(new_fit.clone());
     new_fit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::{PatchKernel, Strip};
+    use crate::soil::Soil;
+
+    /// Two threads may compute the same fit; both then use the fit that is stored first.
+    #[test]
+    fn histories_share_the_fit_that_is_stored_first() {
+        let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+        let elements = Strip::uniform(-1.0..1.0, 3).unwrap().elements();
+        let kernel = PatchKernel::new(soil, elements, 0.2).unwrap();
+        let mut store = vec![];
+        let fits = [1e-9, 1e-9, 1e-4].map(|tolerance| {
+            let request = FitRequest { lags: 64, horizon: 1000, tolerance };
+            Arc::new(TailFit::new(&kernel, &kernel, request).unwrap())
+        });
+        let stored = fits.map(|fit| store_fit(&mut store, fit));
+        assert!(Arc::ptr_eq(&stored[0].fit, &stored[1].fit));
+        assert!(!Arc::ptr_eq(&stored[0].fit, &stored[2].fit));
+        assert_eq!(store.len(), 2);
+    }
 }

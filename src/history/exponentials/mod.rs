@@ -1,4 +1,4 @@
-//! History of a window of exact lags and a sum of exponentials: its memory does not grow.
+//! History in constant memory: a window of exact lags, and exponentials for later lags.
 
 mod exact_lags;
 mod fit;
@@ -21,47 +21,48 @@ use crate::error::{
 
 /// Longest window, lags.
 ///
-/// With a longer one the step is so short that the window may cover the whole run.
+/// With a longer window the step is so short that the window may cover the whole run.
 const MAX_WINDOW_LAGS: usize = 1_000_000;
-/// Tolerances that a fit can reach.
+/// Tolerances that a user may require: smaller ones are below rounding, larger ones are of no use.
 const TOLERANCE_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 /// Default memory limit, bytes.
 pub(super) const DEFAULT_MEMORY: usize = 1 << 30;
 
 /// Window of exact lags and a sum of exponentials for later lags: O(1) memory and time per step.
 ///
-/// The convolution weights of the lags 2 to W are used as they are, by the blocks of
+/// The convolution weights of the lags 2 to W are exact. They act in the blocks of
 /// [`RelaxedFftHistory`](super::RelaxedFftHistory) up to length W. Later weights are sums of decaying exponentials in
-/// time with a common set of poles, and of a few functions over the patch in space. All tractions before the last 2W
-/// are stored as a few hundred numbers, whatever the number of steps.
+/// time with a common set of poles, and of a few functions over the patch in space. The effect of all tractions before
+/// the last 2W steps is stored in a few hundred numbers, for any number of steps.
 ///
 /// The kernel must provide its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when the
-/// Rayleigh wave has crossed the patch three times. By then only normal and tangential components are left. These are
-/// integrals of decaying exponentials, which the trapezoidal rule in the logarithm of the rate turns into sums. The
+/// Rayleigh wave has crossed the patch three times. By then the coupling is zero. The normal and tangential weights are
+/// integrals of decaying exponentials, which the trapezoidal rule in the logarithm of the rate approximates by sums. The
 /// functions in space are Legendre polynomials over the patch.
 ///
 /// # Accuracy
 ///
 /// Every coefficient is within `tolerance` of the exact one, relative to the largest coefficient of the same lag, up to
-/// a horizon: 2²⁰ steps, unless another horizon is given. The number of steps need not be known. Beyond the horizon the
-/// relative error grows in proportion to the lag, because the slowest pole stays the same. When the history is made,
-/// the error is measured against the exact coefficients ([`ExponentialFit::error_bound`]), and poles are put closer
-/// together until it is small enough. The energy balance gives a bound of its effect on a run's energies
-/// ([`EnergyBalance::soil_error_bound`](crate::coupled::EnergyBalance::soil_error_bound)).
+/// a horizon: 2²⁰ steps, unless another horizon is set. The number of steps need not be known in advance. Beyond the
+/// horizon the relative error grows in proportion to the lag, because the slowest pole stays the same. When the history
+/// is created, the error is measured against the exact coefficients ([`ExponentialFit::error_bound`]), and the spacing of
+/// the poles is reduced until the error is within the tolerance. The energy balance contains a bound of the error's
+/// effect on a run's energies ([`EnergyBalance::soil_error_bound`](crate::coupled::EnergyBalance::soil_error_bound)).
 ///
 /// # Passivity
 ///
-/// The exact operator creates no energy; a fit that creates energy could make a run unstable. When the history is made,
-/// the smallest eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1 is computed, window and exponentials in closed
-/// form. If it is negative, more poles, closer together, are tried; if none help, the error is [`Error::NotPassive`].
-/// The margin of the discrete operator is large ([`ExponentialFit::passivity_margin`]): about a tenth of the immediate
-/// displacement. Only coarse tolerances with windows of thousands of steps (nearly incompressible soil, very short
-/// steps) need the additional poles.
+/// The exact operator creates no energy; a fit that creates energy could make a run unstable. When the history is
+/// created, the smallest eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1 is computed, with the window and the
+/// exponentials in closed form. If the eigenvalue is negative, fits with more and closer poles are tried. If all of them
+/// fail, the error is [`Error::NotPassive`]. The margin of the discrete operator is large
+/// ([`ExponentialFit::passivity_margin`]): about a tenth of the immediate displacement. Only coarse tolerances with
+/// windows of thousands of steps (nearly incompressible soil, very short steps) need the additional poles.
 pub struct ExponentialHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     fit: Arc<TailFit>,
-    /// Exact lags.
+    /// Blocks of the exact lags.
     window_blocks: Box<dyn HistoryBlocks>,
+    /// Exponentials of the later lags, and their state.
     tail: Tail,
     /// The last 2W inputs, input m in slot m mod 2W.
     recent_inputs: Vec<f64>,
@@ -84,11 +85,11 @@ pub struct ExponentialFit {
     pub functions: usize,
     /// Largest error of any coefficient up to the horizon, relative to the largest coefficient of its lag.
     ///
-    /// It is measured when the history is made, and is at most the tolerance given.
+    /// The error is measured when the history is created, and is at most the required tolerance.
     pub error_bound: f64,
     /// Margin against the creation of energy, relative to the immediate displacement; not negative.
     ///
-    /// It is the smallest eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, divided by the value for an
+    /// The margin is the smallest eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, divided by the value for an
     /// immediate displacement (G¹ alone, element by element).
     pub passivity_margin: f64,
 }
@@ -106,17 +107,17 @@ short_debug! {
 impl ExponentialHistory {
     /// Default tolerance.
     pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-10;
-    /// Default horizon: steps over which the tolerance holds.
+    /// Default horizon, the number of steps over which the tolerance is satisfied.
     pub(crate) const DEFAULT_HORIZON: usize = 1 << 20;
     /// Longest horizon, steps.
     ///
-    /// It is far below the limit of 64 bits, or of a shorter word.
+    /// It is far below the largest integer of 64 bits, or of a processor with shorter integers.
     pub(crate) const MAX_HORIZON: usize = match 1_usize.checked_shl(40) {
         Some(steps) => steps,
         None => usize::MAX >> 4,
     };
 
-    /// Makes an empty history of `kernel` with coefficients within `tolerance`.
+    /// Creates a history without inputs, with the coefficients of `kernel` within `tolerance`.
     ///
     /// The error of a coefficient is relative to the largest coefficient of its lag.
     ///
@@ -129,7 +130,7 @@ impl ExponentialHistory {
         Self::with_horizon(kernel, tolerance, Self::DEFAULT_HORIZON)
     }
 
-    /// Makes an empty history of `kernel` with a `tolerance` that holds up to `horizon` steps.
+    /// Creates a history without inputs whose `tolerance` is satisfied up to `horizon` steps.
     ///
     /// # Errors
     /// As for [`ExponentialHistory::new`].
@@ -141,7 +142,7 @@ impl ExponentialHistory {
         Self::within_memory(kernel, tolerance, horizon, DEFAULT_MEMORY)
     }
 
-    /// Does [`ExponentialHistory::with_horizon`] within `memory` bytes, including the fit.
+    /// Creates the history as [`ExponentialHistory::with_horizon`] does, within `memory` bytes including the fit.
     pub(crate) fn within_memory(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
@@ -198,8 +199,8 @@ impl ExponentialHistory {
     pub fn fit(&self) -> ExponentialFit {
         ExponentialFit {
             window: self.window_lags(),
-            poles: self.tail.poles(),
-            functions: self.tail.functions(),
+            poles: self.tail.pole_count(),
+            functions: self.tail.function_count(),
             error_bound: self.error_bound(),
             passivity_margin: self.fit.passivity_margin,
         }
@@ -228,8 +229,8 @@ impl ExponentialHistory {
         self.kernel.classes().layout().len()
     }
 
-    /// Position of input `m` in `recent_inputs`.
-    fn slot(&self, m: usize) -> std::ops::Range<usize> {
+    /// Range of input `m` in `recent_inputs`.
+    fn input_range(&self, m: usize) -> std::ops::Range<usize> {
         let traction_count = self.traction_count();
         let slot = m % (2 * self.window_lags());
         slot * traction_count..(slot + 1) * traction_count
@@ -249,27 +250,27 @@ impl ExponentialHistory {
     }
 
     /// Stores the input of one step, and adds the input that leaves the window to the exponentials.
-    fn store_input(&mut self, input: impl FnOnce(&mut [f64])) {
-        let slot = self.slot(self.steps);
-        let stored = &mut self.recent_inputs[slot];
-        input(stored);
+    fn store_input(&mut self, write_input: impl FnOnce(&mut [f64])) {
+        let input_range = self.input_range(self.steps);
+        let stored = &mut self.recent_inputs[input_range];
+        write_input(stored);
         self.largest_traction = self.largest_traction.max(stored.iter().map(|t| t.abs()).sum());
         self.steps += 1;
-        let leaving_input = self.steps.checked_sub(self.window_lags()).map(|m| self.slot(m));
-        self.tail.advance(leaving_input.map(|slot| &self.recent_inputs[slot]));
+        let leaving_range = self.steps.checked_sub(self.window_lags()).map(|m| self.input_range(m));
+        self.tail.advance(leaving_range.map(|range| &self.recent_inputs[range]));
     }
 
     /// Writes the last inputs into the window.
     fn refill_window(&mut self) {
         self.window_blocks.clear();
         let window_inputs = self.window_inputs(self.steps);
-        let first = window_inputs.start;
+        let first_input = window_inputs.start;
         for m in window_inputs {
-            if m > first {
+            if m > first_input {
                 self.window_blocks.add_effects(m);
             }
-            let slot = self.slot(m);
-            self.window_blocks.write_traction(m, &self.recent_inputs[slot]);
+            let input_range = self.input_range(m);
+            self.window_blocks.write_traction(m, &self.recent_inputs[input_range]);
         }
         self.input_is_pending = self.steps > 0;
     }
@@ -284,7 +285,7 @@ fn window_bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
 
 /// Number of lags in the window, a whole block of the transforms.
 ///
-/// Part of a block would take as much time.
+/// A part of a block would take as much time as a whole block.
 fn whole_block_lags(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     let needed = "a million or fewer for a history by exponentials";
@@ -324,14 +325,14 @@ impl ConvolutionHistory for ExponentialHistory {
 
     fn push(&mut self, traction: &[f64]) {
         self.complete_output();
-        let now = self.steps;
+        let step = self.steps;
         self.store_input(|stored| {
             for (i, value) in stored.iter_mut().enumerate() {
                 *value = traction.get(i).copied().unwrap_or(0.0);
             }
         });
-        let slot = self.slot(now);
-        self.window_blocks.write_traction(now, &self.recent_inputs[slot]);
+        let input_range = self.input_range(step);
+        self.window_blocks.write_traction(step, &self.recent_inputs[input_range]);
         self.input_is_pending = true;
     }
 
@@ -348,7 +349,7 @@ impl ConvolutionHistory for ExponentialHistory {
         let mut values = vec![self.largest_traction];
         values.extend(self.tail.state());
         for m in self.window_inputs(self.steps) {
-            values.extend_from_slice(&self.recent_inputs[self.slot(m)]);
+            values.extend_from_slice(&self.recent_inputs[self.input_range(m)]);
         }
         Ok(values)
     }
@@ -365,13 +366,10 @@ impl ConvolutionHistory for ExponentialHistory {
         let traction_count = self.traction_count();
         for (m, input) in window_inputs.zip(values[state_length + 1..].chunks_exact(traction_count))
         {
-            let slot = self.slot(m);
-            self.recent_inputs[slot].copy_from_slice(input);
+            let input_range = self.input_range(m);
+            self.recent_inputs[input_range].copy_from_slice(input);
         }
         self.refill_window();
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,11 +1,11 @@
 //! Check that a window and its exponentials create no energy.
 //!
-//! Over any run the work of tractions is Σ τ·L Δs, s = Ĝ τ. By Parseval it is never negative if
-//! H(ω) = Re[(1−ζ) L Ĝ(ζ)], ζ = e^(iω), has no negative eigenvalue at any ω; L Gⁿ is symmetric by
-//! reciprocity, so H is the Hermitian part. Near ω = 0 all motions but a translation radiate like
-//! ω², so eigenvalues are divided by (1−cos ω) times the diagonal of L G¹, the coefficient of an
-//! immediate displacement. The window is a finite sum, and each pole a geometric series, so no sum
-//! is truncated.
+//! Over any run the work of the tractions τ is Σ τ·L Δs, with the displacements s = Ĝ τ and the diagonal matrix L of
+//! element lengths. By Parseval the work is never negative if H(ω) = Re[(1−ζ) L Ĝ(ζ)], ζ = e^(iω), has no negative
+//! eigenvalue at any ω. L Gⁿ is symmetric by reciprocity, so H is the Hermitian part of the operator. Near ω = 0 the
+//! power radiated by all motions but a translation is proportional to ω². Eigenvalues are therefore divided by
+//! (1−cos ω) times the diagonal of L G¹, the value for an immediate displacement. The window is a finite sum, and each
+//! pole is a geometric series, so that no sum is truncated.
 
 use super::exact_lags::Lags;
 use super::tail::Tail;
@@ -18,10 +18,12 @@ const FREQUENCIES_PER_DECADE: f64 = 8.0;
 const EVEN_FREQUENCY_COUNT: usize = 48;
 /// Lowest frequency, relative to the frequency of the horizon.
 const LOWEST_FREQUENCY_RATIO: f64 = 0.1;
-/// Order of H above which only a third of the frequencies are tried.
+/// Largest order of H for which all frequencies are tried: the eigenvalues of a larger H take long.
 const MAX_DENSE_SEARCH_ORDER: usize = 100;
+/// Of this many frequencies one is tried, if the order of H is larger.
+const COARSE_SEARCH_STRIDE: f64 = 3.0;
 
-/// Smallest eigenvalue, and its frequency in radians per step.
+/// Smallest scaled eigenvalue of H, and its frequency in radians per step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PassivityMargin {
     pub(super) min_eigenvalue: f64,
@@ -36,7 +38,7 @@ pub(super) fn margin(
     horizon: f64,
 ) -> PassivityMargin {
     let order = kernel.classes().layout().len();
-    let stride = if order > MAX_DENSE_SEARCH_ORDER { 3.0 } else { 1.0 };
+    let stride = if order > MAX_DENSE_SEARCH_ORDER { COARSE_SEARCH_STRIDE } else { 1.0 };
     let mut frequencies = Vec::new();
     let mut omega = LOWEST_FREQUENCY_RATIO / horizon;
     while omega < 1.0 {
@@ -72,7 +74,7 @@ fn min_eigenvalue_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, 
         .map(|d| ((d as f64 + 0.5) * omega).sin() / half_angle.sin())
         .collect();
     let one_minus_cosine = 2.0 * half_angle.sin() * half_angle.sin();
-    let tail_sums = tail.at_frequency(window_lags as f64, omega);
+    let tail_sums = tail.pole_sums_at_frequency(window_lags as f64, omega);
     let mut window_sums = Vec::with_capacity(classes.count());
     for class in 0..classes.count() {
         window_sums.push(lags.kinds.each_ref().map(|kind| {
@@ -121,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tail_that_does_not_fit_the_window_is_found_out() {
+    fn a_tail_that_does_not_continue_the_window_is_not_passive() {
         let kernel = patch();
         let window = 48;
         let lags = Lags::new(&kernel, window).unwrap();
@@ -134,24 +136,29 @@ mod tests {
         assert!(margins[2] < 0.0);
     }
 
-    /// The closed form in ζ against the sum over the ages, by parts so that it converges.
+    /// The closed form in ζ against the sum over the ages; summation by parts makes the sum converge.
     #[test]
     fn closed_form_is_the_sum() {
         let kernel = patch();
         let window = 48;
         let tail = tail(&kernel, window, 1.0);
-        let ages: Vec<_> = (0..20_000).map(|age| tail.at_age(f64::from(age))).collect();
+        let age_sums: Vec<_> =
+            (0..20_000).map(|age| tail.pole_sums_at_age(f64::from(age))).collect();
         for omega in [0.02, 0.3, 3.0] {
-            let closed = tail.at_frequency(window as f64, omega);
-            for (part, closed) in closed.iter().enumerate() {
-                for (place, closed) in closed.iter().enumerate() {
-                    let mut sum = ages[0][part][place] * (window as f64 * omega).cos();
-                    for age in 1..ages.len() {
+            let frequency_sums = tail.pole_sums_at_frequency(window as f64, omega);
+            for (component, closed_forms) in frequency_sums.iter().enumerate() {
+                for (index, closed_form) in closed_forms.iter().enumerate() {
+                    let value_at = |age: usize| age_sums[age][component][index];
+                    let mut sum = value_at(0) * (window as f64 * omega).cos();
+                    for age in 1..age_sums.len() {
                         let angle = (window + age) as f64 * omega;
-                        sum += (ages[age][part][place] - ages[age - 1][part][place]) * angle.cos();
+                        sum += (value_at(age) - value_at(age - 1)) * angle.cos();
                     }
-                    let scale = ages[0][part][0].abs();
-                    assert!((sum - closed).abs() < 1e-5 * scale, "{omega}: {sum} {closed}");
+                    let scale = age_sums[0][component][0].abs();
+                    assert!(
+                        (sum - closed_form).abs() < 1e-5 * scale,
+                        "{omega}: {sum} {closed_form}"
+                    );
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Error of the exponentials against the exact coefficients of sampled pairs.
+//! Measured error of the exponentials against the exact coefficients of sampled pairs.
 
 use super::tail::{MeasuredErrors, Tail};
 use crate::error::Result;
@@ -7,11 +7,12 @@ use crate::history::pair_classes::STRIP_KINDS;
 
 /// Number of lags checked per octave.
 ///
-/// The trapezoidal rule's error oscillates with ln t: this is about two lags a period, at phases that do not repeat.
+/// The trapezoidal rule's error oscillates with ln t. The number gives about two lags in a period of this oscillation, and
+/// their phases do not repeat.
 const CHECKED_LAGS_PER_OCTAVE: f64 = 7.3;
-/// Largest number of pair classes checked; of more classes, an even sample.
+/// Largest number of pair classes checked; of more classes, evenly spaced ones are checked.
 ///
-/// The error is a polynomial in space.
+/// A sample is sufficient because the error is a polynomial in space.
 const MAX_CHECKED_CLASSES: usize = 150;
 
 /// Largest errors of the sampled coefficients at one lag.
@@ -98,7 +99,7 @@ impl SampledPairs {
     ) -> Result<LagErrors> {
         let count = kernel.classes().elements().len();
         let age = (lag - window - 1) as f64;
-        let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
+        let fits = [tail.pole_sums_at_age(age), tail.pole_sums_at_age(age + 1.0)];
         let mut errors = LagErrors::default();
         // Errors of the normal and of the tangential components.
         let mut components = [ComponentErrors::default(); 2];

@@ -20,7 +20,7 @@ pub(crate) struct MeasuredErrors {
     pub(super) last_coefficient: f64,
 }
 
-/// An [`ExponentialSum`] and its state.
+/// Exponentials of the late lags, and the state that represents all tractions before the window.
 #[derive(Debug, Clone)]
 pub(super) struct Tail {
     /// Lengths of the elements, m.
@@ -30,14 +30,16 @@ pub(super) struct Tail {
     decay_factors: Vec<f64>,
     /// States of normal and tangential components, for each function and its poles.
     ///
-    /// A state is Σ decay^age · moment.
+    /// A state is Σ decay^age · moment, over all tractions before the window.
     states: [Vec<Vec<f64>>; COMPONENTS_IN_PLANE],
+    /// Scratch: moment ∫ τ φ of one traction with each function, N/m.
     moments: Vec<f64>,
+    /// Scratch: amplitude of each function in the displacement, m.
     amplitudes: Vec<f64>,
 }
 
 impl Tail {
-    /// Makes a tail without inputs.
+    /// Creates a tail without inputs.
     pub(super) fn new(exponentials: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
         for means in &exponentials.functions {
             same_length("means of a function", means.len(), elements.len())?;
@@ -61,12 +63,12 @@ impl Tail {
     }
 
     /// Number of poles.
-    pub(super) fn poles(&self) -> usize {
+    pub(super) fn pole_count(&self) -> usize {
         self.decay_factors.len()
     }
 
     /// Number of functions over the patch.
-    pub(super) fn functions(&self) -> usize {
+    pub(super) fn function_count(&self) -> usize {
         self.moments.len()
     }
 
@@ -77,9 +79,10 @@ impl Tail {
 
     /// Bytes of memory used.
     pub(super) fn memory(&self) -> usize {
-        let products: usize = self.exponentials.products.iter().map(|p| 2 * p.normal.len()).sum();
-        let functions = self.functions() * self.lengths.len();
-        (products + self.state_length() + functions + 2 * self.poles()) * size_of::<f64>()
+        let weight_count: usize =
+            self.exponentials.products.iter().map(|p| 2 * p.normal.len()).sum();
+        let mean_count = self.function_count() * self.lengths.len();
+        (weight_count + self.state_length() + mean_count + 2 * self.pole_count()) * size_of::<f64>()
     }
 
     /// Values of the state, to be saved.
@@ -96,7 +99,7 @@ impl Tail {
 
     /// Advances by a step: the state decays, and a traction is added.
     ///
-    /// `leaving_traction` (2Q) is the one that leaves the window in this step.
+    /// `leaving_traction` (2Q numbers): traction that the window does not include from this step on.
     pub(super) fn advance(&mut self, leaving_traction: Option<&[f64]>) {
         let layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.lengths.len());
         for (component, states) in self.states.iter_mut().enumerate() {
@@ -144,14 +147,14 @@ impl Tail {
     ///
     /// First of the normal components, then of the tangential components.
     fn pole_sums(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
-        let function_count = self.functions();
-        let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
+        let function_count = self.function_count();
+        let factors: Vec<f64> = (0..self.pole_count()).map(factor).collect();
         let mut sums =
             [(); COMPONENTS_IN_PLANE].map(|()| vec![0.0; function_count * function_count]);
         for product in &self.exponentials.products {
             let [i, j] = product.functions;
             for (component, sum) in sums.iter_mut().enumerate() {
-                let weights = weights(product, component);
+                let weights = component_weights(product, component);
                 let value = dot(weights, &factors[..weights.len()]);
                 sum[i * function_count + j] += value;
                 if i != j {
@@ -162,15 +165,19 @@ impl Tail {
         sums
     }
 
-    /// The sums at the `age`-th lag of the tail, from 0.
-    pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
+    /// Sums over the poles at the `age`-th lag of the tail, from 0.
+    pub(super) fn pole_sums_at_age(&self, age: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
         self.pole_sums(|pole| (-self.exponentials.rates[pole] * age).exp())
     }
 
-    /// The sums at a frequency.
+    /// Sums over the poles at a frequency `omega`, radians per step.
     ///
-    /// They are Re Σ (1−ζ) ζ^W z^n ζ^n over all ages n, with ζ = e^(iω) and the decay z.
-    pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
+    /// The factor of a pole is Re Σ (1−ζ) ζ^W zⁿ ζⁿ over all ages n, with ζ = e^(iω) and the decay z.
+    pub(super) fn pole_sums_at_frequency(
+        &self,
+        window: f64,
+        omega: f64,
+    ) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
         let half_angle = 0.5 * omega;
         let sine = omega.sin();
         let one_minus_cosine = 2.0 * half_angle.sin() * half_angle.sin();
@@ -182,20 +189,24 @@ impl Tail {
             let decay = self.decay_factors[pole];
             let denominator_re = one_minus_decay + decay * one_minus_cosine;
             let denominator_im = -decay * sine;
-            let norm = denominator_re * denominator_re + denominator_im * denominator_im;
-            let quotient_re = (one_minus_cosine * denominator_re - sine * denominator_im) / norm;
-            let quotient_im = (-sine * denominator_re - one_minus_cosine * denominator_im) / norm;
+            let squared_modulus = denominator_re * denominator_re + denominator_im * denominator_im;
+            let quotient_re =
+                (one_minus_cosine * denominator_re - sine * denominator_im) / squared_modulus;
+            let quotient_im =
+                (-sine * denominator_re - one_minus_cosine * denominator_im) / squared_modulus;
             quotient_re * rotation_re - quotient_im * rotation_im
         })
     }
 
-    /// Integral over the receiver of a pair's coefficient, from the sums of [`Tail::at_age`] or [`Tail::at_frequency`].
-    pub(super) fn pair_integral(&self, sum: &[f64], receiver: usize, source: usize) -> f64 {
+    /// Coefficient of a pair, integrated over the receiver, m²/Pa.
+    ///
+    /// `pole_sums`: of one component, from [`Tail::pole_sums_at_age`] or [`Tail::pole_sums_at_frequency`].
+    pub(super) fn pair_integral(&self, pole_sums: &[f64], receiver: usize, source: usize) -> f64 {
         let area = self.lengths[receiver] * self.lengths[source];
         let functions = &self.exponentials.functions;
         let mean_coefficient: f64 = functions
             .iter()
-            .zip(sum.chunks_exact(functions.len().max(1)))
+            .zip(pole_sums.chunks_exact(functions.len().max(1)))
             .map(|(function_means, row)| {
                 let terms = row
                     .iter()
@@ -250,7 +261,7 @@ impl WithSimd for TailAmplitudes<'_> {
         let Self { states, products, component, amplitudes } = self;
         amplitudes.fill(0.0);
         for product in products {
-            let x = weights(product, component);
+            let x = component_weights(product, component);
             let [i, j] = product.functions;
             amplitudes[i] += Dot { weights: None, x, y: &states[j] }.with_simd(simd);
             if i != j {
@@ -261,6 +272,6 @@ impl WithSimd for TailAmplitudes<'_> {
 }
 
 /// Weights of the normal (0) or tangential (1) components.
-fn weights(product: &TailProduct, component: usize) -> &[f64] {
+fn component_weights(product: &TailProduct, component: usize) -> &[f64] {
     if component == 0 { &product.normal } else { &product.tangential }
 }

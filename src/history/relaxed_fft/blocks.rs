@@ -10,16 +10,16 @@ pub(super) const SPECTRA_PROGRESS_PARTS: usize = 100;
 pub(crate) trait HistoryBlocks: Send {
     /// Number of steps for which memory and all levels are ready.
     ///
-    /// If it is not a power of two, the outputs of the last blocks end there: they are missing when the capacity grows.
+    /// If the capacity is not a power of two, the last blocks compute outputs only up to it. When the capacity grows,
+    /// the further outputs must be computed again from the inputs.
     fn capacity(&self) -> usize;
 
     /// Number of stored real values.
     fn stored_value_count(&self) -> usize;
 
-    /// Makes the blocks ready for at least `steps` steps; `reporter` is notified up to
-    /// [`SPECTRA_PROGRESS_PARTS`] times.
+    /// Extends the blocks to at least `steps` steps.
     ///
-    /// Inputs and outputs are unchanged on an error.
+    /// `reporter` is notified up to [`SPECTRA_PROGRESS_PARTS`] times. Inputs and outputs are unchanged on an error.
     fn extend_capacity(
         &mut self,
         weights: &dyn ConvolutionWeights,
@@ -27,7 +27,7 @@ pub(crate) trait HistoryBlocks: Send {
         reporter: &mut ProgressReporter,
     ) -> Result<()>;
 
-    /// Makes the blocks ready for any number of steps, in memory that does not grow.
+    /// Prepares the blocks for any number of steps, in memory that does not grow.
     ///
     /// Weights after `last_delay` (`LEAF_STEPS` times a power of two) must be zero; lattice blocks ignore later weights.
     /// Call this before the first step, in place of [`HistoryBlocks::extend_capacity`], or while the capacity is at most

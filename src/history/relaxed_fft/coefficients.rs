@@ -1,4 +1,4 @@
-//! Direct sums over short lags, for all pairs of elements.
+//! Coefficients of short lags, and their direct sums for all pairs of elements.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -25,13 +25,13 @@ pub(crate) type ShortLagTables = [Vec<Vec<f64>>; MAX_PLANE_KINDS];
 pub(super) struct Coefficients {
     pub(super) classes: PairClasses,
     /// Last d at which the coupling of each class is not zero; `usize::MAX` if it never ends.
-    reaches: Vec<usize>,
-    /// Largest reach of all classes.
+    class_reaches: Vec<usize>,
+    /// Last d at which the coupling of any class is not zero.
     pub(super) coupling_reach: usize,
     /// Whether blocks have to include the coupling.
-    pub(super) couples_far: bool,
-    /// Number of lags over which the coupling is summed directly.
-    pub(super) coupling_direct: usize,
+    pub(super) blocks_have_coupling: bool,
+    /// Last d at which the coupling is summed directly.
+    pub(super) direct_coupling_reach: usize,
     /// Tables of short lags, empty until they are needed.
     pub(super) short_lags: Arc<ShortLagTables>,
 }
@@ -42,26 +42,33 @@ impl Coefficients {
     /// A coupling that ends at d = `max_direct` or before is summed directly.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
-        let mut reaches = Vec::with_capacity(classes.count());
+        let mut class_reaches = Vec::with_capacity(classes.count());
         for class in 0..classes.count() {
             let last_lag = kernel.last_coupling_lag(class)?;
-            reaches.push(last_lag.map_or(usize::MAX, |lag| lag.saturating_sub(1)));
+            class_reaches.push(last_lag.map_or(usize::MAX, |lag| lag.saturating_sub(1)));
         }
-        let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
-        let couples_far = coupling_reach > max_direct;
-        let coupling_direct = if couples_far { LEAF_STEPS - 1 } else { coupling_reach };
-        let short_lags = Arc::default();
-        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, short_lags })
+        let coupling_reach = class_reaches.iter().copied().max().unwrap_or(0);
+        let blocks_have_coupling = coupling_reach > max_direct;
+        let direct_coupling_reach =
+            if blocks_have_coupling { LEAF_STEPS - 1 } else { coupling_reach };
+        Ok(Self {
+            classes,
+            class_reaches,
+            coupling_reach,
+            blocks_have_coupling,
+            direct_coupling_reach,
+            short_lags: Arc::default(),
+        })
     }
 
     /// Number of values of d in the tables.
     pub(super) fn length(&self) -> usize {
-        LEAF_STEPS.max(self.coupling_direct + 1)
+        LEAF_STEPS.max(self.direct_coupling_reach + 1)
     }
 
     /// Adds the next class to `tables`; `values` may be longer than [`Coefficients::length`].
     pub(super) fn add_class(&self, values: &ClassCoefficients, tables: &mut ShortLagTables) {
-        let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
+        let reach = self.class_reaches[tables[0].len()].min(self.direct_coupling_reach);
         for (kind, (table, values)) in tables.iter_mut().zip(values).enumerate() {
             let end = if kind < COMPONENTS_IN_PLANE { LEAF_STEPS } else { reach + 1 };
             table.push(values[..end.min(values.len())].to_vec());

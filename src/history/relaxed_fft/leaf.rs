@@ -1,4 +1,6 @@
-//! Next output of a leaf from its inputs: one product for each wavenumber, input and pair of components.
+//! Next output of a leaf by direct summation over wavenumbers.
+//!
+//! The sum has one product for each wavenumber, input and pair of components.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -12,7 +14,9 @@ pub(super) struct StripLeaf<'a> {
     pub(super) sum: &'a mut [f64],
     pub(super) inputs: &'a [f64],
     pub(super) coefficients: [&'a [f64]; STRIP_KINDS],
+    /// Number of wavenumbers.
     pub(super) waves: usize,
+    /// Last delay d at which the coupling is not zero.
     pub(super) reach: usize,
 }
 
@@ -81,7 +85,7 @@ pub(super) struct PlanLeaf<'a> {
     pub(super) waves: WaveNumbers,
 }
 
-/// Number of inputs multiplied in one pass over the sums.
+/// Number of inputs multiplied in one pass over the sums, so that the sums are read and written less often.
 const INPUTS_PER_PASS: usize = 4;
 /// Number of real and imaginary parts of three components.
 const COMPLEX_PARTS: usize = 2 * COMPONENTS_IN_SPACE;
@@ -194,9 +198,9 @@ fn add_products<S: Simd>(
     ]
 }
 
-/// A component of ĝ x along the surface.
+/// Real and imaginary part of one component of ĝ x along the surface.
 ///
-/// Coefficients: of both shears and of the pressure.
+/// `first` and `second`: coefficients of the shears along x and y; `coupling`: of the pressure.
 #[inline(always)]
 fn shear_component<S: Simd>(
     simd: S,

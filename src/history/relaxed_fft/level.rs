@@ -16,7 +16,7 @@ const FREQUENCIES_PER_TILE: usize = 64;
 
 /// Effect of b inputs on the next b outputs: convolutions of length 2b.
 pub(super) struct PairLevel {
-    /// b.
+    /// Number b of steps in a block.
     pub(super) block_size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
@@ -155,7 +155,7 @@ impl PairLevel {
         }
     }
 
-    /// Does [`PairLevel::apply`] for a range of rows; `kind` is used if all have one kind.
+    /// Adds the effects on a range of rows; `kind` is the kind of all coefficients if `part` is even.
     fn apply_to(
         &self,
         block: &mut BlockRows<'_>,
@@ -187,8 +187,8 @@ impl PairLevel {
             spectrum[0].im = 0.0;
             spectrum[block_size].im = 0.0;
             let scratch = &mut buffers.scratch[..self.inverse.get_scratch_len()];
-            let done = self.inverse.process_with_scratch(spectrum, real, scratch);
-            debug_assert!(done.is_ok());
+            let result = self.inverse.process_with_scratch(spectrum, real, scratch);
+            debug_assert!(result.is_ok());
             let begin = (first_row + row_index) * block.stride + block.ring.column(block.now);
             let row = &mut block.rows[begin..begin + block_size];
             for (output, value) in row.iter_mut().zip(&real[block_size..]) {
@@ -274,7 +274,7 @@ fn copy_from_tile(tile: &[f64], values: &mut [Complex<f64>]) {
     }
 }
 
-/// Transform of `real`, which is overwritten as well.
+/// Overwrites `spectrum` with the transform of `real`, and `real` with intermediate values.
 fn transform(
     plan: &dyn RealToComplex<f64>,
     real: &mut [f64],
@@ -282,8 +282,8 @@ fn transform(
     scratch: &mut [Complex<f64>],
 ) {
     // All lengths come from the plan, so that the transform cannot fail.
-    let done = plan.process_with_scratch(real, spectrum, &mut scratch[..plan.get_scratch_len()]);
-    debug_assert!(done.is_ok());
+    let result = plan.process_with_scratch(real, spectrum, &mut scratch[..plan.get_scratch_len()]);
+    debug_assert!(result.is_ok());
 }
 
 /// Adds (or subtracts) the product of two spectra, stored as real parts, then imaginary parts.

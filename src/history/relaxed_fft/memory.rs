@@ -6,9 +6,9 @@ use super::ring::LEAF_STEPS;
 use crate::error::Result;
 use crate::history::convolution_weights::ConvolutionWeights;
 
-/// Bytes of the blocks for `steps` steps, which grow by powers of two.
+/// Bytes of the blocks for `steps` steps; blocks grow by powers of two.
 ///
-/// In the plane the factors are the sums over the table of costs of [`RelaxedFftHistory`](super::RelaxedFftHistory).
+/// In the plane the factors are sums over the bytes in the table of [`RelaxedFftHistory`](super::RelaxedFftHistory).
 pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> Result<f64> {
     let lag_count = (steps as f64).max(2.0 * LEAF_STEPS as f64).log2().ceil().exp2();
     let classes = kernel.classes();
@@ -29,7 +29,7 @@ pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> 
     })
 }
 
-/// Largest power of two of steps whose blocks fit into `memory` bytes.
+/// Largest number of steps, a power of two, whose blocks fit into `memory` bytes.
 ///
 /// Zero if the smallest blocks do not.
 pub(super) fn max_steps(kernel: &dyn ConvolutionWeights, memory: f64) -> Result<usize> {
@@ -43,7 +43,7 @@ pub(super) fn max_steps(kernel: &dyn ConvolutionWeights, memory: f64) -> Result<
     Ok(max_step_count)
 }
 
-/// Whether the coupling of the pair farthest apart never ends.
+/// Whether the coupling of the most distant pair never ends.
 fn couples_without_end(kernel: &dyn ConvolutionWeights) -> Result<bool> {
     let classes = kernel.classes();
     let farthest = classes.pairs().get(classes.elements().len() - 1);

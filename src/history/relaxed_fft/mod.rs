@@ -32,7 +32,7 @@ pub(crate) use crate::history::relaxed_fft::blocks::HistoryBlocks;
 use crate::history::relaxed_fft::blocks::{SPECTRA_PROGRESS_PARTS, replay_inputs};
 pub(crate) use crate::history::relaxed_fft::ring::LEAF_STEPS;
 
-/// Number of lags of one class whose spectra take as long as one sample of a layered ground.
+/// Number of lags of one class in a unit of progress: their spectra take as long as one sample of a layered ground.
 const LAGS_PER_PROGRESS_UNIT: usize = 8192;
 
 /// Relaxed blocked convolution: equal to [`DirectHistory`](super::DirectHistory) within rounding.
@@ -40,19 +40,19 @@ const LAGS_PER_PROGRESS_UNIT: usize = 8192;
 /// The number of steps need not be known in advance.
 ///
 /// Time is divided into leaves of 32 steps. Within a leaf, the effects of inputs on outputs are summed directly. After
-/// i steps, i a multiple of the leaf, let b be the leaf times the largest power of two with which b divides i. The
-/// effect of the last b inputs on the next b outputs is one convolution of length 2b, computed by transforms (Hairer,
-/// Lubich & Schlichte 1985, SIAM J. Sci. Stat. Comput. 6, 532–541). Every pair of input and output is in exactly one
-/// leaf or block, so the result is complete and exact.
+/// i steps, i a multiple of 32, let b be the largest number of the form 32 · 2ᵏ that divides i. The effect of the last
+/// b inputs on the next b outputs is one convolution of length 2b, computed by transforms (Hairer, Lubich & Schlichte
+/// 1985, SIAM J. Sci. Stat. Comput. 6, 532–541). Every pair of input and output is in exactly one leaf or block, so the
+/// result is complete and exact.
 ///
 /// Each component is transformed once per block. Products are summed over the sources in the frequency domain, with one
 /// spectrum per pair *class*: on a uniform patch Q offsets instead of Q² pairs. The coupling of normal and tangential
 /// components ends when the Rayleigh wave has crossed the patch. A coupling of few steps is summed directly; a longer
 /// one by blocks that cover its length.
 ///
-/// From 8 equal elements on a lattice (a uniform strip, or several of one pitch) on, each step is also transformed
-/// along the surface, zero-padded. Every wavenumber is then a separate convolution in time, without products over
-/// pairs.
+/// With 8 or more equal elements on a lattice (a uniform strip, or several strips of one pitch), the tractions of each
+/// step are also padded with zeros and transformed along the surface. Every wavenumber is then a separate convolution in
+/// time, without products over pairs.
 ///
 /// # Cost
 ///
@@ -69,18 +69,19 @@ const LAGS_PER_PROGRESS_UNIT: usize = 8192;
 /// The cost of steps differs: the step that completes a block of b computes the whole block, 4Q transforms of length
 /// 2b.
 ///
-/// All histories of one kernel share its [spectra](ConvolutionWeights::spectra), if it stores them: the first history
-/// that needs them makes them, on any thread.
+/// All histories of one kernel share its [spectra](ConvolutionWeights::spectra), if the kernel stores them: the first
+/// history that needs the spectra computes them, on any thread.
 ///
-/// Memory is allocated by [`prepare`](ConvolutionHistory::prepare). If more steps follow, it doubles, as far as
-/// [`memory_limit`](crate::memory_limit) allows. Results may differ in the last digits between processors, as the
-/// transforms use the widest instructions found at run time.
+/// Memory is allocated by [`prepare`](ConvolutionHistory::prepare). If more steps follow, the memory doubles, as far as
+/// [`memory_limit`](crate::memory_limit) allows. Results may differ in the last digits between processors, because the
+/// transforms use the widest vector instructions of the processor.
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Blocks; `None` until they are needed.
     blocks: Option<Box<dyn HistoryBlocks>>,
     /// Whether to transform along the surface; `None` to do so where it is faster.
     transforms_surface: Option<bool>,
+    /// Number of inputs so far.
     steps: usize,
     /// Whether the effect of the last input is still to be added.
     input_is_pending: bool,
@@ -103,7 +104,7 @@ short_debug! {
 }
 
 impl RelaxedFftHistory {
-    /// Makes an empty history of `kernel`.
+    /// Creates a history of `kernel` without inputs.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let padded_traction = vec![0.0; kernel.classes().layout().len()];
         Self {
@@ -142,9 +143,9 @@ impl RelaxedFftHistory {
         self
     }
 
-    /// First input that blocks still need after `steps` steps, if lags after `last` are neglected.
-    fn first_needed(last: Option<usize>, steps: usize) -> usize {
-        last.map_or(0, |last| (steps / last).saturating_sub(1) * last)
+    /// First input that blocks still need after `steps` steps, if lags after `last_lag` are neglected.
+    fn first_needed_input(last_lag: Option<usize>, steps: usize) -> usize {
+        last_lag.map_or(0, |last_lag| (steps / last_lag).saturating_sub(1) * last_lag)
     }
 
     /// Number of lags that blocks for `steps` steps need, a power of two.
@@ -153,9 +154,10 @@ impl RelaxedFftHistory {
     ///
     /// # Errors
     /// [`Error::Memory`] for steps that need more memory than allowed.
-    fn lags(&self, steps: usize) -> Result<usize> {
-        let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX).max(1);
-        let needed_lags = self.last_lag.map_or(lags, |last_lag| lags.min(2 * last_lag.lag));
+    fn block_lags(&self, steps: usize) -> Result<usize> {
+        let padded_steps = steps.checked_next_power_of_two().unwrap_or(usize::MAX).max(1);
+        let needed_lags =
+            self.last_lag.map_or(padded_steps, |last_lag| padded_steps.min(2 * last_lag.lag));
         let max_lags = max_steps(&*self.kernel, self.memory_limit)?;
         if needed_lags <= max_lags || (self.neglected_fraction.is_some() && max_lags > 0) {
             return Ok(needed_lags.min(max_lags));
@@ -171,11 +173,11 @@ impl RelaxedFftHistory {
             needed: bytes_of_blocks(&*self.kernel, steps)?,
             limit: self.memory_limit,
             remedy: "take fewer steps or larger elements, or allow more with \
-                     `HistoryOptions::memory`: a checkpoint can go on there",
+                     `HistoryOptions::memory`: a run can continue there from a checkpoint",
         }))
     }
 
-    /// Makes blocks ready for at least `steps` steps, and returns them.
+    /// Extends the blocks to at least `steps` steps, and returns them.
     fn grow(
         &mut self,
         steps: usize,
@@ -184,7 +186,7 @@ impl RelaxedFftHistory {
         if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity())
             && self.last_lag.is_none()
         {
-            let lags = self.lags(steps)?;
+            let lags = self.block_lags(steps)?;
             if let Some(tolerance) = self.neglected_fraction {
                 self.last_lag = LastLag::find(&*self.kernel, tolerance, lags, &mut unobserved)?;
             }
@@ -231,13 +233,13 @@ impl RelaxedFftHistory {
 
     /// Adds the effect of the last input, so that the next output is complete.
     fn complete_output(&mut self) -> Result<&mut dyn HistoryBlocks> {
-        let now = self.steps;
+        let step = self.steps;
         let input_was_pending = self.input_is_pending;
-        self.grow(now.saturating_add(1), &mut ProgressReporter::unobserved())?;
+        self.grow(step.saturating_add(1), &mut ProgressReporter::unobserved())?;
         self.input_is_pending = false;
         let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
         if input_was_pending {
-            blocks.add_effects(now);
+            blocks.add_effects(step);
         }
         Ok(blocks)
     }
@@ -251,7 +253,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     /// Computes weights and spectra, and reports the progress of both.
     fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         let kernel = Arc::clone(&self.kernel);
-        let lags = self.lags(steps)?;
+        let lags = self.block_lags(steps)?;
         let spectra_units =
             lags.saturating_mul(kernel.classes().count()) / LAGS_PER_PROGRESS_UNIT + 1;
         let mut progress = Progress::new("convolution weights", 0, spectra_units);
@@ -260,7 +262,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
             observer(progress)
         };
         let weights_result = match self.neglected_fraction.filter(|_| self.last_lag.is_none()) {
-            // In plan, up to the last lag that is not neglected.
+            // In plan the weights are computed up to the last lag that is not neglected.
             Some(tolerance) => LastLag::find(&*kernel, tolerance, lags, &mut report_weights)
                 .map(|last_lag| self.last_lag = last_lag),
             None => kernel.prepare(lags, &mut report_weights),
@@ -289,15 +291,15 @@ impl ConvolutionHistory for RelaxedFftHistory {
         if let Some(error) = &self.input_error {
             return Err(error.clone());
         }
-        let now = self.steps;
-        self.complete_output()?.read_displacement(now, displacement);
+        let step = self.steps;
+        self.complete_output()?.read_displacement(step, displacement);
         Ok(())
     }
 
     /// Bound of the change in one step of the displacement due to the neglected lags.
     fn increment_error_bound(&self) -> f64 {
-        let ended = self.last_lag.filter(|last_lag| self.steps > last_lag.lag);
-        ended.map_or(0.0, |last_lag| last_lag.change * self.max_traction)
+        let passed_last_lag = self.last_lag.filter(|last_lag| self.steps > last_lag.lag);
+        passed_last_lag.map_or(0.0, |last_lag| last_lag.change * self.max_traction)
     }
 
     fn memory(&self) -> usize {
@@ -306,7 +308,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
 
     fn push(&mut self, traction: &[f64]) {
         if self.input_error.is_none() {
-            let now = self.steps;
+            let step = self.steps;
             let mut padded_traction = std::mem::take(&mut self.padded_traction);
             let count = traction.len().min(padded_traction.len());
             padded_traction[..count].copy_from_slice(&traction[..count]);
@@ -318,7 +320,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
             }
             match self.complete_output() {
                 Ok(blocks) => {
-                    blocks.write_traction(now, &padded_traction);
+                    blocks.write_traction(step, &padded_traction);
                     self.input_is_pending = true;
                 }
                 Err(error) => self.input_error = Some(error),
@@ -336,8 +338,9 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let mut values = Vec::new();
         if let Some(blocks) = &self.blocks {
             let effects_end = self.steps - usize::from(self.input_is_pending);
-            let first = Self::first_needed(self.last_lag.map(|last_lag| last_lag.lag), self.steps);
-            (first..self.steps).for_each(|step| blocks.input(step, effects_end, &mut values));
+            let last_lag = self.last_lag.map(|last_lag| last_lag.lag);
+            let first_input = Self::first_needed_input(last_lag, self.steps);
+            (first_input..self.steps).for_each(|step| blocks.input(step, effects_end, &mut values));
         }
         if self.neglected_fraction.is_some() {
             values.extend([
@@ -352,19 +355,20 @@ impl ConvolutionHistory for RelaxedFftHistory {
         // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
         let input_width = self.grow(1, &mut ProgressReporter::unobserved())?.values_per_step();
         let saved = SavedState::new(values, self.neglected_fraction.is_some())?;
-        let first_saved = Self::first_needed(saved.last_lag, steps);
+        let first_saved = Self::first_needed_input(saved.last_lag, steps);
         check_inputs(steps - first_saved, input_width, saved.inputs)?;
         self.grow(steps, &mut ProgressReporter::unobserved())?;
-        // The last lag may not be found yet, in this history or in the saved one.
+        // The last lag may not be determined yet, in this history or in the saved one.
         let last_lag = self.last_lag.map(|last_lag| last_lag.lag);
-        let first = Self::first_needed(last_lag, steps);
+        let first_input = Self::first_needed_input(last_lag, steps);
         let lags_differ = last_lag.zip(saved.last_lag).is_some_and(|(lag, saved)| lag != saved);
-        if lags_differ || first < first_saved {
+        if lags_differ || first_input < first_saved {
             return Err(SavedState::CORRUPT_STATE.into());
         }
         let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
         blocks.clear();
-        replay_inputs(blocks, first, &saved.inputs[(first - first_saved) * input_width..]);
+        let needed_inputs = &saved.inputs[(first_input - first_saved) * input_width..];
+        replay_inputs(blocks, first_input, needed_inputs);
         self.max_traction = saved.max_traction;
         self.steps = steps;
         self.input_is_pending = steps > 0;
@@ -373,9 +377,9 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 }
 
-/// Makes empty blocks for any number of steps, of a kernel without coefficients after d = `last_delay`.
+/// Creates empty blocks for any number of steps, for coefficients that end at a delay.
 ///
-/// `last_delay` is a leaf times a power of two.
+/// The coefficients of `kernel` must be zero after the delay d = `last_delay`, a leaf times a power of two.
 pub(super) fn bounded_blocks(
     kernel: &dyn ConvolutionWeights,
     last_delay: usize,

@@ -16,16 +16,14 @@ use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
-/// Longest coupling that is summed directly, steps; for a longer coupling blocks are faster.
+/// Longest coupling that is summed directly, steps: for a longer coupling blocks are faster.
 ///
 /// Up to this length the time of a step depends little on the choice.
 const MAX_DIRECT_COUPLING: usize = 64;
 
-/// Numbers in a memory page.
-///
-/// Rows of whole pages would map equal columns of all rows to one cache set.
+/// Numbers in a memory page; rows of whole pages would map equal columns of all rows to one cache set.
 const NUMBERS_PER_PAGE: usize = 512;
-/// Numbers in a cache line: rows are longer than whole pages by this.
+/// Numbers in a cache line; a row is longer than whole pages by this number.
 const NUMBERS_PER_CACHE_LINE: usize = 8;
 
 /// Blocks over pairs of elements: the current leaf, all levels, inputs and outputs so far.
@@ -44,14 +42,14 @@ pub(super) struct PairBlocks {
 }
 
 impl PairBlocks {
-    /// Makes empty blocks of `weights`.
+    /// Creates empty blocks of `weights`.
     pub(super) fn new(weights: &dyn ConvolutionWeights) -> Result<Self> {
         Self::with_coupling(weights, MAX_DIRECT_COUPLING)
     }
 
-    /// Makes empty blocks for rows whose columns are used again.
+    /// Creates empty blocks for any number of steps, in rows whose columns are used again.
     ///
-    /// No coupling beyond a leaf is summed directly.
+    /// Beyond a leaf no coupling is summed directly.
     pub(super) fn bounded(weights: &dyn ConvolutionWeights) -> Result<Self> {
         Self::with_coupling(weights, 0)
     }
@@ -76,17 +74,17 @@ impl PairBlocks {
 
     /// Whether blocks of `block_size` have spectra of the coupling.
     ///
-    /// They do up to the first size that covers its reach.
+    /// The sizes up to the first one that covers the reach of the coupling have them.
     fn has_coupling_spectra(&self, block_size: usize) -> bool {
         let coefficients = &self.coefficients;
-        coefficients.couples_far
+        coefficients.blocks_have_coupling
             && (block_size == LEAF_STEPS || block_size / 2 < coefficients.coupling_reach)
     }
 
-    /// Makes the levels of these indices, and the short lags unless they are there.
+    /// Computes the levels of these indices, and the short lags unless they exist.
     ///
-    /// The weights are evaluated once for all of them.
-    fn make_levels(
+    /// The weights are evaluated once for all levels.
+    fn compute_levels(
         &mut self,
         weights: &dyn ConvolutionWeights,
         level_indices: Range<usize>,
@@ -142,10 +140,10 @@ impl PairBlocks {
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
 
-    /// Takes the smallest `level_count` levels and the short lags from the store of the weights, or makes them.
+    /// Sets the smallest `level_count` levels and the short lags, and allocates scratch for their blocks.
     ///
-    /// Allocates scratch for their blocks.
-    fn take_levels(
+    /// Both are read from the store of the weights, or computed if the store does not contain them.
+    fn set_levels(
         &mut self,
         weights: &dyn ConvolutionWeights,
         level_count: usize,
@@ -153,7 +151,7 @@ impl PairBlocks {
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
         let element_count = self.element_count();
-        // The weights are prepared before the spectra are locked: their threads must not wait for the lock.
+        // The weights are prepared before the spectra are locked: threads of the weights must not wait for the lock.
         weights.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
         let spectra = weights.spectra().filter(|s| s.belong_to(weights.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<PairLevel, ShortLagTables>>);
@@ -162,7 +160,7 @@ impl PairBlocks {
         let mut private_store = Levels { levels: self.levels.clone(), leaf: short_lags };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
         let levels = store.smallest(level_count, |level_indices, short_lags| {
-            self.make_levels(weights, level_indices, short_lags, reporter)
+            self.compute_levels(weights, level_indices, short_lags, reporter)
         })?;
         self.levels = levels.levels;
         self.coefficients.short_lags = levels.leaf.unwrap_or_default();
@@ -203,9 +201,9 @@ impl HistoryBlocks for PairBlocks {
         }
         let element_count = self.element_count();
         let level_count = (capacity / LEAF_STEPS).ilog2() as usize;
-        self.take_levels(weights, level_count, capacity, reporter)?;
+        self.set_levels(weights, level_count, capacity, reporter)?;
         // Only a coupling that is summed directly has outputs beyond the capacity.
-        let column_count = capacity + self.coefficients.coupling_direct;
+        let column_count = capacity + self.coefficients.direct_coupling_reach;
         let stride = column_count.next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
         self.rows = widened(&self.rows, 2 * element_count, self.stride, stride);
         self.stride = stride;
@@ -219,7 +217,7 @@ impl HistoryBlocks for PairBlocks {
         last_delay: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
-        self.take_levels(
+        self.set_levels(
             weights,
             (last_delay / LEAF_STEPS).ilog2() as usize + 1,
             2 * last_delay,
@@ -236,8 +234,11 @@ impl HistoryBlocks for PairBlocks {
         let Some(last) = step.checked_sub(1) else { return };
         let coefficients = &self.coefficients;
         let leaf_outputs = LEAF_STEPS - 1 - last % LEAF_STEPS;
-        let coupled_outputs =
-            if coefficients.couples_far { leaf_outputs } else { coefficients.coupling_direct };
+        let coupled_outputs = if coefficients.blocks_have_coupling {
+            leaf_outputs
+        } else {
+            coefficients.direct_coupling_reach
+        };
         let ring = self.ring;
         let rows = &mut self.rows[..];
         let stride = self.stride;

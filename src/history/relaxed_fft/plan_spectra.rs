@@ -1,4 +1,4 @@
-//! Transforms along the surface of coefficients in plan, by their symmetry.
+//! Transforms of coefficients in plan along the surface, by cosines and sines.
 
 use crate::error::Result;
 use crate::geometry::{COMPLIANCES_PER_OFFSET, Lattice};
@@ -32,7 +32,7 @@ impl WaveNumbers {
     }
 }
 
-/// Number of lags evaluated in one pass.
+/// Number of lags evaluated together, so that their tables stay small.
 pub(super) const LAGS_PER_CHUNK: usize = 512;
 
 /// Numbers of wavenumbers of a lattice in plan.
@@ -48,7 +48,7 @@ pub(crate) fn waves_in_plan(lattice: &Lattice) -> WaveNumbers {
 
 /// Computes [`ElementGrid::coefficients`](super::element_grid::ElementGrid::coefficients) in plan.
 ///
-/// It multiplies by cosines and sines along x and y.
+/// Because the coefficients are even or odd along x and y, the transforms are products with cosines or sines.
 pub(super) fn coefficients_in_plan(
     lattice: &Lattice,
     lengths: [usize; 2],
@@ -136,9 +136,9 @@ fn read_tables(
     Ok(())
 }
 
-/// Factors of an even and of an odd function, for each offset and wavenumber.
+/// Factors of the transforms of an even and of an odd function, for each offset and wavenumber.
 ///
-/// They sum over both signs of the offset. The sum of the odd function is divided by i.
+/// A factor includes both signs of the offset. The transform of the odd function is divided by i.
 fn cosines_and_sines(offset_count: usize, length: usize) -> [Vec<f64>; 2] {
     let unit_angle = std::f64::consts::TAU / length as f64;
     let mut even = Vec::with_capacity(offset_count * (length / 2 + 1));

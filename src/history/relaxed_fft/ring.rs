@@ -2,8 +2,8 @@
 
 /// Number of steps summed directly; the smallest block has this size.
 ///
-/// Measured with 10 and 14 elements by pairs, 16 takes as long and 64 a fifth longer; by wavenumbers the times differ
-/// little.
+/// With 10 and 14 elements over pairs, a step takes as long with 16 and a fifth longer with 64. Over wavenumbers the
+/// times differ little.
 pub(crate) const LEAF_STEPS: usize = 32;
 
 /// Number of steps that a row stores before its columns are used again.
@@ -36,7 +36,7 @@ impl Ring {
         if self.is_bounded() { index.min(level_count - 1) } else { index }
     }
 
-    /// Columns to be cleared for outputs from `now` on.
+    /// Columns of old inputs that must be cleared for the outputs from `now` on; `None` unless a half begins.
     pub(super) fn stale_range(self, now: usize) -> Option<std::ops::Range<usize>> {
         let half = self.0 / 2;
         let begins_half = self.is_bounded() && now.is_multiple_of(half);

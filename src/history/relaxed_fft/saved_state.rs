@@ -8,7 +8,7 @@ pub(super) struct SavedState<'a> {
     pub(super) inputs: &'a [f64],
     /// Largest traction so far, Pa; zero if no lags are neglected.
     pub(super) max_traction: f64,
-    /// Last lag that is not neglected; `None` if it was not found yet.
+    /// Last lag that is not neglected; `None` if it was not yet determined.
     pub(super) last_lag: Option<usize>,
 }
 

@@ -16,7 +16,7 @@ use basemat_fourier::{ComplexPlanner, Fft};
 const COMPONENT_KINDS: [&[&[usize]]; 2] =
     [&[&[0, 2], &[2, 1]], &[&[0, 4, 5], &[4, 1, 3], &[5, 3, 2]]];
 
-/// Kinds of the coefficients of N components.
+/// Matrix of the kinds of coefficients for N components: displacements (rows) due to tractions (columns).
 pub(super) fn kinds<const N: usize>() -> [[usize; N]; N] {
     let rows = COMPONENT_KINDS[usize::from(N == 3)];
     std::array::from_fn(|row| std::array::from_fn(|column| rows[row][column]))
@@ -29,7 +29,7 @@ pub(super) type LeafCoefficients = Vec<Vec<f64>>;
 ///
 /// The blocks and spectra of one wavenumber fit into cache.
 pub(super) struct WaveLevel {
-    /// b.
+    /// Number b of steps in a block.
     pub(super) block_size: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
@@ -109,8 +109,8 @@ impl WaveLevel {
         let spectrum = &mut self.spectra[kind][wave * (self.block_size + 1)..][..=self.block_size];
         let scratch = &mut scratch[..plan.get_scratch_len()];
         // All lengths come from the plan, so that the transform cannot fail.
-        let done = plan.process_with_scratch(samples, spectrum, scratch);
-        debug_assert!(done.is_ok());
+        let result = plan.process_with_scratch(samples, spectrum, scratch);
+        debug_assert!(result.is_ok());
     }
 
     /// Adds the effect of the b inputs before `now` to the next b outputs, in all rows.
@@ -165,12 +165,13 @@ impl WaveLevel {
         }
     }
 
+    /// Lower frequencies of the spectrum of a kind at a wavenumber.
     fn spectrum(&self, kind: usize, wave: usize) -> &[Complex<f64>] {
         let frequency_count = self.block_size + 1;
         &self.spectra[kind][self.waves.spectrum(wave) * frequency_count..][..frequency_count]
     }
 
-    /// Does [`WaveLevel::apply`] for N components at once, from the inputs `input_range` to the outputs `output_range`.
+    /// Adds the effect of the inputs `input_range` to the outputs `output_range`, for N coupled components.
     #[allow(clippy::too_many_arguments, reason = "as of `apply`, with both ranges")]
     fn apply_coupled<const N: usize>(
         &self,
@@ -236,6 +237,7 @@ fn upper_frequencies(lower: &[Complex<f64>]) -> impl Iterator<Item = Complex<f64
     lower[1..lower.len() - 1].iter().rev().map(Complex::conj)
 }
 
+/// Multiplies a transformed block by a spectrum, frequency by frequency.
 fn multiply(block: &mut [Complex<f64>], spectrum: &[Complex<f64>]) {
     let (low, high) = block.split_at_mut(spectrum.len());
     for (value, factor) in low.iter_mut().zip(spectrum) {
@@ -246,7 +248,7 @@ fn multiply(block: &mut [Complex<f64>], spectrum: &[Complex<f64>]) {
     }
 }
 
-/// (p, s) ← (i c s, −i c p).
+/// Multiplies pressure and shear by the coupling: (p, s) ← (i c s, −i c p).
 fn multiply_coupling(
     pressure: &mut [Complex<f64>],
     shear: &mut [Complex<f64>],
@@ -280,7 +282,7 @@ fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Comple
     multiply_matrix::<N, true>(high, spectra);
 }
 
-/// Multiplies the lower frequencies, or the upper frequencies.
+/// Multiplies the lower frequencies of N blocks by a matrix, or the upper frequencies if `UPPER`.
 fn multiply_matrix<const N: usize, const UPPER: bool>(
     mut blocks: [&mut [Complex<f64>]; N],
     spectra: [[&[Complex<f64>]; N]; N],
@@ -308,7 +310,7 @@ fn multiply_matrix<const N: usize, const UPPER: bool>(
 /// Levels of blocks, from the smallest on, with the coefficients C of a leaf.
 pub(crate) struct Levels<L, C> {
     pub(super) levels: Vec<Arc<L>>,
-    /// Coefficients of a leaf; `None` until they are made.
+    /// Coefficients of a leaf; `None` until they are computed.
     pub(super) leaf: Option<Arc<C>>,
 }
 
@@ -321,13 +323,13 @@ impl<L, C> Default for Levels<L, C> {
 impl<L, C> Levels<L, C> {
     /// Returns the smallest `count` levels and the coefficients of a leaf.
     ///
-    /// `make` makes missing levels of a range of numbers, and the coefficients if they are missing.
+    /// `compute_missing` computes the levels of a range of indices, and the coefficients unless they exist.
     pub(super) fn smallest(
         &mut self,
         count: usize,
-        make: impl FnOnce(Range<usize>, &mut Option<Arc<C>>) -> Result<Vec<Arc<L>>>,
+        compute_missing: impl FnOnce(Range<usize>, &mut Option<Arc<C>>) -> Result<Vec<Arc<L>>>,
     ) -> Result<Self> {
-        let new_levels = make(self.levels.len()..count, &mut self.leaf)?;
+        let new_levels = compute_missing(self.levels.len()..count, &mut self.leaf)?;
         self.levels.extend(new_levels);
         Ok(Self { levels: self.levels[..count].to_vec(), leaf: self.leaf.clone() })
     }

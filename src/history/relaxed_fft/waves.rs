@@ -19,9 +19,7 @@ use crate::history::pair_classes::COUPLING_KIND;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
-/// Unused numbers at the end of each row.
-///
-/// Without them equal columns of all rows would fall into one cache set.
+/// Unused numbers at the end of each row, without which equal columns of all rows would map to one cache set.
 const ROW_PADDING: usize = 4;
 
 /// Blocks over wavenumbers: the current leaf, all levels, inputs and outputs so far.
@@ -46,6 +44,7 @@ pub(super) struct WaveBlocks {
     inputs: Vec<f64>,
     /// Effect of all earlier leaves on the outputs of this leaf.
     earlier_effects: Vec<f64>,
+    /// Scratch: the output of a step over the wavenumbers.
     sum: Vec<f64>,
     /// Blocks that are being transformed, and scratch of the transforms.
     blocks: Vec<Complex<f64>>,
@@ -53,7 +52,7 @@ pub(super) struct WaveBlocks {
 }
 
 impl WaveBlocks {
-    /// Makes empty blocks of elements on a lattice.
+    /// Creates empty blocks of elements on a lattice.
     pub(super) fn new(grid: ElementGrid, weights: &dyn ConvolutionWeights) -> Result<Self> {
         let input_width = values_per_step(&grid);
         Ok(Self {
@@ -77,14 +76,14 @@ impl WaveBlocks {
 
     /// Whether blocks of `block_size` have spectra of the coupling.
     ///
-    /// They do up to the first size that covers its reach.
+    /// The sizes up to the first one that covers the reach of the coupling have them.
     fn has_coupling_spectra(&self, block_size: usize) -> bool {
         self.coupling_reach > 0
             && (block_size == LEAF_STEPS || block_size / 2 < self.coupling_reach)
     }
 
-    /// Makes the levels of these indices, and the coefficients of a leaf unless they are there.
-    fn make_levels(
+    /// Computes the levels of these indices, and the coefficients of a leaf unless they exist.
+    fn compute_levels(
         &mut self,
         weights: &dyn ConvolutionWeights,
         level_indices: Range<usize>,
@@ -164,7 +163,7 @@ impl WaveBlocks {
         Ok(leaf_tables)
     }
 
-    /// Moves the leaf that ends before `now` to the rows, adds its effect, and begins the next leaf.
+    /// Copies the leaf that ends before `now` to the rows, adds its effect, and begins the next leaf.
     fn finish_leaf(&mut self, now: usize) {
         let wave_count = self.grid.waves().count;
         let ring = self.ring;
@@ -211,16 +210,16 @@ impl WaveBlocks {
         self.stride = stride;
     }
 
-    /// Takes the smallest `level_count` levels and a leaf's coefficients from the store of the weights, or makes them.
+    /// Sets the smallest `level_count` levels and a leaf's coefficients, and allocates scratch for their blocks.
     ///
-    /// Allocates scratch for their blocks.
-    fn take_levels(
+    /// Both are read from the store of the weights, or computed if the store does not contain them.
+    fn set_levels(
         &mut self,
         weights: &dyn ConvolutionWeights,
         level_count: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
-        // The weights are prepared before the spectra are locked: their threads must not wait for the lock.
+        // The weights are prepared before the spectra are locked: threads of the weights must not wait for the lock.
         let lags = LEAF_STEPS << level_count;
         weights.prepare(lags.min(self.last_lag.unwrap_or(lags)), &mut unobserved)?;
         // If late lags are neglected, the spectra do not include all lags, and the store is not used.
@@ -232,16 +231,16 @@ impl WaveBlocks {
         let mut private_store = Levels { levels: self.levels.clone(), leaf };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
         let levels = store.smallest(level_count, |level_indices, leaf| {
-            self.make_levels(weights, level_indices, leaf, reporter)
+            self.compute_levels(weights, level_indices, leaf, reporter)
         })?;
         self.levels = levels.levels;
         self.leaf = levels.leaf.unwrap_or_default();
         let zero = Complex::default();
         if let Some(level) = self.levels.last() {
             // Components with coupling are all transformed before they are multiplied.
-            let coupled_length = self.levels.iter().rfind(|level| level.has_spectra(COUPLING_KIND));
+            let coupled_level = self.levels.iter().rfind(|level| level.has_spectra(COUPLING_KIND));
             let coupled_length =
-                coupled_length.map_or(0, |l| 2 * self.grid.components() * l.block_size);
+                coupled_level.map_or(0, |coupled| 2 * self.grid.components() * coupled.block_size);
             let length = self.blocks.len().max(coupled_length).max(2 * level.block_size);
             self.blocks.resize(length, zero);
             self.scratch.resize(self.scratch.len().max(level.scratch_length()), zero);
@@ -274,12 +273,12 @@ impl HistoryBlocks for WaveBlocks {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
-        let leaves = steps.div_ceil(LEAF_STEPS).max(1);
-        let largest = leaves.next_power_of_two();
-        // The first request is met exactly; later requests double the memory.
-        let capacity = LEAF_STEPS * if self.capacity == 0 { leaves } else { largest };
-        let level_count = largest.ilog2() as usize;
-        self.take_levels(weights, level_count, reporter)?;
+        let leaf_count = steps.div_ceil(LEAF_STEPS).max(1);
+        let padded_leaf_count = leaf_count.next_power_of_two();
+        // The first request allocates only the leaves that it needs; later requests double the memory.
+        let capacity = LEAF_STEPS * if self.capacity == 0 { leaf_count } else { padded_leaf_count };
+        let level_count = padded_leaf_count.ilog2() as usize;
+        self.set_levels(weights, level_count, reporter)?;
         if capacity > LEAF_STEPS {
             self.widen(capacity + ROW_PADDING);
         }
@@ -294,7 +293,7 @@ impl HistoryBlocks for WaveBlocks {
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
         self.last_lag = Some(last_delay);
-        self.take_levels(weights, (last_delay / LEAF_STEPS).ilog2() as usize + 1, reporter)?;
+        self.set_levels(weights, (last_delay / LEAF_STEPS).ilog2() as usize + 1, reporter)?;
         self.widen(2 * last_delay + ROW_PADDING);
         self.ring = Ring(2 * last_delay);
         self.capacity = usize::MAX;

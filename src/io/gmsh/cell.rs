@@ -1,4 +1,4 @@
-//! Elements of a mesh by the indices of their nodes.
+//! Elements of a mesh that refer to their nodes by index.
 
 use std::collections::{BTreeMap, BTreeSet};
 

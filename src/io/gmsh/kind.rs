@@ -1,4 +1,4 @@
-//! Kinds of elements in a `.msh` file, by their numbers (Gmsh reference manual, "Low order elements").
+//! Kinds of elements in a `.msh` file, with their numbers (Gmsh reference manual, "Low order elements").
 
 use crate::error::FileFault;
 

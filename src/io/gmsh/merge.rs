@@ -11,7 +11,7 @@ use crate::fem::first_coincident_points;
 pub(super) struct NodeMerge {
     /// New index of each node.
     new_indices: Vec<usize>,
-    /// Old indices of the nodes that stay.
+    /// Old indices of the remaining nodes.
     kept_nodes: Vec<usize>,
 }
 
@@ -69,7 +69,7 @@ impl NodeMerge {
         }
     }
 
-    /// Selects the items of the nodes that stay; `items` has one for each node.
+    /// Selects the items of the remaining nodes; `items` has one for each node before the merge.
     pub(super) fn kept_items<T: Copy>(&self, items: &[T]) -> Vec<T> {
         self.kept_nodes.iter().map(|&node| items[node]).collect()
     }

@@ -13,7 +13,7 @@ use crate::error::{Error, FileFault, Result};
 use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 use crate::text::file::open_file;
 
-/// A mesh of quadrilaterals as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -2 -format msh41`).
+/// Mesh of quadrilaterals from a file of Gmsh, format 4.1 or 2.2, text or binary (`gmsh -2 -format msh41`).
 ///
 /// [`GmshSpaceMesh`](super::GmshSpaceMesh) reads meshes in space.
 ///
@@ -53,7 +53,7 @@ pub struct GmshMesh {
     lines: Vec<MeshCell>,
 }
 
-/// Distance from the plane z = 0 that counts as rounding, relative to the largest coordinate.
+/// Largest distance from the plane z = 0 that counts as rounding, relative to the largest coordinate.
 const PLANE_TOLERANCE: f64 = 1e-9;
 
 impl GmshMesh {
@@ -117,7 +117,7 @@ impl GmshMesh {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the tolerance is finite and not negative; [`Error::Part`](crate::Error::Part) for nodes in a row that
     /// lie within the tolerance of each other, while its ends do not; [`Error::File`] with the line of an element that
-    /// merging makes degenerate or equal to another one. The mesh is then as it was.
+    /// merging makes degenerate or equal to another one. The mesh is then unchanged.
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
         let points = self.nodes.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>();
         let merge = NodeMerge::new(&points, tolerance)?;

@@ -1,4 +1,4 @@
-//! Nodes and elements of a file by their tags.
+//! Nodes and elements of a file that refer to each other by tags.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub(super) struct FileCell {
     pub(super) line: usize,
 }
 
-/// The sections of a file from which meshes are made.
+/// Content of the sections of a file that a mesh needs.
 #[derive(Debug, Default)]
 pub(super) struct FileMesh {
     pub(super) nodes: Vec<FileNode>,

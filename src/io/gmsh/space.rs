@@ -13,7 +13,7 @@ use crate::error::{Error, FileFault, Result};
 use crate::fem::{BeamSection, Hex8, Material, Mesh, Shell, SpaceBeam};
 use crate::text::file::open_file;
 
-/// What the elements of a physical group of a [`GmshSpaceMesh`] become.
+/// Kind of the finite elements that a physical group of a [`GmshSpaceMesh`] becomes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum GmshPart {
@@ -24,7 +24,7 @@ pub enum GmshPart {
     Beam(Material, BeamSection, [f64; 3]),
     /// Triangles and quadrilaterals become [`Shell`](crate::fem::Shell)s of this material and thickness (m).
     ///
-    /// Let Gmsh recombine curved shells: triangles are too stiff there.
+    /// For curved shells let Gmsh recombine triangles to quadrilaterals, because triangles are too stiff there.
     Shell(Material, f64),
     /// Hexahedra become [`Hex8`](crate::fem::Hex8) bricks of this material.
     Solid(Material),
@@ -54,9 +54,9 @@ impl GmshPart {
     }
 }
 
-/// A mesh in space as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -3 -format msh41`).
+/// Mesh in space from a file of Gmsh, format 4.1 or 2.2, text or binary (`gmsh -3 -format msh41`).
 ///
-/// The names of physical groups say which elements become beams, shells or bricks ([`GmshPart`]). An element belongs
+/// The names of physical groups define which elements become beams, shells or bricks ([`GmshPart`]). An element belongs
 /// to all of its groups; an element in no group has the name "". Points, lines, triangles, quadrilaterals and
 /// hexahedra of the first order are read; other elements are an error. z points up. Nodes of the file without an
 /// element are left out, unless they are points of a group.
@@ -145,7 +145,7 @@ impl GmshSpaceMesh {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the tolerance is finite and not negative; [`Error::Part`](crate::Error::Part) for nodes in a row that
     /// lie within the tolerance of each other, while its ends do not; [`Error::File`] with the line of an element that
-    /// merging makes degenerate or equal to another one. The mesh is then as it was.
+    /// merging makes degenerate or equal to another one. The mesh is then unchanged.
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
         let points = self.nodes.clone();
         let merge = NodeMerge::new(&points, tolerance)?;
@@ -171,13 +171,17 @@ impl GmshSpaceMesh {
     /// # Errors
     /// [`Error::File`] if there is no such group.
     pub fn cells(&self, dimension: usize, name: &str) -> Result<Vec<Vec<usize>>> {
-        let mut found = Vec::new();
+        let mut node_lists = Vec::new();
         for cell in &self.cells {
             if cell.kind.dimension() == dimension && cell.is_in(name) {
-                found.push(cell.nodes.clone());
+                node_lists.push(cell.nodes.clone());
             }
         }
-        if found.is_empty() { Err(self.no_group(Some(dimension), name)) } else { Ok(found) }
+        if node_lists.is_empty() {
+            Err(self.no_group(Some(dimension), name))
+        } else {
+            Ok(node_lists)
+        }
     }
 
     /// Mesh of the elements, as the parts of their groups define them; you can add elements.
@@ -270,7 +274,7 @@ impl GmshSpaceMesh {
         }
     }
 
-    /// Sides of surfaces, and faces and edges of bricks, each by its sorted nodes.
+    /// Sides of surfaces, and faces and edges of bricks, each as its sorted nodes.
     fn sides(&self) -> HashSet<Vec<usize>> {
         let mut sides = HashSet::new();
         for cell in &self.cells {

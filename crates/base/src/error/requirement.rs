@@ -78,11 +78,13 @@ pub fn point_text([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
     }
 }
 
-/// Figures of a printed number.
+/// Number of significant figures of a printed number.
 const PRINTED_FIGURES: usize = 6;
-/// A number that its rounding shortens to so many figures may be a round number plus a small difference.
+/// Number of significant figures of a round number.
+///
+/// A value that rounding to [`PRINTED_FIGURES`] shortens to so few figures may differ slightly from a round number.
 const ROUND_NUMBER_FIGURES: usize = 3;
-/// Figures of such a number: they show the difference, but no rounding errors of a computation.
+/// Number of significant figures for such a value: they show the difference, but no rounding errors of a computation.
 const PRECISE_FIGURES: usize = 12;
 
 /// Text of a number for a message, without rounding errors of its computation.

@@ -269,7 +269,7 @@ pub struct CoarseBaseError {
     pub axis: Option<char>,
 }
 
-/// Largest plausible ratio of needed to existing elements: no built structure is as soft as a larger one implies.
+/// Largest plausible ratio of needed to existing elements: a larger ratio implies a softer base than any real one.
 const MAX_PLAUSIBLE_ELEMENT_RATIO: usize = 16;
 
 /// Hint to check the units if a base is implausibly soft, as with moduli in GPa or lengths in mm.

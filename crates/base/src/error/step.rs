@@ -33,7 +33,8 @@ pub enum StepError {
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
-        /// Number of sweeps and Newton iterations, including the proximal method's; on soil that hardens, of its tangents.
+        /// Number of sweeps and Newton iterations, including the proximal method's; on soil that hardens, of its
+        /// tangents.
         iterations: usize,
         /// Largest difference between an element's force and the force by its law, relative to the largest force.
         residual: f64,

@@ -7,8 +7,10 @@ use crate::error::{Result, finite, positive, require};
 
 /// Directions of an element on the flat surface: down, to the right, away from the reader.
 const SURFACE_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-/// Ends along y of an element in the plane, m: one metre of depth.
+/// Ends along y of an element in the plane, m: it is one metre deep.
 const UNIT_DEPTH_ENDS: [f64; 2] = [-0.5, 0.5];
+/// Largest upward component of a normal that points down; walls have normals with a component of zero.
+const MAX_DOWNWARD_COMPONENT: f64 = -0.5;
 
 /// Contact element between base and soil: a flat rectangle.
 ///
@@ -145,7 +147,7 @@ impl ContactElement {
     #[doc(hidden)]
     #[inline]
     pub fn faces_down(&self) -> bool {
-        self.directions[0][2] < -0.5
+        self.directions[0][2] < MAX_DOWNWARD_COMPONENT
     }
 
     /// Whether any of the elements belongs to a wall.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::{Patch, far_ends, middle, span};
+use super::{Patch, enclosing_interval, middle, span};
 
 /// Number of corners of the polygon that replaces a circle: more would only lengthen lists of edges.
 const CIRCLE_CORNER_COUNT: usize = 32;
@@ -86,8 +86,8 @@ pub struct Footing {
 impl Footing {
     /// Footing of these elements of a patch.
     ///
-    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: reference point of the
-    /// base moment.
+    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: reference point of
+    /// the base moment.
     pub fn new(
         patch: &Patch,
         elements: Range<usize>,
@@ -96,7 +96,7 @@ impl Footing {
     ) -> Self {
         let ends = if outline.is_empty() {
             let intervals = patch[elements.clone()].iter().map(|element| element.ends()[0]);
-            [far_ends(intervals), [0.0; 2]]
+            [enclosing_interval(intervals), [0.0; 2]]
         } else {
             [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])))
         };

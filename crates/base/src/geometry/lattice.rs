@@ -45,9 +45,9 @@ impl Lattice {
         self.pitch[0] == self.pitch[1]
     }
 
-    /// Numbers of integrated offsets along x and y.
+    /// Numbers of offsets in the two directions of [`Lattice::classes`].
     ///
-    /// If cells are square, the smaller number comes first.
+    /// They are the numbers of cells along x and y. If cells are square, the smaller number comes first.
     pub fn offset_counts(&self) -> [usize; 2] {
         let counts = self.counts;
         if self.is_square() {

@@ -75,7 +75,7 @@ impl ContactLayout {
     }
 
     /// Number of entries of a square matrix for contact vectors.
-    pub const fn square(self) -> usize {
+    pub const fn matrix_len(self) -> usize {
         self.len() * self.len()
     }
 
@@ -117,17 +117,17 @@ impl ContactLayout {
 }
 
 /// Smallest interval that contains all intervals.
-pub fn far_ends(intervals: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    let mut far_ends = [f64::INFINITY, f64::NEG_INFINITY];
+pub fn enclosing_interval(intervals: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    let mut enclosing = [f64::INFINITY, f64::NEG_INFINITY];
     for [low, high] in intervals {
-        far_ends = [far_ends[0].min(low), far_ends[1].max(high)];
+        enclosing = [enclosing[0].min(low), enclosing[1].max(high)];
     }
-    far_ends
+    enclosing
 }
 
 /// Smallest and largest value.
 pub fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    far_ends(values.map(|value| [value; 2]))
+    enclosing_interval(values.map(|value| [value; 2]))
 }
 
 /// Distance between two ends that counts as a rounding error, relative to the interval.

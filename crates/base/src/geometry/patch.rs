@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout, far_ends, middle};
+use super::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout, enclosing_interval, middle};
 use crate::error::{Error, MemoryError, Result, at_least, memory, require};
 
 /// Contact elements of a ground, checked for sizes, order and overlaps.
@@ -18,8 +18,8 @@ pub struct Patch {
 impl Patch {
     /// Checked elements of a ground.
     ///
-    /// Returns an error unless all elements have positive sides and equal numbers of directions, and none overlap; in the
-    /// plane they must also be in order from left to right. Returns an error for so many elements that the matrices
+    /// Returns an error unless all elements have positive sides and equal numbers of directions, and none overlap; in
+    /// the plane they must also be in order from left to right. Returns an error for so many elements that the matrices
     /// between all pairs exceed the memory limit.
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_count(elements.len(), ContactLayout::for_elements(&elements).components())?;
@@ -95,8 +95,9 @@ impl Patch {
 
     /// Middle `[x, y]` of the bounding box of all elements, m.
     pub fn center(&self) -> [f64; 2] {
-        [0, 1]
-            .map(|axis| middle(far_ends(self.elements.iter().map(|element| element.ends()[axis]))))
+        [0, 1].map(|axis| {
+            middle(enclosing_interval(self.elements.iter().map(|element| element.ends()[axis])))
+        })
     }
 }
 
@@ -176,7 +177,7 @@ pub fn check_order(elements: &[ContactElement]) -> Result<()> {
 /// Returns an error unless the rectangles have positive sides and do not overlap.
 fn check_cells(elements: &[ContactElement]) -> Result<()> {
     check_sizes(elements)?;
-    // In the order of left ends, all elements after the first one beyond a right end are beyond it too.
+    // The elements are sorted by left ends: if one begins beyond the right end of `element`, so do all later elements.
     let mut sorted_elements: Vec<_> = elements.iter().collect();
     sorted_elements.sort_by(|one, other| one.left().total_cmp(&other.left()));
     for (k, element) in sorted_elements.iter().enumerate() {

@@ -10,7 +10,8 @@ pub struct CheckSum(u64);
 const FNV_OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 /// Factor of FNV-1a for 64 bits.
 const FNV_PRIME: u64 = 0x0000_0100_0000_01b3;
-/// Rotation after each word: the product carries changes of high bits only upwards, the rotation returns them.
+/// Rotation after each word: a product carries changes of bits only to higher bits, and the rotation returns them to
+/// low bits.
 const ROTATED_BITS: u32 = 23;
 
 impl Default for CheckSum {

@@ -12,7 +12,7 @@ pub fn column(name: &str, unit: &str) -> String {
     if text.is_empty() {
         text.push_str("unnamed");
     }
-    let unit = snake_case(&in_words(unit));
+    let unit = snake_case(&unit_in_words(unit));
     if !unit.is_empty() {
         text.push('_');
         text += &unit;
@@ -20,11 +20,11 @@ pub fn column(name: &str, unit: &str) -> String {
     text
 }
 
-/// Makes the names of `columns` different from each other and from the `taken` names.
+/// Makes the names of `columns` different from each other and from `existing_names`.
 ///
 /// The second of equal names ends in `_2`, the third in `_3`.
-pub fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
-    let mut used_names: BTreeSet<String> = taken.iter().cloned().collect();
+pub fn distinct(existing_names: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
+    let mut used_names: BTreeSet<String> = existing_names.iter().cloned().collect();
     let mut distinct_names = Vec::new();
     for column in columns {
         let mut name = column.clone();
@@ -47,7 +47,7 @@ fn snake_case(text: &str) -> String {
 }
 
 /// A unit with its symbols as words.
-fn in_words(unit: &str) -> String {
+fn unit_in_words(unit: &str) -> String {
     let mut text = String::new();
     for character in unit.chars() {
         match character {

@@ -26,7 +26,7 @@ pub fn quoted(text: &str) -> String {
 ///
 /// Without a decimal point in the field, the last d digits are decimals. Without an exponent, the field contains 10ᵏ
 /// times the value.
-pub fn in_field(text: &str, decimals: u16, scale: u16) -> Option<f64> {
+pub fn fortran_field_value(text: &str, decimals: u16, scale: u16) -> Option<f64> {
     let (digits, exponent) = match text.find(['e', 'E', 'd', 'D']) {
         Some(position) => (&text[..position], Some(text[position + 1..].parse::<i32>().ok()?)),
         None => (text, None),
@@ -120,10 +120,10 @@ mod tests {
             ("12345", 3, 1, 1.2345),
             ("12.5E0", 3, 1, 12.5),
         ] {
-            assert_eq!(in_field(text, decimals, scale), Some(value), "{text}");
+            assert_eq!(fortran_field_value(text, decimals, scale), Some(value), "{text}");
         }
         for text in ["", "-", "E5", "1E", "1E9999999999", "1E-2147483648", "**", "1e2e3", "1,5"] {
-            assert_eq!(in_field(text, 3, 0), None, "{text}");
+            assert_eq!(fortran_field_value(text, 3, 0), None, "{text}");
         }
     }
 

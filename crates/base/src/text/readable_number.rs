@@ -10,7 +10,7 @@ pub struct PrintedUnit<'a> {
 }
 
 /// Customary printed unit of an SI unit; other units are unchanged.
-pub fn printed(unit: &str) -> PrintedUnit<'_> {
+pub fn printed_unit(unit: &str) -> PrintedUnit<'_> {
     match unit {
         "m" => PrintedUnit { factor: 1e3, symbol: "mm" },
         "rad" => PrintedUnit { factor: 1e3, symbol: "mrad" },
@@ -22,7 +22,7 @@ pub fn printed(unit: &str) -> PrintedUnit<'_> {
 }
 
 /// Unit of a quantity of the whole body: in plan without the "per metre" of the plane.
-pub fn of_body(unit: &str, in_plan: bool) -> &str {
+pub fn whole_body_unit(unit: &str, in_plan: bool) -> &str {
     unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
 }
 
@@ -31,7 +31,7 @@ const ROUNDING_LIMIT: f64 = 1e-9;
 /// Magnitudes that are printed without an exponent.
 const PLAIN_MAGNITUDES: std::ops::Range<f64> = 1e-3..1e6;
 
-/// Number with at least four figures, an exponent only if very small or large, and no negative zero.
+/// Number with at least three significant figures; an exponent only outside [`PLAIN_MAGNITUDES`], and no negative zero.
 pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude < ROUNDING_LIMIT {

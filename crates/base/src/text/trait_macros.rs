@@ -43,7 +43,9 @@ macro_rules! short_debug {
     };
 }
 
-/// Implements former names of associated constants, as deprecated: `former_constants! { Type { OLD: usize = NEW, "note"; } }`.
+/// Implements former names of associated constants, as deprecated.
+///
+/// Use: `former_constants! { Type { OLD: usize = NEW, "note"; } }`.
 #[macro_export]
 macro_rules! former_constants {
     ($name:ty { $($former_name:ident: $type:ty = $name_now:ident, $note:literal;)+ }) => {

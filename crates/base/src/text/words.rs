@@ -36,7 +36,7 @@ macro_rules! words {
 
             fn from_str(text: &str) -> $crate::error::Result<Self> {
                 let variant = Self::ALL.into_iter().find(|variant| variant.word() == text);
-                variant.ok_or_else(|| $crate::text::words::unknown($quantity, text, &[$($word),+]))
+                variant.ok_or_else(|| $crate::text::words::unknown_word_error($quantity, text, &[$($word),+]))
             }
         }
     };
@@ -70,24 +70,28 @@ macro_rules! words_with_numbers {
             type Err = $crate::error::Error;
 
             fn from_str(text: &str) -> $crate::error::Result<Self> {
-                use $crate::text::words::{Bracketed, unknown, with_number};
+                use $crate::text::words::{Bracketed, unknown_word_error, word_and_number};
                 let valid_words =
                     &[$($word,)+ $(concat!($numbered, "(", stringify!($field), ")")),+];
-                let variant = with_number(text).and_then(|(word, number)| match (word, number) {
+                let variant = word_and_number(text).and_then(|(word, number)| match (word, number) {
                     $(($word, None) => Some(Self::$plain),)+
                     $(($numbered, Some(number)) => {
                         Bracketed::read(number).map(|$field| Self::$variant { $field })
                     })+
                     _ => None,
                 });
-                variant.ok_or_else(|| unknown($quantity, text, valid_words))
+                variant.ok_or_else(|| unknown_word_error($quantity, text, valid_words))
             }
         }
     };
 }
 
 /// Error for an unknown word; for another spelling of a valid word, the error lists only this word.
-pub fn unknown(quantity: &'static str, text: &str, valid_words: &'static [&'static str]) -> Error {
+pub fn unknown_word_error(
+    quantity: &'static str,
+    text: &str,
+    valid_words: &'static [&'static str],
+) -> Error {
     let normalized_text = text.trim().to_lowercase().replace([' ', '-'], "_");
     let index = valid_words.iter().position(|word| *word == normalized_text);
     let listed_words = index.map_or(valid_words, |index| &valid_words[index..=index]);
@@ -95,7 +99,7 @@ pub fn unknown(quantity: &'static str, text: &str, valid_words: &'static [&'stat
 }
 
 /// Splits a word and the number that may follow in brackets: `reduced(1e-6)`.
-pub fn with_number(text: &str) -> Option<(&str, Option<f64>)> {
+pub fn word_and_number(text: &str) -> Option<(&str, Option<f64>)> {
     match text.strip_suffix(')') {
         None => Some((text, None)),
         Some(text) => {

@@ -22,7 +22,7 @@ pub(super) struct Graph {
     /// Index of the first edge of each vertex, then the number of edges.
     first_edges: Vec<usize>,
     edges: Vec<Edge>,
-    pub(super) weight: Vec<i64>,
+    pub(super) vertex_weights: Vec<i64>,
 }
 
 /// Neighbours of all vertices, without weights.
@@ -73,7 +73,7 @@ impl PatternGraph {
                 }
             }
             graph.first_edges.push(graph.edges.len());
-            graph.weight.push(i64::try_from(vertex_rows.len()).unwrap_or(i64::MAX));
+            graph.vertex_weights.push(i64::try_from(vertex_rows.len()).unwrap_or(i64::MAX));
         }
         Self { graph, rows }
     }
@@ -81,12 +81,12 @@ impl PatternGraph {
 
 impl Graph {
     fn new() -> Self {
-        Self { first_edges: vec![0], edges: Vec::new(), weight: Vec::new() }
+        Self { first_edges: vec![0], edges: Vec::new(), vertex_weights: Vec::new() }
     }
 
     /// Number of vertices.
     pub(super) fn len(&self) -> usize {
-        self.weight.len()
+        self.vertex_weights.len()
     }
 
     /// Edges of a vertex.
@@ -113,7 +113,7 @@ impl Graph {
             let edges = self.neighbours(v).iter().filter(|(u, _)| new_index[*u] != NO_VERTEX);
             subgraph.edges.extend(edges.map(|&(u, weight)| (new_index[u], weight)));
             subgraph.first_edges.push(subgraph.edges.len());
-            subgraph.weight.push(self.weight[v]);
+            subgraph.vertex_weights.push(self.vertex_weights[v]);
         }
         for &v in vertices {
             new_index[v] = NO_VERTEX;
@@ -124,7 +124,7 @@ impl Graph {
     /// Partner of each vertex: a neighbour, or the vertex itself.
     fn matching(&self) -> Vec<usize> {
         let n = self.len();
-        let total_weight: i64 = self.weight.iter().sum();
+        let total_weight: i64 = self.vertex_weights.iter().sum();
         let max_weight = (total_weight / MIN_COARSE_VERTICES).max(2);
         // A pseudorandom order, the same in every run: the numbering of a mesh would pair vertices in one direction.
         let mut visits: Vec<usize> = (0..n).collect();
@@ -135,10 +135,11 @@ impl Graph {
                 continue;
             }
             let candidates = self.neighbours(v).iter().filter(|(u, _)| {
-                partner_of[*u] == NO_VERTEX && self.weight[*u] + self.weight[v] <= max_weight
+                partner_of[*u] == NO_VERTEX
+                    && self.vertex_weights[*u] + self.vertex_weights[v] <= max_weight
             });
-            let best_edge =
-                candidates.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NO_VERTEX - u));
+            let best_edge = candidates
+                .max_by_key(|(u, weight)| (*weight, -self.vertex_weights[*u], NO_VERTEX - u));
             let partner = best_edge.map_or(v, |(u, _)| *u);
             partner_of[v] = partner;
             partner_of[partner] = v;
@@ -181,7 +182,9 @@ impl Graph {
                 }
             }
             coarse.first_edges.push(coarse.edges.len());
-            coarse.weight.push(members.iter().map(|member| self.weight[*member]).sum());
+            coarse
+                .vertex_weights
+                .push(members.iter().map(|member| self.vertex_weights[*member]).sum());
         }
         CoarseGraph { graph: coarse, coarse_vertex }
     }

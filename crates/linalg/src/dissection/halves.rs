@@ -32,19 +32,19 @@ impl<'a> GraphHalves<'a> {
         // Each cut edge is counted at both ends.
         let mut double_cut_weight = 0;
         for (v, is_v_second) in is_second.iter().enumerate() {
-            weights[usize::from(*is_v_second)] += graph.weight[v];
+            weights[usize::from(*is_v_second)] += graph.vertex_weights[v];
             let cut_edges =
                 graph.neighbours(v).iter().filter(|(u, _)| is_second[*u] != *is_v_second);
             double_cut_weight += cut_edges.map(|(_, weight)| weight).sum::<i64>();
         }
         let total_weight = weights[0] + weights[1];
-        let max_vertex_weight = graph.weight.iter().max().copied().unwrap_or(0);
+        let max_vertex_weight = graph.vertex_weights.iter().max().copied().unwrap_or(0);
         let max_half_weight =
             (total_weight * MAX_HALF_PERCENT / 100).max(total_weight / 2 + max_vertex_weight);
         Self { graph, is_second, weights, cut_weight: double_cut_weight / 2, max_half_weight }
     }
 
-    /// Halves whose first half grows from a vertex, by the neighbour that cuts the fewest edges.
+    /// Halves whose first half grows from a vertex; it takes up the neighbour that cuts the fewest edges.
     pub(super) fn from_seed(graph: &'a Graph, seed: usize) -> Self {
         let mut halves = Self::new(graph, vec![true; graph.len()]);
         let mut heap = BinaryHeap::from([(halves.gain(seed), seed)]);
@@ -89,8 +89,8 @@ impl<'a> GraphHalves<'a> {
     fn move_vertex(&mut self, v: usize) {
         self.cut_weight -= self.gain(v);
         let old_half = usize::from(self.is_second[v]);
-        self.weights[old_half] -= self.graph.weight[v];
-        self.weights[1 - old_half] += self.graph.weight[v];
+        self.weights[old_half] -= self.graph.vertex_weights[v];
+        self.weights[1 - old_half] += self.graph.vertex_weights[v];
         self.is_second[v] = old_half == 0;
     }
 
@@ -122,7 +122,7 @@ impl<'a> GraphHalves<'a> {
         let mut best_cost = self.cost();
         while let Some((gain, v)) = heap.pop() {
             let old_half = usize::from(self.is_second[v]);
-            let new_weight = self.weights[1 - old_half] + graph.weight[v];
+            let new_weight = self.weights[1 - old_half] + graph.vertex_weights[v];
             let is_outdated = gains[v] != gain;
             let is_unbalanced =
                 new_weight > self.max_half_weight && new_weight > self.weights[old_half];

@@ -15,13 +15,14 @@ pub(crate) use graph::Adjacency;
 use graph::{CoarseGraph, Graph, MAX_COARSEST_VERTICES, NO_VERTEX, PatternGraph};
 use halves::GraphHalves;
 
-/// Largest number of vertices of a graph that is not dissected: the minimum degree orders it as well.
+/// Largest number of vertices of a graph that is not dissected: the order of minimum degree is as good for so few.
 const MAX_LEAF_VERTICES: usize = 60;
-/// Number of halvings of the coarsest graph, of which the best is used: they cost little on so few vertices.
-const COARSEST_STARTS: usize = 12;
+/// Number of halvings of the coarsest graph, of which the best is used: a halving of so few vertices costs little.
+const COARSEST_HALVING_COUNT: usize = 12;
 /// Index of the separator among the parts; the halves are parts 0 and 1.
 const SEPARATOR_PART: u8 = 2;
-/// Largest size of a coarser graph, in per cent of the finer one: a slower reduction is not worth its levels.
+/// Largest size of a coarser graph, in per cent of the finer one: with a slower reduction, further levels cost too
+/// much.
 const MAX_COARSE_PERCENT: usize = 95;
 
 /// Rows in the order of elimination.
@@ -77,7 +78,7 @@ fn vertex_parts(graph: &Graph) -> Vec<u8> {
         levels.push(coarse);
     }
     let coarsest = levels.last().map_or(graph, |level| &level.graph);
-    let start_count = COARSEST_STARTS.min(coarsest.len());
+    let start_count = COARSEST_HALVING_COUNT.min(coarsest.len());
     let candidates = (0..start_count).map(|k| {
         let mut halves = GraphHalves::from_seed(coarsest, k * coarsest.len() / start_count);
         halves.improve();

@@ -10,9 +10,9 @@ use crate::linalg::Triplets;
 /// Element matrix to assemble.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MatrixKind {
-    /// Stiffness without the geometric stiffness; of small displacements for elements with internal variables.
+    /// Stiffness of small displacements, without the geometric stiffness.
     Stiffness,
-    /// The same without the elements with internal variables.
+    /// Stiffness of the elements without internal variables.
     LinearStiffness,
     GeometricStiffness,
     Mass(MassKind),
@@ -79,27 +79,27 @@ pub(crate) fn assemble(
 /// Adds the geometric stiffness of the static state to the elements of `mesh`.
 ///
 /// `displacements` (m, rad): degrees of freedom of each element in that state; `gravity` is in m/s². Returns whether
-/// the user prescribed the axial force of an element, which then does not change.
+/// the user prescribed the axial force of any element; such a force does not change.
 ///
 /// # Errors
-/// [`Error::Scene`](crate::Error::Scene) for an element that changes its nodes or directions.
+/// [`Error::Scene`](crate::Error::Scene) if the copy of an element in the static state has other nodes or directions.
 pub(crate) fn set_static_state(
     mesh: &mut Mesh,
     displacements: &[Vec<f64>],
     gravity: f64,
     mass_kind: MassKind,
 ) -> Result<bool> {
-    let mut is_prescribed = Vec::with_capacity(displacements.len());
+    let mut prescribed_flags = Vec::with_capacity(displacements.len());
     mesh.replace_elements(|element, coordinates| {
-        let displacement = displacements.get(is_prescribed.len())?;
+        let displacement = displacements.get(prescribed_flags.len())?;
         let new_element = element.in_static_state(coordinates, displacement, gravity);
-        is_prescribed.push(new_element.is_none() && element.compression().is_some());
+        prescribed_flags.push(new_element.is_none() && element.compression().is_some());
         new_element
     })?;
     let is_in_space = mesh.has_depth();
     let mut rotations = Vec::with_capacity(displacements.len());
     for ((element, displacement), is_prescribed) in
-        mesh.elements().zip(displacements).zip(&is_prescribed)
+        mesh.elements().zip(displacements).zip(&prescribed_flags)
     {
         let state = ElementStaticState { displacement, gravity, mass_kind, is_in_space };
         let coordinates = mesh.coordinates(element.nodes());
@@ -108,5 +108,5 @@ pub(crate) fn set_static_state(
         rotations.push(force_rotation);
     }
     mesh.set_force_rotations(rotations);
-    Ok(is_prescribed.contains(&true))
+    Ok(prescribed_flags.contains(&true))
 }

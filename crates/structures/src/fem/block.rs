@@ -6,16 +6,16 @@ use super::quad8::Quad8;
 use super::solid::SharedMaterial;
 use crate::error::{Result, at_least, memory};
 
-/// Bytes of an eight-node quadrilateral in a mesh, of its three nodes, and of its entry of the map of elements.
+/// Bytes per element: the quadrilateral, its three nodes, and its entry in the map of elements.
 const BYTES_PER_ELEMENT: f64 = 900.0;
 
 impl Mesh {
     /// Block of [`Quad8`] between the vertical lines at `x` and the horizontal lines at `y` (m, ascending).
     ///
     /// Uses are columns and boxes of soil, with narrow elements where stresses vary. `material(column, row)` returns
-    /// the material of an element, a [`Material`](super::Material) or a [`SharedMaterial`]; columns count from the
-    /// left and rows from the bottom. Elements are added row by row from the bottom, each from left to right, with
-    /// reduced integration. [`node_at`](Mesh::node_at) and [`nodes_at_height`](Mesh::nodes_at_height) return the nodes.
+    /// the material of an element, a [`Material`](super::Material) or a [`SharedMaterial`]; columns count from the left
+    /// and rows from the bottom. Elements are added row by row from the bottom, each from left to right, with reduced
+    /// integration. [`node_at`](Mesh::node_at) and [`nodes_at_height`](Mesh::nodes_at_height) return the nodes.
     ///
     /// ```
     /// use basemat::fem::{Material, Mesh};
@@ -58,15 +58,15 @@ impl Mesh {
             }
             let upper_nodes = mesh.add_corner_row(x, heights[1])?;
             for column in 0..x.len() - 1 {
-                let left = 2 * column;
+                let left_corner = 2 * column;
                 let nodes = [
-                    lower_nodes[left],
-                    lower_nodes[left + 2],
-                    upper_nodes[left + 2],
-                    upper_nodes[left],
-                    lower_nodes[left + 1],
+                    lower_nodes[left_corner],
+                    lower_nodes[left_corner + 2],
+                    upper_nodes[left_corner + 2],
+                    upper_nodes[left_corner],
+                    lower_nodes[left_corner + 1],
                     side_nodes[column + 1],
-                    upper_nodes[left + 1],
+                    upper_nodes[left_corner + 1],
                     side_nodes[column],
                 ];
                 mesh.add(Quad8::new(nodes, material(column, row)))?;

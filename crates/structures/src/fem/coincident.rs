@@ -26,11 +26,13 @@ pub fn first_coincident_points(points: &[[f64; 3]], tolerance: f64) -> Result<Ve
         let cell = point.map(|coordinate| cell_index(coordinate, tolerance));
         let near_points = points_within_tolerance(points, *point, cell, tolerance, &cell_points);
         let first_point = near_points.iter().map(|&near| first_points[near]).min().unwrap_or(index);
-        // All points of the group must be within the tolerance, and no point of another group.
+        // All points of the group must lie within the tolerance, and all points of other groups beyond it.
         let group = groups.entry(first_point).or_default();
-        let too_far = group.iter().find(|member| distance(points[**member], *point) > tolerance);
-        let other_group = near_points.iter().find(|near| first_points[**near] != first_point);
-        if let Some(&other) = too_far.or(other_group) {
+        let distant_member =
+            group.iter().find(|member| distance(points[**member], *point) > tolerance);
+        let point_of_other_group =
+            near_points.iter().find(|near| first_points[**near] != first_point);
+        if let Some(&other) = distant_member.or(point_of_other_group) {
             return Err(chain_error(other, index, tolerance));
         }
         group.push(index);
@@ -69,7 +71,7 @@ fn points_within_tolerance(
 
 /// Index of a cell along an axis; cells are as wide as the tolerance.
 ///
-/// Without a tolerance the index is the coordinate itself. Adding zero turns −0 into 0.
+/// For a tolerance of zero the index is the coordinate itself. Adding zero turns −0 into 0.
 fn cell_index(coordinate: f64, tolerance: f64) -> f64 {
     if tolerance > 0.0 { (coordinate / tolerance).floor() } else { coordinate + 0.0 }
 }
@@ -80,12 +82,12 @@ fn cell_key(cell: [f64; 3]) -> [u64; 3] {
 }
 
 /// Error for a chain of nodes: neighbours within the tolerance, ends beyond it.
-fn chain_error(one: usize, other: usize, tolerance: f64) -> Error {
+fn chain_error(first_node: usize, second_node: usize, tolerance: f64) -> Error {
     let reason = format!(
         "they belong to a chain of nodes, of which neighbours are within the tolerance of {tolerance} m, but the ends \
          are not: reduce the tolerance far below the distance of nodes"
     );
-    Error::part(format!("nodes {one} and {other}"), reason)
+    Error::part(format!("nodes {first_node} and {second_node}"), reason)
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use super::element::{Element, ElementFace, MassKind};
 
-/// Relative difference up to which matrix entries count as equal; rounding is far smaller.
+/// Relative difference up to which matrix entries count as equal, and below which an entry counts as zero; rounding is
+/// far smaller.
 const MATRIX_ENTRY_TOLERANCE: f64 = 1e-12;
 
 /// Key by which duplicates of an element are found: its sorted nodes.
@@ -20,6 +21,9 @@ pub(super) fn element_key(element: &dyn Element) -> Vec<usize> {
 }
 
 /// Whether `element` duplicates the element `other` with the same [`element_key`].
+///
+/// Two solids with one key are duplicates. Other elements are duplicates if they have mass and the same stiffness, mass
+/// and damping.
 ///
 /// `points`: coordinates of all nodes of the mesh.
 pub(super) fn is_duplicate(
@@ -51,7 +55,7 @@ fn is_solid(element: &dyn Element) -> bool {
     element.faces().iter().any(ElementFace::is_side)
 }
 
-/// Stiffness, mass and damping of an element in a row, with its nodes in ascending order.
+/// Entries of the stiffness, then of the mass and the damping, with the nodes in ascending order.
 fn matrices_by_node(element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
     let nodes = element.nodes();
     let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| points[node]).collect();

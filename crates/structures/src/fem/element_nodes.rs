@@ -18,8 +18,10 @@ pub(super) struct RotationAxis {
     pub(super) direction: Direction,
     pub(super) vector: [f64; 3],
 }
+/// Rotations of a mesh in the plane.
 pub(super) const PLANE_ROTATION_AXES: &[RotationAxis] =
     &[RotationAxis { direction: Direction::Rotation, vector: [0.0, 0.0, 1.0] }];
+/// Rotations of a mesh in space.
 pub(super) const SPACE_ROTATION_AXES: &[RotationAxis] = &[
     RotationAxis { direction: Direction::RotationX, vector: [1.0, 0.0, 0.0] },
     RotationAxis { direction: Direction::RotationY, vector: [0.0, 1.0, 0.0] },
@@ -65,7 +67,7 @@ impl ElementDof {
 }
 
 impl ElementNodes {
-    /// Nodes of an element that has all displacements; `None` for another one.
+    /// Nodes of an element that has all displacements; `None` for other elements.
     pub(super) fn new(
         element: &dyn Element,
         coordinates: &[[f64; 3]],
@@ -93,10 +95,10 @@ impl ElementNodes {
         (radius > 0.0).then_some(Self { arms, dofs, radius })
     }
 
-    /// Forces and moments at each node, by the forces of all degrees of freedom.
-    fn nodal_forces(&self, values: &[f64]) -> Vec<NodalForce> {
+    /// Force and moment at each node, from the forces of all degrees of freedom.
+    fn nodal_forces(&self, dof_forces: &[f64]) -> Vec<NodalForce> {
         let mut nodal_forces = vec![NodalForce::default(); self.arms.len()];
-        for (dof, value) in self.dofs.iter().zip(values) {
+        for (dof, value) in self.dofs.iter().zip(dof_forces) {
             let nodal_force = &mut nodal_forces[dof.node];
             if dof.is_rotation {
                 nodal_force.moment[dof.axis] = *value;
@@ -109,11 +111,11 @@ impl ElementNodes {
 
     /// Change of nodal forces that rotate by 1 rad about an axis.
     ///
-    /// Moments change by half of their rotation: they belong to rotation vectors, whose moments are semitangential
-    /// (Argyris 1979).
-    pub(super) fn force_changes(&self, axis: [f64; 3], values: &[f64]) -> Vec<f64> {
-        let nodal_forces = self.nodal_forces(values);
-        let mut changes = Vec::with_capacity(values.len());
+    /// Moments change by half of the change in a rotation: they are conjugate to rotation vectors, and therefore
+    /// semitangential (Argyris 1979).
+    pub(super) fn force_changes(&self, axis: [f64; 3], dof_forces: &[f64]) -> Vec<f64> {
+        let nodal_forces = self.nodal_forces(dof_forces);
+        let mut changes = Vec::with_capacity(dof_forces.len());
         for dof in &self.dofs {
             let NodalForce { force, moment } = nodal_forces[dof.node];
             changes.push(if dof.is_rotation {
@@ -125,7 +127,7 @@ impl ElementNodes {
         changes
     }
 
-    /// Dead load of the element by its `mass` matrix, if gravity acts against the unit vector `up`.
+    /// Dead load of an element with this `mass` matrix; gravity acts against the unit vector `up`.
     pub(super) fn dead_load(&self, mass: &[f64], gravity: f64, up: [f64; 3]) -> Vec<f64> {
         let mut load = matrix_vector_product(mass, &self.translation(up));
         for force in &mut load {
@@ -148,9 +150,9 @@ impl ElementNodes {
     }
 
     /// Largest force, N; moments are divided by the radius of the element.
-    pub(super) fn max_force(&self, values: &[f64]) -> f64 {
+    pub(super) fn max_force(&self, dof_forces: &[f64]) -> f64 {
         let mut max_force = 0.0_f64;
-        for (dof, value) in self.dofs.iter().zip(values) {
+        for (dof, value) in self.dofs.iter().zip(dof_forces) {
             let force = if dof.is_rotation { value.abs() / self.radius } else { value.abs() };
             max_force = max_force.max(force);
         }
@@ -158,26 +160,26 @@ impl ElementNodes {
     }
 
     /// Whether nodal forces have no resultant force, up to rounding of `max_force`.
-    pub(super) fn are_balanced_in_translation(&self, values: &[f64], max_force: f64) -> bool {
-        let nodal_forces = self.nodal_forces(values);
+    pub(super) fn are_balanced_in_translation(&self, dof_forces: &[f64], max_force: f64) -> bool {
+        let nodal_forces = self.nodal_forces(dof_forces);
         let resultant =
             nodal_forces.iter().fold([0.0; 3], |sum, nodal| add_scaled(sum, 1.0, nodal.force));
         norm(resultant) <= MAX_FORCE_IMBALANCE * max_force
     }
 
     /// Whether nodal forces have no resultant force and no resultant moment.
-    pub(super) fn are_balanced(&self, values: &[f64], max_force: f64) -> bool {
-        let nodal_forces = self.nodal_forces(values);
+    pub(super) fn are_balanced(&self, dof_forces: &[f64], max_force: f64) -> bool {
+        let nodal_forces = self.nodal_forces(dof_forces);
         let mut resultant_moment = [0.0; 3];
         for (nodal, arm) in nodal_forces.iter().zip(&self.arms) {
             let with_nodal_moment = add_scaled(resultant_moment, 1.0, nodal.moment);
             resultant_moment = add_scaled(with_nodal_moment, 1.0, cross(*arm, nodal.force));
         }
-        self.are_balanced_in_translation(values, max_force)
+        self.are_balanced_in_translation(dof_forces, max_force)
             && norm(resultant_moment) <= MAX_FORCE_IMBALANCE * max_force * self.radius
     }
 
-    /// Mean rotations of the element about `axes`, as rows over its displacements.
+    /// Rows that map the element's displacements to its mean rotations about `axes`.
     ///
     /// The mean rotation fits the displacements of the nodes best. If the nodes lie on one line, the rotation about
     /// that line is the mean of the nodes' rotations, or zero for nodes without rotations.
@@ -210,8 +212,8 @@ impl ElementNodes {
 
     /// Inverse of the inertia tensor of unit masses at the nodes, 1/m².
     ///
-    /// Nodes on a line have no inertia about it: the inverse then refers to rotations about axes at right angles to
-    /// the line.
+    /// Nodes on a line have no inertia about that line: the inverse then refers to rotations about axes at right angles
+    /// to the line.
     fn inverse_inertia(&self, line_direction: Option<[f64; 3]>) -> [[f64; 3]; 3] {
         if let Some(tangent) = line_direction {
             let polar_inertia: f64 = self.arms.iter().map(|arm| dot(*arm, *arm)).sum();

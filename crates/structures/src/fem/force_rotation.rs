@@ -9,7 +9,7 @@
 //! |---|---|
 //! | f | forces K u at the nodes in the static state |
 //! | R | displacements of the nodes in rigid rotations by 1 rad, one column for each axis |
-//! | G | mean rotations of the element by its displacements, one row for each axis; G R = 1 |
+//! | G | matrix from the element's displacements to its mean rotations, one row for each axis; G R = 1 |
 //! | T | change of the forces in these rotations: f rotates, the element's weight does not |
 //! | A | T − K_G R, with the element's geometric stiffness K_G |
 //!
@@ -24,6 +24,7 @@ use super::vector::cross;
 
 /// Forces below this fraction of the element's largest force are rounding.
 const FORCE_ROUNDING_RATIO: f64 = 1e-12;
+
 /// Static state in which the forces of an element are computed.
 pub(super) struct ElementStaticState<'a> {
     /// Displacements of the element's degrees of freedom, m and rad.
@@ -72,8 +73,8 @@ impl ForceRotation {
 
 /// Geometric stiffness of the static forces of `element` that rotate with it.
 ///
-/// `None` if the element's own geometric stiffness contains all its forces, or if the forces cannot rotate with the
-/// element: it does not have all displacements, all its nodes coincide, or the forces are not in equilibrium.
+/// `None` if [`Element::geometric_stiffness`] contains all its forces, or if the forces cannot rotate with the element:
+/// it does not have all displacements, all its nodes coincide, or the forces are not in equilibrium.
 pub(super) fn force_rotation(
     element: &dyn Element,
     coordinates: &[[f64; 3]],
@@ -128,14 +129,18 @@ fn added_forces(
     let axes = if state.is_in_space { SPACE_ROTATION_AXES } else { PLANE_ROTATION_AXES };
     let mut columns = Vec::with_capacity(axes.len());
     for (axis, rigid_rotation) in axes.iter().zip(rigid_rotations) {
-        // Forces of the weight keep their direction; moments of distributed weight follow the element.
+        // The rotation changes the weight by `rotated_weight` − `inclined_weight`. This is zero for the nodal forces of
+        // the weight, which keep their direction, but not for the moments of distributed weight, which depend on the
+        // element's inclination.
         let rotated_forces = nodes.force_changes(axis.vector, forces);
         let rotated_weight = nodes.force_changes(axis.vector, &weight);
-        let dead_weight = nodes.dead_load(&mass, state.gravity, cross(axis.vector, up));
+        let inclined_weight = nodes.dead_load(&mass, state.gravity, cross(axis.vector, up));
         let element_forces = matrix_vector_product(&geometric_stiffness, rigid_rotation);
         let mut column = Vec::with_capacity(order);
         for k in 0..order {
-            column.push(rotated_forces[k] - rotated_weight[k] + dead_weight[k] - element_forces[k]);
+            column.push(
+                rotated_forces[k] - rotated_weight[k] + inclined_weight[k] - element_forces[k],
+            );
         }
         columns.push(column);
     }

@@ -10,7 +10,7 @@ use crate::error::{Error, Result, at_least, finite, in_bounds, not_negative, req
 /// ```
 /// use basemat::fem::{Material, Mesh};
 ///
-/// // A tank: a flat bottom of radius 5 m from its middle, then a wall of 6 m, by 24 sectors.
+/// // A tank in 24 sectors: a flat bottom of radius 5 m, from the pole at its middle, and a wall 6 m high.
 /// let steel = Material::new(210.0e9, 0.3, 7850.0)?;
 /// let mut mesh = Mesh::in_space();
 /// let radii = [0.0, 2.5, 5.0].map(|radius| [radius, 0.0]);

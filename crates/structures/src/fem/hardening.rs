@@ -5,7 +5,7 @@ use super::material::Material;
 use super::solid::{SolidMaterial, SolidState};
 use crate::error::{Error, Result};
 
-/// Linear elastic material that does not say so.
+/// Linear elastic material whose `as_elastic` returns `None`, as the law of a user might.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HiddenElastic(pub(crate) Material);
 
@@ -39,13 +39,16 @@ impl SolidMaterial for HiddenElastic {
 
 /// Von Mises plasticity with linear isotropic hardening (Simo & Hughes 1998, box 3.1).
 ///
-/// Variables: plastic strain, plastic arc length, dissipated energy, initial stress.
+/// Variables: plastic strain (0 to 3), plastic arc length (4), dissipated energy (5), initial stress (6 to 9).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hardening {
+    /// Shear modulus, Pa.
     pub(crate) shear: f64,
+    /// Bulk modulus, Pa.
     pub(crate) bulk: f64,
     /// Norm of the deviator at first yield, Pa.
     pub(crate) strength: f64,
+    /// Growth of the yield surface's radius with the plastic arc length, Pa.
     pub(crate) plastic_modulus: f64,
 }
 
@@ -55,7 +58,7 @@ impl Hardening {
 }
 
 /// State after the return to the yield surface.
-struct Returned {
+struct ReturnMapping {
     stress: [f64; 4],
     deviator: [f64; 4],
     trial_norm: f64,
@@ -71,7 +74,7 @@ fn tensor_norm(tensor: [f64; 4]) -> f64 {
 }
 
 impl Hardening {
-    fn returned(&self, strain: [f64; 4], variables: &[f64]) -> Returned {
+    fn return_to_yield_surface(&self, strain: [f64; 4], variables: &[f64]) -> ReturnMapping {
         let dilatation = strain[0] + strain[1] + strain[2];
         let initial_pressure = (variables[6] + variables[7] + variables[8]) / 3.0;
         let mut trial = [0.0; 4];
@@ -81,9 +84,9 @@ impl Hardening {
         }
         trial[3] = self.shear * (strain[3] - variables[3]) + variables[9];
         let trial_norm = tensor_norm(trial);
-        let radius = self.strength + self.plastic_modulus * variables[4];
+        let yield_radius = self.strength + self.plastic_modulus * variables[4];
         let increment =
-            ((trial_norm - radius) / (2.0 * self.shear + self.plastic_modulus)).max(0.0);
+            ((trial_norm - yield_radius) / (2.0 * self.shear + self.plastic_modulus)).max(0.0);
         let flow = trial.map(|s| if trial_norm > 0.0 { s / trial_norm } else { 0.0 });
         let deviator: [f64; 4] =
             std::array::from_fn(|i| trial[i] - 2.0 * self.shear * increment * flow[i]);
@@ -91,7 +94,7 @@ impl Hardening {
         for entry in &mut stress[..3] {
             *entry += self.bulk * dilatation + initial_pressure;
         }
-        Returned { stress, deviator, trial_norm, increment, flow }
+        ReturnMapping { stress, deviator, trial_norm, increment, flow }
     }
 }
 
@@ -119,42 +122,46 @@ impl SolidMaterial for Hardening {
     fn initialize(&self, initial_stress: [f64; 4], variables: &mut [f64]) -> Result<()> {
         variables.fill(0.0);
         variables[6..].copy_from_slice(&initial_stress);
-        if self.returned([0.0; 4], variables).increment > 0.0 {
+        if self.return_to_yield_surface([0.0; 4], variables).increment > 0.0 {
             return Err(Error::part("initial stress", "it is outside of the yield surface"));
         }
         Ok(())
     }
 
     fn stress(&self, strain: [f64; 4], variables: &[f64]) -> Result<[f64; 4]> {
-        Ok(self.returned(strain, variables).stress)
+        Ok(self.return_to_yield_surface(strain, variables).stress)
     }
 
     fn tangent(&self, strain: [f64; 4], variables: &[f64]) -> Result<[[f64; 4]; 4]> {
-        let Returned { trial_norm, increment, flow, .. } = self.returned(strain, variables);
+        let ReturnMapping { trial_norm, increment, flow, .. } =
+            self.return_to_yield_surface(strain, variables);
         let mut tangent = self.elasticity();
         if increment == 0.0 {
             return Ok(tangent);
         }
         let shear = self.shear;
-        let shrink = 2.0 * shear * increment / trial_norm;
-        let normal_factor = 2.0 * shear / (2.0 * shear + self.plastic_modulus) - shrink;
+        let stress_reduction = 2.0 * shear * increment / trial_norm;
+        let normal_factor = 2.0 * shear / (2.0 * shear + self.plastic_modulus) - stress_reduction;
         for i in 0..4 {
             for j in 0..4 {
-                let identity = match (i == j, i < 3 && j < 3) {
+                let deviatoric_projection = match (i == j, i < 3 && j < 3) {
                     (true, true) => 1.0 - 1.0 / 3.0,
                     (false, true) => -1.0 / 3.0,
                     (true, false) => 0.5,
                     (false, false) => 0.0,
                 };
-                tangent[i][j] -=
-                    2.0 * shear * (shrink * identity + normal_factor * flow[i] * flow[j]);
+                tangent[i][j] -= 2.0
+                    * shear
+                    * (stress_reduction * deviatoric_projection
+                        + normal_factor * flow[i] * flow[j]);
             }
         }
         Ok(tangent)
     }
 
     fn energy(&self, strain: [f64; 4], variables: &[f64]) -> Result<InternalEnergy> {
-        let Returned { stress, deviator, increment, .. } = self.returned(strain, variables);
+        let ReturnMapping { stress, deviator, increment, .. } =
+            self.return_to_yield_surface(strain, variables);
         let pressure = (stress[0] + stress[1] + stress[2]) / 3.0;
         let arc_length = variables[4] + increment;
         let hardening_energy = 0.5 * self.plastic_modulus * arc_length * arc_length;
@@ -169,7 +176,7 @@ impl SolidMaterial for Hardening {
     fn commit(&self, strain: [f64; 4], variables: &mut [f64]) {
         let dissipated =
             self.energy(strain, variables).map_or(f64::NAN, |energy| energy.dissipated);
-        let Returned { increment, flow, .. } = self.returned(strain, variables);
+        let ReturnMapping { increment, flow, .. } = self.return_to_yield_surface(strain, variables);
         for (i, direction) in flow.iter().enumerate() {
             variables[i] += if i < 3 { 1.0 } else { 2.0 } * increment * direction;
         }
@@ -178,11 +185,12 @@ impl SolidMaterial for Hardening {
     }
 
     fn state(&self, strain: [f64; 4], variables: &[f64]) -> SolidState {
-        let Returned { deviator, increment, .. } = self.returned(strain, variables);
-        let radius = self.strength + self.plastic_modulus * (variables[4] + increment);
+        let ReturnMapping { deviator, increment, .. } =
+            self.return_to_yield_surface(strain, variables);
+        let yield_radius = self.strength + self.plastic_modulus * (variables[4] + increment);
         SolidState {
             plastic_strain: 2.0_f64.sqrt() * (variables[4] + increment),
-            mobilised_strength: tensor_norm(deviator) / radius,
+            mobilised_strength: tensor_norm(deviator) / yield_radius,
         }
     }
 }

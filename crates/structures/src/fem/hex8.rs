@@ -80,10 +80,10 @@ impl Hex8 {
         let mut full_displacement = [0.0; FULL_ORDER];
         full_displacement[..NODAL_ORDER].copy_from_slice(displacement);
         recover_inner(&full_stiffness, NODAL_ORDER, &mut full_displacement);
-        let centre_derivatives = ShapeDerivatives::at([0.0; 3], coordinates);
+        let center_derivatives = ShapeDerivatives::at([0.0; 3], coordinates);
         let gauss_stresses = gauss_points().map(|point| {
             let pattern_derivatives = ShapeDerivatives::at(point, coordinates)
-                .pattern_derivatives(point, &centre_derivatives);
+                .pattern_derivatives(point, &center_derivatives);
             self.stress(&pattern_derivatives, &full_displacement)
         });
         // The eight Gauss points are corners of a smaller brick.
@@ -94,7 +94,7 @@ impl Hex8 {
         }))
     }
 
-    /// Stress by the derivatives of the patterns and their displacements.
+    /// Stress from the derivatives of the patterns and the displacements of the patterns.
     fn stress(
         &self,
         pattern_derivatives: &[[f64; 3]; PATTERN_COUNT],
@@ -126,11 +126,11 @@ impl Hex8 {
     fn full_stiffness(&self, coordinates: &[[f64; 3]]) -> [[f64; FULL_ORDER]; FULL_ORDER] {
         let lame = self.material.lame();
         let shear = self.material.shear_modulus();
-        let centre_derivatives = ShapeDerivatives::at([0.0; 3], coordinates);
+        let center_derivatives = ShapeDerivatives::at([0.0; 3], coordinates);
         let mut matrix = [[0.0; FULL_ORDER]; FULL_ORDER];
         for point in gauss_points() {
             let derivatives = ShapeDerivatives::at(point, coordinates);
-            let pattern_derivatives = derivatives.pattern_derivatives(point, &centre_derivatives);
+            let pattern_derivatives = derivatives.pattern_derivatives(point, &center_derivatives);
             for (i, gradient_i) in pattern_derivatives.iter().enumerate() {
                 for (j, gradient_j) in pattern_derivatives.iter().enumerate() {
                     let gradient_product = shear * dot(*gradient_i, *gradient_j);
@@ -289,13 +289,13 @@ impl ShapeDerivatives {
 
     /// Derivatives of the shape functions and of the inner modes at the `point` of this value.
     ///
-    /// The modes are 1 − ξ², 1 − η² and 1 − ζ². Their derivatives use the Jacobian at the `centre` and are scaled so
+    /// The modes are 1 − ξ², 1 − η² and 1 − ζ². Their derivatives use the Jacobian at the `center` and are scaled so
     /// that their integral over the element vanishes: a constant stress does no work on them.
-    fn pattern_derivatives(&self, point: [f64; 3], centre: &Self) -> [[f64; 3]; PATTERN_COUNT] {
+    fn pattern_derivatives(&self, point: [f64; 3], center: &Self) -> [[f64; 3]; PATTERN_COUNT] {
         let scale = -2.0 / self.determinant;
         std::array::from_fn(|i| match i.checked_sub(8) {
             None => self.shape[i],
-            Some(k) => centre.cofactors[k].map(|cofactor| scale * point[k] * cofactor),
+            Some(k) => center.cofactors[k].map(|cofactor| scale * point[k] * cofactor),
         })
     }
 }

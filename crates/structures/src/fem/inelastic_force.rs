@@ -9,8 +9,8 @@ use crate::error::Result;
 /// An [`Element`](super::Element) returns it by [`Element::inelastic`](super::Element::inelastic), and a
 /// [`FemModel`](crate::structure::FemModel) with such an element has a
 /// [`NonlinearForce`](crate::structure::NonlinearForce). The model stores the internal variables of all elements, and
-/// passes each element its own. `coordinates` holds [x, y, z] (m) of the element's nodes, and `displacement` its degrees
-/// of freedom (m, rad) in the order of its matrices.
+/// passes each element its own. `coordinates` holds [x, y, z] (m) of the element's nodes, and `displacement` its
+/// degrees of freedom (m, rad) in the order of its matrices.
 ///
 /// `variables` are those **committed** at the end of the last step. Force, tangent and energy belong to the straight
 /// path from the committed displacement to `displacement`; only [`commit`](InelasticForce::commit) changes variables.

@@ -95,7 +95,9 @@ impl Mesh {
     }
 }
 
-/// Returns an error unless grid lines are finite and ascend; `distance_name` names their distance in it.
+/// Returns an error unless grid lines are finite and ascend.
+///
+/// `distance_name`: name of the distance between two lines in the error.
 pub(super) fn check_grid_lines(lines: &[f64], distance_name: &'static str) -> Result<()> {
     for &line in lines {
         finite("grid line of the block", line)?;
@@ -106,7 +108,7 @@ pub(super) fn check_grid_lines(lines: &[f64], distance_name: &'static str) -> Re
     Ok(())
 }
 
-/// Bytes of a quadrilateral in a mesh, of a node, and of an entry of the map of elements.
+/// Bytes per quadrilateral: the element, one node, and its entry in the map of elements.
 const BYTES_PER_QUADRILATERAL: f64 = 500.0;
 
 /// Returns an error unless the quadrilaterals of a block fit into memory.

@@ -1,7 +1,8 @@
 //! Integration points of a four-node quadrilateral with the mean dilatation of the element (B-bar).
 //!
-//! The dilatation ε_xx + ε_yy at each point is replaced by its mean over the element (Hughes 1980, IJNME 15, 1413–1418).
-//! Each direct strain, also ε_zz, takes a third of the difference. Its mean over the element is zero in ε_zz.
+//! The dilatation ε_xx + ε_yy at each point is replaced by its mean over the element (Hughes 1980, IJNME 15,
+//! 1413–1418). Each direct strain, also ε_zz, gets a third of the difference. The mean of ε_zz over the element stays
+//! zero.
 
 use super::quad_force::{IntegrationPoint, IntegrationRule};
 use super::quad4::{
@@ -9,7 +10,7 @@ use super::quad4::{
 };
 use crate::error::Result;
 
-/// Integration points of the formulation `MeanDilatation`, the only one of an inelastic material.
+/// Integration points of the formulation `MeanDilatation`, the only formulation for inelastic materials.
 impl IntegrationRule<DOF_COUNT> for QuadFormulation {
     fn point_count(self) -> usize {
         NODE_COORDINATES.len()

@@ -139,10 +139,10 @@ impl Mesh {
             "x, y or rotation in the plane"
         };
         require_part("direction of the element", has_mesh_directions, needed)?;
-        let is_in_its_space = !(self.has_depth && element.is_plane());
+        let is_in_matching_space = !(self.has_depth && element.is_plane());
         require_part(
             "element of the plane",
-            is_in_its_space,
+            is_in_matching_space,
             "must be in a mesh in the plane, but this one is in space",
         )?;
         for &node in nodes {
@@ -259,7 +259,7 @@ impl Mesh {
         let mut nodes: Vec<usize> = (0..self.nodes.len())
             .filter(|&node| (self.nodes[node][up_axis] - height).abs() <= tolerance)
             .collect();
-        // In the plane this is z, which is zero.
+        // In the plane this axis is z, along which all coordinates are zero.
         let depth_axis = 3 - up_axis;
         nodes.sort_by(|&first, &second| {
             let first_point = self.nodes[first];

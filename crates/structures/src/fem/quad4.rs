@@ -32,16 +32,16 @@ pub enum QuadFormulation {
     OnePoint,
     /// [`OnePoint`](Self::OnePoint) with a percentage of the hourglass stiffness of `Full`.
     ///
-    /// As in Flanagan & Belytschko (1981), who take about 5 %: 0 is `OnePoint`, 100 is `Full`. Constant
-    /// strains are not affected.
+    /// Flanagan & Belytschko (1981) use about 5 %. A value of 0 gives `OnePoint`, and 100 gives `Full`. The stiffness
+    /// against constant strains does not depend on the percentage.
     Hourglass {
         /// Hourglass stiffness, in per cent of the hourglass stiffness of `Full`.
         percent: u8,
     },
     /// 2 × 2 Gauss points, each with the mean dilatation of the element (B-bar: Hughes 1980, IJNME 15, 1413–1418).
     ///
-    /// Nothing locks as ν → 1/2. A cantilever with two elements across bends 4 to 8 % too far, with four within 1 %.
-    /// This is the only formulation of an inelastic material.
+    /// Nothing locks as ν → 1/2. A cantilever with two elements over its depth deflects 4 to 8 % too far, with four
+    /// elements less than 1 %. This is the only formulation for inelastic materials.
     MeanDilatation,
 }
 
@@ -68,12 +68,16 @@ pub struct Quad4 {
     solid: QuadSolid<QuadFormulation, DOF_COUNT>,
 }
 
-/// Number of degrees of freedom.
+/// Number of degrees of freedom of the nodes.
 pub(super) const DOF_COUNT: usize = 8;
+/// Number of degrees of freedom of the nodes, and of the two bending modes along x and y.
+const FULL_DOF_COUNT: usize = 12;
+/// Weight of the integration rule with one point: the area of the square −1 ≤ ξ, η ≤ 1.
+const ONE_POINT_WEIGHT: f64 = 4.0;
 
-/// Strains `[ε_xx, ε_yy, γ_xy]` by a displacement along x, and by one along y, with these derivatives.
+/// Strains `[ε_xx, ε_yy, γ_xy]` due to a displacement along x, and due to an equal displacement along y.
 ///
-/// The argument holds the derivatives (∂/∂x, ∂/∂y) of a shape function.
+/// The argument holds the derivatives (∂/∂x, ∂/∂y) of the displacement: those of a shape function.
 pub(super) fn plane_strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
     [[dx, 0.0, dy], [0.0, dy, dx]]
 }
@@ -96,7 +100,7 @@ impl Quad4 {
         Self { solid: self.solid.with_initial_stress(stress), ..self }
     }
 
-    /// Stiffness by integration points of one common weight.
+    /// Stiffness from integration points of equal `weight`.
     fn integrated_stiffness<const N: usize>(
         elasticity: &[[f64; 3]; 3],
         points: [[f64; 2]; N],
@@ -115,29 +119,29 @@ impl Quad4 {
         elasticity: &[[f64; 3]; 3],
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
-        let centre_jacobian = Jacobian::at([0.0; 2], coordinates);
+        let center_jacobian = Jacobian::at([0.0; 2], coordinates);
         let weighted_points = gauss_points().into_iter().map(|point| (point, 1.0));
         let mut full_stiffness = integrate_stiffness(elasticity, weighted_points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
-            let mut strains = [[0.0; 3]; 12];
-            strains[..8].copy_from_slice(&node_strains(point, &jacobian));
-            // Derivatives of the modes 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that
-            // their integral over the element vanishes: a constant stress does no work on them.
-            let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
+            let mut strains = [[0.0; 3]; FULL_DOF_COUNT];
+            strains[..DOF_COUNT].copy_from_slice(&node_strains(point, &jacobian));
+            // Derivatives of the modes 1 − ξ² and 1 − η² from the Jacobian at the centre. They are scaled so that the
+            // integral of their strains over the element vanishes: a constant stress does no work in these modes.
+            let scale = -2.0 * center_jacobian.determinant / jacobian.determinant;
             let xi_mode_strains =
-                plane_strains(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
+                plane_strains(center_jacobian.global_derivatives([scale * point[0], 0.0]));
             let eta_mode_strains =
-                plane_strains(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
-            strains[8..10].copy_from_slice(&xi_mode_strains);
-            strains[10..].copy_from_slice(&eta_mode_strains);
+                plane_strains(center_jacobian.global_derivatives([0.0, scale * point[1]]));
+            strains[DOF_COUNT..DOF_COUNT + 2].copy_from_slice(&xi_mode_strains);
+            strains[DOF_COUNT + 2..].copy_from_slice(&eta_mode_strains);
             (strains, jacobian.determinant)
         });
-        condense(&mut full_stiffness, 8);
+        condense(&mut full_stiffness, DOF_COUNT);
         leading_block(&full_stiffness)
     }
 }
 
-/// Stiffness ∫ Sᵀ D S of N displacement patterns, by integration points and their weights.
+/// Stiffness ∫ Sᵀ D S of N displacement patterns, from integration points and their weights.
 ///
 /// D = `elasticity`; `strains` returns the strains S of the patterns at a point, and the Jacobian determinant there.
 pub(super) fn integrate_stiffness<const N: usize, const S: usize>(
@@ -174,7 +178,7 @@ fn inner_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Strains by each degree of freedom: displacements of the nodes along x and y in turn.
+/// Strains due to a unit displacement of each node along x, then along y.
 fn node_strains(point: [f64; 2], jacobian: &Jacobian) -> [[f64; 3]; 8] {
     let column_pairs = jacobian.shape_derivatives(point).map(plane_strains);
     std::array::from_fn(|i| column_pairs[i / 2][i % 2])
@@ -207,7 +211,7 @@ impl Element for Quad4 {
                 Self::integrated_stiffness(elasticity, gauss_points(), 1.0, coordinates)
             }
             QuadFormulation::OnePoint => {
-                Self::integrated_stiffness(elasticity, [[0.0; 2]], 4.0, coordinates)
+                Self::integrated_stiffness(elasticity, [[0.0; 2]], ONE_POINT_WEIGHT, coordinates)
             }
             QuadFormulation::IncompatibleModes => {
                 Self::stiffness_with_bending_modes(elasticity, coordinates)
@@ -216,8 +220,12 @@ impl Element for Quad4 {
                 let fraction = f64::from(percent) / 100.0;
                 let full_integration =
                     Self::integrated_stiffness(elasticity, gauss_points(), 1.0, coordinates);
-                let mut stiffness =
-                    Self::integrated_stiffness(elasticity, [[0.0; 2]], 4.0, coordinates);
+                let mut stiffness = Self::integrated_stiffness(
+                    elasticity,
+                    [[0.0; 2]],
+                    ONE_POINT_WEIGHT,
+                    coordinates,
+                );
                 for (entry, full_entry) in
                     stiffness.iter_mut().flatten().zip(full_integration.as_flattened())
                 {
@@ -316,7 +324,7 @@ impl Jacobian {
         Self { inverse_transpose, determinant }
     }
 
-    /// Derivatives (∂/∂x, ∂/∂y) by derivatives (∂/∂ξ, ∂/∂η).
+    /// Derivatives (∂/∂x, ∂/∂y) from derivatives (∂/∂ξ, ∂/∂η).
     pub(super) fn global_derivatives(&self, natural: [f64; 2]) -> [f64; 2] {
         self.inverse_transpose.map(|row| row[0] * natural[0] + row[1] * natural[1])
     }
@@ -327,7 +335,7 @@ impl Jacobian {
     }
 }
 
-/// Jacobian matrix ∂(x, y)/∂(ξ, η) by the derivatives (∂/∂ξ, ∂/∂η) of the shape functions.
+/// Jacobian matrix ∂(x, y)/∂(ξ, η) from the derivatives (∂/∂ξ, ∂/∂η) of the shape functions.
 pub(super) fn jacobian_matrix<const D: usize>(
     natural_derivatives: &[[f64; 2]],
     coordinates: &[[f64; D]],

@@ -31,8 +31,8 @@ pub enum Quad8Integration {
 /// second and third, and so on. Edges may be curved. The ground assumes straight lines between neighbouring nodes of
 /// the base, whose contact nodes are corners and mid-edge nodes.
 ///
-/// The material is a [`Material`](super::Material), or any [`SolidMaterial`](super::SolidMaterial): soil that yields.
-/// The element then has internal variables at its integration points.
+/// The material is a [`Material`](super::Material), or any [`SolidMaterial`](super::SolidMaterial), such as soil that
+/// yields. With an inelastic material the element has internal variables at its integration points.
 ///
 /// ```
 /// use basemat::fem::{Element, MassKind, Material, Quad8};
@@ -87,7 +87,7 @@ impl Quad8 {
     /// Replaces the stresses `[xx, yy, zz, xy]` of the undeformed element, Pa; tension is positive.
     ///
     /// They are constant in the element, and their nodal forces act at zero displacement. Adding the element to a mesh
-    /// returns an error for a stress that the material cannot have: any but zero for a linear elastic one.
+    /// returns an error for a stress that the material cannot have: for a linear elastic material, any stress but zero.
     #[must_use]
     pub fn with_initial_stress(self, stress: [f64; 4]) -> Self {
         Self { solid: self.solid.with_initial_stress(stress), ..self }
@@ -97,14 +97,14 @@ impl Quad8 {
 /// Shape functions at (ξ, η) (Zienkiewicz & Taylor, The Finite Element Method, serendipity family).
 fn shape_functions([xi, eta]: [f64; 2]) -> [f64; 8] {
     NODE_COORDINATES.map(|[a, b]| {
-        let x = a * xi;
-        let y = b * eta;
+        let a_xi = a * xi;
+        let b_eta = b * eta;
         if a == 0.0 {
-            0.5 * (1.0 - xi * xi) * (1.0 + y)
+            0.5 * (1.0 - xi * xi) * (1.0 + b_eta)
         } else if b == 0.0 {
-            0.5 * (1.0 + x) * (1.0 - eta * eta)
+            0.5 * (1.0 + a_xi) * (1.0 - eta * eta)
         } else {
-            0.25 * (1.0 + x) * (1.0 + y) * (x + y - 1.0)
+            0.25 * (1.0 + a_xi) * (1.0 + b_eta) * (a_xi + b_eta - 1.0)
         }
     })
 }
@@ -112,24 +112,27 @@ fn shape_functions([xi, eta]: [f64; 2]) -> [f64; 8] {
 /// Derivatives (∂/∂ξ, ∂/∂η) of the shape functions.
 fn natural_derivatives([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
     NODE_COORDINATES.map(|[a, b]| {
-        let x = a * xi;
-        let y = b * eta;
+        let a_xi = a * xi;
+        let b_eta = b * eta;
         if a == 0.0 {
-            [-xi * (1.0 + y), 0.5 * b * (1.0 - xi * xi)]
+            [-xi * (1.0 + b_eta), 0.5 * b * (1.0 - xi * xi)]
         } else if b == 0.0 {
-            [0.5 * a * (1.0 - eta * eta), -eta * (1.0 + x)]
+            [0.5 * a * (1.0 - eta * eta), -eta * (1.0 + a_xi)]
         } else {
-            [0.25 * a * (1.0 + y) * (2.0 * x + y), 0.25 * b * (1.0 + x) * (x + 2.0 * y)]
+            [
+                0.25 * a * (1.0 + b_eta) * (2.0 * a_xi + b_eta),
+                0.25 * b * (1.0 + a_xi) * (a_xi + 2.0 * b_eta),
+            ]
         }
     })
 }
 
 /// Derivatives (∂/∂x, ∂/∂y) of the shape functions at a point, and the Jacobian determinant.
 fn global_derivatives(point: [f64; 2], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 8], f64) {
-    let natural = natural_derivatives(point);
-    let j = jacobian_matrix(&natural, coordinates);
+    let local_derivatives = natural_derivatives(point);
+    let j = jacobian_matrix(&local_derivatives, coordinates);
     let determinant = determinant(&j);
-    let derivatives = natural.map(|[xi, eta]| {
+    let derivatives = local_derivatives.map(|[xi, eta]| {
         [(j[1][1] * xi - j[1][0] * eta) / determinant, (j[0][0] * eta - j[0][1] * xi) / determinant]
     });
     (derivatives, determinant)

@@ -1,4 +1,4 @@
-//! Solid of a quadrilateral by integration points: force with internal variables, and stiffness of small strains.
+//! Integration of a quadrilateral's material: forces with internal variables, and stiffness of small strains.
 
 use std::ops::Range;
 
@@ -15,12 +15,12 @@ pub(super) struct IntegrationPoint<const N: usize> {
     pub(super) natural: [f64; 2],
     /// Area of the point, m²: the weight of the rule times the Jacobian.
     pub(super) area: f64,
-    /// Strains `[xx, yy, zz, xy]` by each degree of freedom, 1/m.
+    /// Strains `[xx, yy, zz, xy]` due to a unit displacement of each degree of freedom, 1/m.
     pub(super) strains: [[f64; 4]; N],
 }
 
 impl<const N: usize> IntegrationPoint<N> {
-    /// Strain at the point by the displacements of the nodes, m.
+    /// Strain at the point due to the displacements of the nodes, m.
     fn strain(&self, displacement: &[f64]) -> [f64; 4] {
         let mut strain = [0.0; 4];
         for (column, u) in self.strains.iter().zip(displacement) {
@@ -40,12 +40,16 @@ impl<const N: usize> IntegrationPoint<N> {
 
     /// Adds the stiffness of a tangent ∂stress/∂strain, Pa, to a row-major `matrix`.
     fn add_stiffness(&self, tangent: &[[f64; 4]; 4], matrix: &mut [f64]) {
-        let stresses = self
-            .strains
-            .map(|column| tangent.map(|row| self.area * inner_product(&row, &column)));
-        for (row, strains) in matrix.chunks_exact_mut(N).zip(&self.strains) {
-            for (entry, stress) in row.iter_mut().zip(&stresses) {
-                *entry += inner_product(strains, stress);
+        // Stress components by each degree of freedom, component after component, so that the inner loop is over
+        // neighbouring numbers.
+        let stresses =
+            tangent.map(|row| self.strains.map(|column| self.area * inner_product(&row, &column)));
+        for (matrix_row, strains) in matrix.as_chunks_mut::<N>().0.iter_mut().zip(&self.strains) {
+            for j in 0..N {
+                matrix_row[j] += strains[0] * stresses[0][j]
+                    + strains[1] * stresses[1][j]
+                    + strains[2] * stresses[2][j]
+                    + strains[3] * stresses[3][j];
             }
         }
     }
@@ -69,7 +73,7 @@ pub(super) trait IntegrationRule<const N: usize>: Copy + Send + Sync {
         visit: impl FnMut(&IntegrationPoint<N>) -> Result<()>,
     ) -> Result<()>;
 
-    /// Weights of the N/2 nodes in the position of natural coordinates (ξ, η).
+    /// Shape functions of the N/2 nodes at natural coordinates (ξ, η), for the position of a point.
     fn node_weights(self, natural: [f64; 2]) -> impl IntoIterator<Item = f64>;
 }
 
@@ -124,12 +128,12 @@ impl<R: IntegrationRule<N>, const N: usize> QuadSolid<R, N> {
     }
 
     /// Range of a point's internal variables among those of the element.
-    fn variable_range(&self, index: usize) -> Range<usize> {
+    fn variable_range(&self, point_index: usize) -> Range<usize> {
         let count = self.law().variable_count();
-        index * count..(index + 1) * count
+        point_index * count..(point_index + 1) * count
     }
 
-    /// Returns an error for lists of other lengths than those of the element.
+    /// Returns an error unless every list has the length that the element needs.
     fn check_lengths(
         &self,
         coordinates: &[[f64; 3]],
@@ -203,9 +207,9 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         let mut sum = InternalEnergy::default();
         self.rule.visit_points(coordinates, |point| {
             let point_variables = &variables[self.variable_range(point.index)];
-            let density = self.law().energy(point.strain(displacement), point_variables)?;
-            sum.stored += point.area * density.stored;
-            sum.dissipated += point.area * density.dissipated;
+            let energy_density = self.law().energy(point.strain(displacement), point_variables)?;
+            sum.stored += point.area * energy_density.stored;
+            sum.dissipated += point.area * energy_density.dissipated;
             Ok(())
         })?;
         Ok(sum)
@@ -234,7 +238,7 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         Ok(sum)
     }
 
-    /// Lists of other lengths than those of the element change nothing.
+    /// Changes nothing if a list does not have the length that the element needs.
     fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]) {
         if self.check_lengths(coordinates, displacement, variables).is_err() {
             return;

@@ -27,7 +27,7 @@ pub struct Spring(NodePair);
 impl Spring {
     /// Spring against the relative motion of two nodes in one `direction`.
     ///
-    /// `coefficient` in N/m (N m/rad for rotations) per metre of thickness.
+    /// `coefficient` in N/m (N m/rad for rotations), in the plane per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
@@ -136,7 +136,9 @@ impl NodePair {
         }
     }
 
-    /// Returns an error if the nodes of an axial pair coincide; `length_name` names their distance.
+    /// Returns an error if the nodes of an axial pair coincide.
+    ///
+    /// `length_name`: name of the distance between the nodes in the error.
     fn check(&self, length_name: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
         match self.line_of_action {
             LineOfAction::Direction(_) => Ok(()),
@@ -166,7 +168,7 @@ pub struct Dashpot(NodePair);
 impl Dashpot {
     /// Dashpot against the relative velocity of two nodes in one `direction`.
     ///
-    /// `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    /// `coefficient` in N s/m (N m s/rad for rotations), in the plane per metre of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.

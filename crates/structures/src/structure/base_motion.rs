@@ -21,7 +21,7 @@ impl DofCombination {
 
     /// Deformation of the structure at a point `height` (m) above the base, to the right.
     ///
-    /// It is the displacement of the point less its displacement by the base's rigid translation and rotation.
+    /// It is the displacement of the point less the part due to the base's rigid translation and rotation.
     ///
     /// ```
     /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
@@ -62,10 +62,10 @@ impl DofCombination {
     /// // Along y: a corner of the roof relative to the mat, and the deformation of the storeys there.
     /// let [_, corner, _] = tower.floor(4, [9.0, 6.0])?;
     /// let [_, base, _] = DofCombination::of_base(&tower, [0.0; 3])?;
-    /// let [_, carried, _] = DofCombination::of_base(&tower, [9.0, 6.0, 16.0])?;
+    /// let [_, rigid_corner, _] = DofCombination::of_base(&tower, [9.0, 6.0, 16.0])?;
     /// let tilt = [0.0, 0.0, 0.0, 0.01, 0.0, 0.0];
     /// assert!(((corner.clone() - base).value(&tilt)).abs() < 1e-15);
-    /// assert!(((corner - carried).value(&tilt) - 0.16).abs() < 1e-15);
+    /// assert!(((corner - rigid_corner).value(&tilt) - 0.16).abs() < 1e-15);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -87,7 +87,8 @@ impl DofCombination {
         base.check(structure.dofs())?;
         let nodes = base.into_nodes();
         let center = [0, 1].map(|axis| middle(span(nodes.iter().map(|node| node.place()[axis]))));
-        let displacements = BaseNode::carried(&nodes, [center[0] + x, center[1] + y], height);
+        let displacements =
+            BaseNode::rigid_displacements(&nodes, [center[0] + x, center[1] + y], height);
         for &(_, weight) in displacements.iter().flatten() {
             let needed = "corners that are not on one line";
             require("rotation of the base", weight, weight.is_finite(), needed)?;

@@ -4,10 +4,10 @@ use super::DofCombination;
 use crate::error::{Result, at_least, finite, in_bounds, require};
 use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, span};
 
-/// Relative difference of displacements, heights or distances from a line that counts as rounding.
+/// Largest relative difference of displacements, heights or distances from a line because of rounding.
 const FLATNESS_TOLERANCE: f64 = 1e-9;
 
-/// A point of a structure's base, and its displacements by the degrees of freedom.
+/// A point of a structure's base, and its displacements as sums of degrees of freedom.
 ///
 /// Coordinates: x to the right, y away from the reader, z up. A node in the plane has no displacement along y.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -55,7 +55,7 @@ impl BaseNode {
 
     /// A node in space, at `[x, y]` (m), with its own degrees of freedom.
     ///
-    /// They are the displacements along x, along y and up.
+    /// The degrees of freedom are the displacements along x, along y and up.
     pub fn free_in_plan([x, y]: [f64; 2], [along_x, along_y, up]: [usize; 3]) -> Self {
         Self {
             x,
@@ -95,7 +95,7 @@ impl BaseNode {
             .collect()
     }
 
-    /// Mean rotations of a base in space, by the plane that fits the nodes best.
+    /// Mean rotations of a base in space: those of the plane that fits the nodes best.
     ///
     /// They are the slope to the right, the slope away from the reader, and the rotation about the vertical.
     #[doc(hidden)]
@@ -123,11 +123,15 @@ impl BaseNode {
         rotations
     }
 
-    /// Displacements along x, along y and up of a point that moves with the nodes.
+    /// Displacements along x, along y and up of a point that is rigidly connected to the base.
     ///
     /// The point lies at `[x, y]` (m), `height` above the base, and moves with the plane that fits the nodes best.
     #[doc(hidden)]
-    pub fn carried(nodes: &[Self], [x, y]: [f64; 2], height: f64) -> [DofCombination; 3] {
+    pub fn rigid_displacements(
+        nodes: &[Self],
+        [x, y]: [f64; 2],
+        height: f64,
+    ) -> [DofCombination; 3] {
         let weight = 1.0 / nodes.len() as f64;
         let mut mean_point = [0.0; 2];
         let mut mean_x = DofCombination::default();
@@ -150,7 +154,9 @@ impl BaseNode {
         ]
     }
 
-    /// Nodes of the floor between the walls, of a list along the outline: nodes at the lowest height.
+    /// Floor of a base between its walls: the nodes at the lowest height.
+    ///
+    /// `nodes` are listed along the outline of the base.
     ///
     /// If only one node has the lowest height, the base has no walls, and all nodes are returned.
     #[doc(hidden)]
@@ -170,7 +176,7 @@ impl BaseNode {
     ///
     /// A node that always lies on the line between its neighbours does not begin a new segment.
     #[doc(hidden)]
-    pub fn segments(nodes: &[Self]) -> usize {
+    pub fn segment_count(nodes: &[Self]) -> usize {
         1 + nodes.windows(3).filter(|triple| !Self::are_flat(triple)).count()
     }
 
@@ -251,7 +257,7 @@ impl BaseNode {
 
     /// Number of directions in which the node moves: two in the plane.
     #[doc(hidden)]
-    pub fn directions(&self) -> usize {
+    pub fn direction_count(&self) -> usize {
         if self.across.is_empty() { COMPONENTS_IN_PLANE } else { COMPONENTS_IN_SPACE }
     }
 
@@ -262,14 +268,14 @@ impl BaseNode {
         terms.filter(|(_, weight)| *weight != 0.0).map(|(dof, _)| *dof)
     }
 
-    /// Returns an error for a coordinate or weight that is not finite, or a degree of freedom of at least `bound`.
-    pub(super) fn check(&self, bound: usize) -> Result<()> {
+    /// Returns an error for a coordinate or weight that is not finite, or a degree of freedom of at least `dof_count`.
+    pub(super) fn check(&self, dof_count: usize) -> Result<()> {
         for coordinate in [self.x, self.y, self.z] {
             finite("coordinate of a contact node", coordinate)?;
         }
         for &(dof, weight) in self.rows().into_iter().flatten() {
             finite("weight of a contact node", weight)?;
-            in_bounds("degree of freedom of a contact node", dof, bound)?;
+            in_bounds("degree of freedom of a contact node", dof, dof_count)?;
         }
         Ok(())
     }
@@ -332,10 +338,10 @@ mod tests {
                 .map(|x| BaseNode::rigid(center + x, center, [0, 1, 2]))
                 .into();
             assert!(BaseNode::are_flat(&nodes));
-            assert_eq!(BaseNode::segments(&nodes), 1);
+            assert_eq!(BaseNode::segment_count(&nodes), 1);
             nodes[2].vertical = 7.into();
             assert!(!BaseNode::are_flat(&nodes));
-            assert_eq!(BaseNode::segments(&nodes), 4);
+            assert_eq!(BaseNode::segment_count(&nodes), 4);
             let dofs = [0, 1, 2, 3, 4, 5];
             let corner = |[x, y]: [f64; 2]| {
                 BaseNode::rigid_in_plan([center + x, y - center], [center, -center], dofs)
@@ -353,7 +359,7 @@ mod tests {
         middle.vertical = [(1, 0.75), (3, 0.25)].into();
         middle.horizontal = [(0, 0.75), (2, 0.25)].into();
         let nodes = [left_end, middle, right_end];
-        assert_eq!(BaseNode::segments(&nodes), 1);
-        assert_eq!(BaseNode::segments(&nodes[..1]), 1);
+        assert_eq!(BaseNode::segment_count(&nodes), 1);
+        assert_eq!(BaseNode::segment_count(&nodes[..1]), 1);
     }
 }

@@ -4,7 +4,7 @@ use crate::fem::Mesh;
 
 /// Properties of a structure by which a run warns of probable mistakes.
 ///
-/// They change no result. Default: all `None`.
+/// These properties change no result. Default: all `None`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StructureDescription {
     /// Smallest and largest density of the materials, kg/m³, without massless ones; `None` without materials.
@@ -37,7 +37,8 @@ impl StructureDescription {
         Self {
             faces_off_ground: faces
                 .reduce(|(sum, first_middle), (face_count, _)| (sum + face_count, first_middle)),
-            densities: densities.reduce(|one, other| [one[0].min(other[0]), one[1].max(other[1])]),
+            densities: densities
+                .reduce(|range, other| [range[0].min(other[0]), range[1].max(other[1])]),
         }
     }
 }

@@ -20,8 +20,8 @@ use crate::error::{Result, finite, in_bounds};
 /// let mut drift = DofCombination::from(7) - DofCombination::from(6);
 /// drift += 3.0 * DofCombination::from(2);
 /// assert_eq!(drift, DofCombination::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
-/// let dofs = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
-/// assert!((drift.value(&dofs) - 0.13).abs() < 1e-15);
+/// let displacement = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
+/// assert!((drift.value(&displacement) - 0.13).abs() < 1e-15);
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -29,11 +29,11 @@ use crate::error::{Result, finite, in_bounds};
 pub struct DofCombination(Vec<(usize, f64)>);
 
 impl DofCombination {
-    /// Value of the sum for the displacements, velocities or accelerations `dofs` of all degrees of freedom.
+    /// Value of the sum for these displacements, velocities or accelerations of all degrees of freedom.
     ///
-    /// Degrees of freedom beyond the end of `dofs` count as zero.
-    pub fn value(&self, dofs: &[f64]) -> f64 {
-        let dof_value = |dof: usize| dofs.get(dof).copied().unwrap_or(0.0);
+    /// Degrees of freedom beyond the end of `dof_values` count as zero.
+    pub fn value(&self, dof_values: &[f64]) -> f64 {
+        let dof_value = |dof: usize| dof_values.get(dof).copied().unwrap_or(0.0);
         self.0.iter().map(|&(dof, weight)| weight * dof_value(dof)).sum()
     }
 
@@ -44,14 +44,14 @@ impl DofCombination {
         self.0.iter().map(|&(dof, weight)| (new_dof(dof), weight)).collect()
     }
 
-    /// Returns an error for a weight that is not finite, or a degree of freedom of at least `bound`.
+    /// Returns an error for a weight that is not finite, or a degree of freedom of at least `dof_count`.
     ///
     /// `quantity`: name of the degree of freedom in the error.
     #[doc(hidden)]
-    pub fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
+    pub fn check(&self, quantity: &'static str, dof_count: usize) -> Result<()> {
         for &(dof, weight) in &self.0 {
             finite("weight of a degree of freedom", weight)?;
-            in_bounds(quantity, dof, bound)?;
+            in_bounds(quantity, dof, dof_count)?;
         }
         Ok(())
     }
@@ -216,7 +216,7 @@ impl Default for SectionRows {
 }
 
 impl SectionRows {
-    /// Value of the resultant, by the motion of all degrees of freedom.
+    /// Value of the resultant for a motion of all degrees of freedom.
     ///
     /// Degrees of freedom beyond the end of a slice count as zero.
     pub fn value(&self, displacement: &[f64], velocity: &[f64], acceleration: &[f64]) -> f64 {

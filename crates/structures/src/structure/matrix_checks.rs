@@ -94,7 +94,7 @@ pub fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -> Resul
     check_semi_definite(MATRIX_NAME, damping, elimination)
 }
 
-/// Factors [β, α] of a matrix that is βA + αB up to rounding; `None` for another matrix.
+/// Factors [β, α] of a matrix that is βA + αB up to rounding; `None` for other matrices.
 ///
 /// The sparsity pattern of A contains the patterns of B and of the matrix. If A is positive definite and B positive
 /// semi-definite, the matrix is positive semi-definite within the tolerance of [`check_damping`].
@@ -129,7 +129,7 @@ pub fn proportional_factors(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -
         beta = (ac * bb - bc * ab) / determinant;
         alpha = (bc * aa - ac * ab) / determinant;
     }
-    // A β below zero by rounding becomes zero; for another one the residuals are large.
+    // A negative β is set to zero. If it is not a rounding error, the residuals are large, and the result is `None`.
     if beta < 0.0 {
         beta = 0.0;
         alpha = bc / bb;

@@ -26,7 +26,6 @@ pub(crate) mod base_node;
 mod description;
 pub(crate) mod detached;
 mod dof_combination;
-pub(crate) mod held_base;
 mod hysteresis;
 pub(crate) mod matrix_checks;
 mod modal_damping;
@@ -36,6 +35,7 @@ pub(crate) mod probe;
 mod rayleigh_damping;
 mod reduction;
 mod rigid_motions;
+pub(crate) mod spring_supported_base;
 
 #[doc(inline)]
 pub use crate::error::StructureError;
@@ -46,7 +46,6 @@ pub use base::Base;
 pub use base_node::BaseNode;
 pub use description::StructureDescription;
 pub use dof_combination::{DofCombination, SectionRows};
-pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
     PendulumBearing, SpringResponse, WithSprings,
@@ -63,6 +62,7 @@ pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{MassAndStiffness, mass_and_stiffness};
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
+pub(crate) use spring_supported_base::{SpringSupportedBase, max_diagonal_stiffness};
 
 use std::any::Any;
 
@@ -187,8 +187,8 @@ pub trait Structure: Any + Send {
 
     /// Adds the geometric stiffness of the static forces (P–Δ), n × n, to `matrix`. Default: none.
     ///
-    /// [`stiffness`](Structure::stiffness) contains this part. By it, errors state the load factor at which the
-    /// structure buckles, and `build` returns an error for a structure that buckles on its ground
+    /// [`stiffness`](Structure::stiffness) contains this part. From this part, errors compute the load factor at which
+    /// the structure buckles, and `build` returns an error for a structure that buckles on its ground
     /// (`StabilityError::Buckling`).
     ///
     /// # Errors
@@ -206,8 +206,8 @@ pub trait Structure: Any + Send {
 
     /// Whether the stiffness matrix may be unsymmetric. Default: no.
     ///
-    /// Follower forces have such a stiffness. The matrix is then not checked. The energy balance does not contain its
-    /// work, which is part of the energy error.
+    /// Follower forces have such a stiffness. The matrix is then not checked. The energy balance does not contain the
+    /// work of such a stiffness; the work becomes part of the energy error.
     fn has_active_stiffness(&self) -> bool {
         false
     }

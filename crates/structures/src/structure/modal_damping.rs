@@ -7,7 +7,8 @@ use crate::error::{Error, Result, at_least, damping_ratio, require};
 use crate::linalg::{Eigenpairs, SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRY_TOLERANCE;
 use crate::structure::{
-    HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
+    MassAndStiffness, NonlinearForce, SpringSupportedBase, Structure, Triplets, mass_and_stiffness,
+    max_diagonal_stiffness,
 };
 
 /// Damping ratios of a structure's modes; its rigid motions are not damped.
@@ -68,9 +69,11 @@ const MAX_RIGID_ENERGY_FRACTION: f64 = 0.5;
 ///
 /// Frequencies on these springs differ by about a millionth from those on a rigid support.
 const FIXED_BASE_STIFFNESS_RATIO: f64 = 1e6;
-/// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
+/// Values of 1/ω² below this fraction of the largest value are rounding: the modes of massless degrees of freedom.
 const MASSLESS_EIGENVALUE_RATIO: f64 = 1e-13;
-/// Stiffness energy above which a mode deforms the structure; below it the mode moves the base on its springs.
+/// Fraction of a mode's elastic energy in the structure above which the mode deforms the structure.
+///
+/// In other modes the base moves on its springs.
 const MIN_STRUCTURE_ENERGY: f64 = 0.5;
 const UNSUITABLE_MATRICES: Error = Error::Scene {
     quantity: "structure with modal damping",
@@ -100,9 +103,10 @@ impl ModalDamping {
     /// Adds this damping to the modes of a structure on its fixed base.
     ///
     /// Codes and tests state ratios of these modes. Displacements are relative to the base: u − R N u, with the
-    /// displacements N u of the contact nodes and the static displacements R by them. A mode φ of circular frequency ω
-    /// exerts the forces K φ, which do no work on rigid motions: C = Σ (2 ζ/ω³) K φ (K φ)ᵀ. Degrees of freedom may be
-    /// massless. The stiffness of a nonlinear structure is its initial tangent.
+    /// displacements N u of the contact nodes, and the static displacements R that unit displacements of these nodes
+    /// cause. A mode φ of circular frequency ω, scaled to φᵀ M φ = 1, exerts the forces K φ, which do no work on rigid
+    /// motions: C = Σ (2 ζ/ω³) K φ (K φ)ᵀ. Degrees of freedom may be massless. The stiffness of a nonlinear structure
+    /// is its initial tangent.
     ///
     /// ```
     /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
@@ -119,9 +123,10 @@ impl ModalDamping {
         let stiffness = &matrices.stiffness;
         let nodes = structure.base().into_nodes();
         check_rows(&nodes, matrices.mass.order())?;
-        let spring_stiffness = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
-        let supported = HeldBase::new(&nodes, stiffness, spring_stiffness);
-        let supported_stiffness = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &supported.matrix)?;
+        let spring_stiffness = FIXED_BASE_STIFFNESS_RATIO * max_diagonal_stiffness(stiffness);
+        let supported = SpringSupportedBase::new(&nodes, stiffness, spring_stiffness);
+        let supported_stiffness =
+            SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &supported.matrix)?;
         let Eigenpairs { values: eigenvalues, vectors: eigenvectors } =
             generalised_modes(&matrices.mass, &supported_stiffness).ok_or(UNRESISTED_MOTION)?;
         let mut damped = WithModalDamping::new(structure);
@@ -188,7 +193,9 @@ impl ModalDamping {
     }
 }
 
-/// Mass and stiffness; returns an error for a large structure or matrices that are not symmetric.
+/// Mass and stiffness of a structure whose modes are to be damped.
+///
+/// Returns an error for too many degrees of freedom, or matrices that are not symmetric.
 fn matrices(structure: &dyn Structure) -> Result<MassAndStiffness> {
     let n = structure.dofs();
     let is_small = n <= MAX_DAMPED_DOFS;

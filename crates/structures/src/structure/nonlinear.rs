@@ -78,10 +78,10 @@ pub trait NonlinearForce {
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`.
     ///
-    /// Write at every call all entries that can ever be nonzero, also those that are zero now: when the sparsity pattern
-    /// grows, memory is allocated and the order of elimination is found again. Entries in the same order at every call
-    /// are found fastest. The tangent need not be symmetric: the time integration then factors by LU instead of Cholesky,
-    /// which takes longer.
+    /// Write at every call all entries that can ever be nonzero, also those that are zero now: when the sparsity
+    /// pattern grows, memory is allocated and the order of elimination is computed again. The call is fastest with the
+    /// entries in the same order every time. The tangent need not be symmetric: the time integration then factors by LU
+    /// instead of Cholesky, which takes longer.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
@@ -90,7 +90,8 @@ pub trait NonlinearForce {
     /// Whether the tangent is symmetric at every displacement. Default: yes.
     ///
     /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent. In three dimensions, with
-    /// contact in plan, `build` refuses it, since that contact needs a symmetric compliance of the structure.
+    /// contact in plan, `build` returns an error for it, since that contact needs a symmetric compliance of the
+    /// structure.
     fn has_symmetric_tangent(&self) -> bool {
         true
     }
@@ -106,9 +107,9 @@ pub trait NonlinearForce {
     /// Work of f inside a step that is neither stored nor dissipated. Default: `None`.
     ///
     /// The step leads from the committed displacement to `end`, with f evaluated at `midstep`. The work is
-    /// f(midstep)·(end − start) less the changes of [`energy`](NonlinearForce::energy); compute it by an
-    /// independent formula. In the energy balance it counts as `midstep_remainder`, so that the residual checks force
-    /// and energies. With `None` this difference itself is taken, and the work counts as algorithmic dissipation.
+    /// f(midstep)·(end − start) less the changes of [`energy`](NonlinearForce::energy); compute it by an independent
+    /// formula. In the energy balance it counts as `midstep_remainder`, so that the residual checks force and energies.
+    /// With `None` the run computes this difference from the energies, and the work counts as algorithmic dissipation.
     fn remainder(&self, _midstep: &[f64], _end: &[f64]) -> Option<f64> {
         None
     }
@@ -245,10 +246,10 @@ pub struct Tangent {
 impl Tangent {
     /// Empty tangent for a number of degrees of freedom.
     #[doc(hidden)]
-    pub fn new(dofs: usize) -> Self {
+    pub fn new(dof_count: usize) -> Self {
         Self {
             matrix: SparseMatrix::default(),
-            entries: Triplets::new(dofs),
+            entries: Triplets::new(dof_count),
             indices: Vec::new(),
         }
     }
@@ -261,7 +262,7 @@ impl Tangent {
         Ok(tangent)
     }
 
-    /// Overwrites the tangent by that at a displacement; allocates only if the sparsity pattern grows.
+    /// Overwrites the tangent by the one at a displacement; allocates only if the sparsity pattern grows.
     #[doc(hidden)]
     pub fn refill(&mut self, structure: &dyn Structure, displacement: &[f64]) -> Result<()> {
         const TANGENT_NAME: &str = "tangent of the nonlinear force";

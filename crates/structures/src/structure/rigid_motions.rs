@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::linalg::{Partition, SparseMatrix, dot};
-use crate::structure::{BaseNode, HeldBase, stiffest};
+use crate::structure::{BaseNode, SpringSupportedBase, max_diagonal_stiffness};
 
 /// A part counts as at rest in a motion if its norm is below this fraction of the motion's norm.
 const RESTING_PART_FRACTION: f64 = 1e-8;
@@ -17,9 +17,9 @@ pub(super) fn check_rows(contact_nodes: &[BaseNode], n: usize) -> Result<()> {
 
 /// Momenta M r of the rigid motions r of every part that stiffness connects.
 ///
-/// Motions are to the right, upwards and rotations, and orthonormal with respect to M. A motion without strain follows
-/// from the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N gives
-/// the nodes' displacements and t their prescribed values.
+/// The motions are translations and rotations, orthonormal with respect to M. A motion without strain follows from the
+/// motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes'
+/// displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
     contact_nodes: &[BaseNode],
     stiffness: &SparseMatrix,
@@ -32,10 +32,11 @@ pub(super) fn rigid_momenta(
         contact_nodes.iter().map(|node| node.x).sum::<f64>() / node_count,
         contact_nodes.iter().map(|node| node.y).sum::<f64>() / node_count,
     ];
-    let supported = HeldBase::new(contact_nodes, stiffness, stiffest(stiffness));
+    let supported =
+        SpringSupportedBase::new(contact_nodes, stiffness, max_diagonal_stiffness(stiffness));
     let mut factor = supported.factor()?;
-    let mut base_forces = supported.pulls();
-    base_forces.extend(supported.turns(contact_nodes.iter(), center));
+    let mut base_forces = supported.translation_forces();
+    base_forces.extend(supported.rotation_forces(contact_nodes.iter(), center));
     let mut coupled = Partition::new(n);
     coupled.couple(stiffness);
     let parts = coupled.sets();

@@ -1,4 +1,4 @@
-//! Weights from panels against weights from all points of the circles.
+//! Tests of weights from panels against weights from all points of the circles.
 
 use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};

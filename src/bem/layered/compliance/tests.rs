@@ -1,4 +1,4 @@
-//! The surface compliance against 60-digit values, closed forms and limits.
+//! Tests of the surface compliance against 60-digit values, closed forms and limits.
 
 use super::*;
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil};
@@ -71,7 +71,7 @@ fn agrees_with_table(table: &str, expected_rows: usize) {
         max_xz_error = max_xz_error.max((computed.xz - expected[2]).abs() / expected[2].abs());
         row_count += 1;
     }
-    println!("{row_count} row_count: {max_error:e} of max|C|, {max_xz_error:e} of C_xz");
+    println!("{row_count} rows: {max_error:e} of max|C|, {max_xz_error:e} of C_xz");
     assert_eq!(row_count, expected_rows);
     assert!(max_error < 1e-12, "{max_error:e}");
 }

@@ -1,4 +1,4 @@
-//! Form factors on wide panels, and the functions from which they are computed.
+//! Tests of form factors on wide panels, and of the functions from which they are computed.
 
 use super::*;
 use crate::bem::{Grading, Strip};

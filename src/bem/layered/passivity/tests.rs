@@ -1,4 +1,4 @@
-//! The mobility of random grounds is accretive, and the check detects a mobility that is not accretive.
+//! Tests that the mobility of random grounds is accretive, and that the check detects other mobilities.
 
 use basemat_testkit::random::Random;
 

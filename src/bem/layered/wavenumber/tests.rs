@@ -1,4 +1,4 @@
-//! Element compliances against a table, a closed form and finer tolerances.
+//! Tests of element compliances against a table, a closed form and finer tolerances.
 
 use super::*;
 use crate::bem::layered::passivity::assembled;
@@ -55,7 +55,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
             max_compliance = matrix[3 * 6 + 3].norm();
         }
         max_error = max_error.max(
-            (matrix[row * 6 + column] - Complex::new(numbers[4], numbers[5]).inner()).norm()
+            (matrix[row * 6 + column] - Complex::new(numbers[4], numbers[5]).to_complex64()).norm()
                 / max_compliance,
         );
         row_count += 1;

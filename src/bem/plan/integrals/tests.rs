@@ -1,4 +1,4 @@
-//! Compliances of cells against a table, plain sums and limits.
+//! Tests of the compliances of cells against a table, plain sums and limits.
 
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ fn half_space() -> SoilProfile {
     SoilProfile::on_half_plane(Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap())
 }
 
-/// `compliance_4x4.csv` is from another program, accurate receiver about 1e-8.
+/// The values of `compliance_4x4.csv` are from another program, and accurate to about 1e-8.
 #[test]
 fn agrees_with_the_table_of_sixteen_cells() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [4, 4] };
@@ -200,7 +200,8 @@ fn assembled(
             let offset = offset(cells[receiver], cells[source]);
             for (i, row) in lattice.block(values, offset).into_iter().enumerate() {
                 for (j, value) in row.into_iter().enumerate() {
-                    matrix[(3 * receiver + i) * order + 3 * source + j] = (factor * value).inner();
+                    matrix[(3 * receiver + i) * order + 3 * source + j] =
+                        (factor * value).to_complex64();
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Weights of cells against a table, static compliances, and other ways to compute them.
+//! Tests of the weights of cells against a table, static compliances, and other ways to compute them.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -135,7 +135,8 @@ fn weights_depend_on_the_offset_alone() {
         let mut max_error = 0.0_f64;
         let large_offsets = large.classes.plan().unwrap().0.classes();
         for (class, offset) in small.classes.plan().unwrap().0.classes().into_iter().enumerate() {
-            let large_class = large_offsets.iter().position(|it| *it == offset).unwrap();
+            let large_class =
+                large_offsets.iter().position(|large_offset| *large_offset == offset).unwrap();
             for (small_weight, large_weight) in small_weights[class]
                 .iter()
                 .flatten()
@@ -231,7 +232,7 @@ fn passivity_is_checked_on_some_of_many_cells() {
 }
 
 #[test]
-fn bad_requests_return_errors() {
+fn invalid_requests_return_errors() {
     let kernel = kernel(half_space(), &square(), Stages::Two);
     assert!(matches!(
         kernel.coefficients(0, 1, &mut [&mut [], &mut [], &mut []]),

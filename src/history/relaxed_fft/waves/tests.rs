@@ -23,9 +23,9 @@ impl RandomWeights {
     fn lag(&self, class: usize, lag: usize) -> [f64; COMPLIANCES_PER_OFFSET] {
         let mut random = Random((class * 100_003 + lag) as u64);
         // Factors that are zero where symmetry requires it.
-        let is_off_axis = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
-        let factors =
-            [1.0, 1.0, 1.0, is_off_axis[0] * is_off_axis[1], is_off_axis[0], is_off_axis[1]];
+        let [x_factor, y_factor] =
+            self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
+        let factors = [1.0, 1.0, 1.0, x_factor * y_factor, x_factor, y_factor];
         factors.map(|factor| factor * random.within(-1.0, 1.0) / lag as f64)
     }
 }
@@ -41,9 +41,9 @@ impl ConvolutionWeights for RandomWeights {
         first_lag: usize,
         values: &mut [&mut [f64]],
     ) -> Result<()> {
-        for place in 0..values[0].len() {
-            let lag = self.lag(class, first_lag + place);
-            values.iter_mut().zip(lag).for_each(|(values, value)| values[place] = value);
+        for lag_index in 0..values[0].len() {
+            let lag = self.lag(class, first_lag + lag_index);
+            values.iter_mut().zip(lag).for_each(|(values, value)| values[lag_index] = value);
         }
         Ok(())
     }
@@ -92,14 +92,14 @@ fn transforms_are_the_direct_sum() {
             for step in 0..300 {
                 direct.evaluate(&mut expected).unwrap();
                 fast.evaluate(&mut computed).unwrap();
-                let largest = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+                let scale = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
                 for (computed, expected) in computed.iter().zip(&expected) {
-                    max_errors[0] = max_errors[0].max((computed - expected).abs() / largest);
+                    max_errors[0] = max_errors[0].max((computed - expected).abs() / scale);
                 }
                 if step == 20 {
                     let reference = summed(&kernel, &cells, &past);
                     for (reference, expected) in reference.iter().zip(&expected) {
-                        max_errors[1] = max_errors[1].max((reference - expected).abs() / largest);
+                        max_errors[1] = max_errors[1].max((reference - expected).abs() / scale);
                     }
                 }
                 let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
@@ -135,7 +135,7 @@ fn summed(kernel: &RandomWeights, cells: &[[usize; 2]], past: &[Vec<f64>]) -> Ve
     sums
 }
 
-/// Saved and restored anywhere, with the same bits.
+/// A history that is saved and restored at any step continues with the same bits.
 #[test]
 fn histories_resume_where_they_were_saved() {
     let Mask { cells, counts } = Mask::new(CELL_MASKS[2]);

@@ -19,7 +19,7 @@ pub(super) struct AxialForce {
     pub(super) compression: f64,
     /// Compression at the first end less the compression at the second end, N.
     pub(super) end_difference: f64,
-    /// Whether the user prescribed the force; the static state then does not change it.
+    /// Whether the user prescribed the force; the static state then does not change this force.
     pub(super) is_prescribed: bool,
 }
 
@@ -72,25 +72,28 @@ pub(super) type BendingMatrix = [[f64; 4]; 4];
 /// Its matrices are the parts of the beam's matrices for deflections and rotations in this plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bending {
-    /// Bending stiffness E I, N m².
-    pub(super) stiffness: f64,
+    /// Flexural rigidity E I, N m².
+    pub(super) flexural_rigidity: f64,
     /// Shear stiffness G A_s, N; `None` without shear deformation.
     pub(super) shear_stiffness: Option<f64>,
     /// Rotary inertia ρ I of the section per length, kg m.
     pub(super) section_inertia: f64,
+    /// Whether the consistent mass includes the rotary inertia of the section, and the lumped mass half of it at each
+    /// end.
     pub(super) has_rotary_inertia: bool,
 }
 
 impl Bending {
     /// Ratio of shear to bending flexibility, `Φ = 12 EI/(G A_s L²)`.
     fn shear_ratio(&self, length: f64) -> f64 {
-        self.shear_stiffness.map_or(0.0, |k| 12.0 * self.stiffness / (k * length * length))
+        self.shear_stiffness
+            .map_or(0.0, |k| 12.0 * self.flexural_rigidity / (k * length * length))
     }
 
     /// Stiffness matrix of a beam of this `length` (m).
     pub(super) fn stiffness(&self, length: f64) -> BendingMatrix {
         let shear_ratio = self.shear_ratio(length);
-        let k = self.stiffness / (length.powi(3) * (1.0 + shear_ratio));
+        let k = self.flexural_rigidity / (length.powi(3) * (1.0 + shear_ratio));
         let shear = 12.0 * k;
         let coupling = 6.0 * k * length;
         let near_end = (4.0 + shear_ratio) * k * length * length;
@@ -143,7 +146,7 @@ impl Bending {
     }
 }
 
-/// Deflection at s = x/L by unit deflections and rotations of the ends; t = 1 − s.
+/// Deflections at s = x/L due to unit deflections and rotations of the ends; t = 1 − s.
 fn deflection(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + shear_ratio);
@@ -155,7 +158,7 @@ fn deflection(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     ]
 }
 
-/// Slope of the deflection at s = x/L; t = 1 − s.
+/// Slopes of these deflections at s = x/L; t = 1 − s.
 fn slope(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (length * (1.0 + shear_ratio));
@@ -167,15 +170,15 @@ fn slope(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     ]
 }
 
-/// Rotation of the section at s = x/L, the slope less the shear strain (Friedman & Kosmatka 1993); t = 1 − s.
+/// Rotations of the section at s = x/L: the slopes less the shear strains (Friedman & Kosmatka 1993); t = 1 − s.
 fn rotation(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + shear_ratio);
-    let by_deflection = 6.0 * scale * s * t / length;
+    let deflection_term = 6.0 * scale * s * t / length;
     [
-        -by_deflection,
+        -deflection_term,
         scale * t * (t - 2.0 * s + shear_ratio),
-        by_deflection,
+        deflection_term,
         scale * s * (s - 2.0 * t + shear_ratio),
     ]
 }

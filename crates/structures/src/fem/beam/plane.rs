@@ -14,14 +14,14 @@ use crate::geometry::{Direction, PLANE_DIRECTIONS};
 ///
 /// Meshes in space have a [`SpaceBeam`](super::SpaceBeam).
 ///
-/// Euler–Bernoulli with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness) makes it a
-/// Timoshenko beam. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
-/// ch. 5). Rotary inertia of the cross-section is included only with
+/// It is an Euler–Bernoulli beam with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness) makes it
+/// a Timoshenko beam. The displacements of the nodes are exact for loads at the nodes (Przemieniecki, Theory of Matrix
+/// Structural Analysis, 1968, ch. 5). Rotary inertia of the cross-section is included only with
 /// [`with_rotary_inertia`](Beam::with_rotary_inertia). The P–Δ effect of an axial force is included only if
 /// [`with_compression`](Beam::with_compression) gives the force or
-/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes it. Quadrilaterals do not
-/// restrain the rotation of their nodes: a beam that ends on a quadrilateral is hinged there, unless it
-/// continues along the edge of a second one.
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes it. Quadrilaterals do not restrain the
+/// rotation of their nodes: a beam that ends on a quadrilateral is hinged there, unless it continues along the edge of
+/// a second one.
 ///
 /// ```
 /// use basemat::fem::{Beam, Element};
@@ -66,7 +66,7 @@ impl Beam {
             nodes,
             axial_stiffness: positive("axial stiffness of the beam", young_modulus * area)?,
             bending: Bending {
-                stiffness: positive("bending stiffness", young_modulus * second_moment)?,
+                flexural_rigidity: positive("bending stiffness", young_modulus * second_moment)?,
                 shear_stiffness: None,
                 section_inertia: not_negative("inertia of the section", density * second_moment)?,
                 has_rotary_inertia: false,
@@ -95,10 +95,10 @@ impl Beam {
 
     /// Makes the beam a beam–column with a constant axial force.
     ///
-    /// `compression` is in N, negative for tension. The force P adds −½ P ∫ w′² dx to the potential
-    /// energy, where w is the lateral displacement (P–Δ and P–δ). It is the force of the static state, for example the
-    /// weight above. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from
-    /// this method. In a rigid rotation the end forces of the beam form a couple, as in a real column.
+    /// `compression` is in N, negative for tension. The force P adds −½ P ∫ w′² dx to the potential energy, where w is
+    /// the lateral displacement (P–Δ and P–δ). P is the force in the static state, for example the weight of the
+    /// structure above the beam. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a
+    /// force from this method. In a rigid rotation the end forces of the beam form a couple, as in a real column.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.

@@ -16,8 +16,9 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 /// Straight prismatic beam in space, rigidly connected to its two nodes.
 ///
 /// It stretches, twists (St Venant) and bends in two planes; shear areas of its
-/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. Exact for loads at the nodes. x is the axis of
-/// the beam, y the component of its `orientation` normal to x, and z completes a right-handed system.
+/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. The displacements of the nodes are exact for
+/// loads at the nodes. The axis x runs along the beam, y along the component of its `orientation` normal to x, and z
+/// completes a right-handed system.
 ///
 /// Its lumped mass is diagonal in the axes of the beam. In other axes it couples the rotations of a node, and offsets
 /// couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending and the P–Δ effect of
@@ -42,7 +43,7 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 pub struct SpaceBeam {
     nodes: [usize; 2],
     orientation: [f64; 3],
-    /// From the nodes to the ends, m.
+    /// Vectors from the nodes to the ends, m.
     offsets: [[f64; 3]; 2],
     releases: Releases,
     /// E A, N.
@@ -65,8 +66,9 @@ impl SpaceBeam {
     ///
     /// # Errors
     /// [`Error::NotFinite`] and [`Error::Input`] for an orientation that is not finite or has no length, and for
-    /// stiffnesses that are too small or too large for a number. [`Mesh::add`](crate::fem::Mesh::add) returns an
-    /// error for a beam without length or along its orientation. All are in an [`Error::Item`] with the nodes.
+    /// stiffnesses that are too small or too large for a floating-point number. [`Mesh::add`](crate::fem::Mesh::add)
+    /// returns an error for a beam without length or along its orientation. Each of these errors is in an
+    /// [`Error::Item`] that names the nodes.
     pub fn new(
         nodes: [usize; 2],
         material: Material,
@@ -113,10 +115,10 @@ impl SpaceBeam {
         let shear_stiffness =
             section.shear_areas.map(|areas| material.shear_modulus() * areas[axis]);
         shear_stiffness.map(|k| positive("shear stiffness of the beam", k)).transpose()?;
-        let stiffness = material.young_modulus() * second_moment;
+        let flexural_rigidity = material.young_modulus() * second_moment;
         let section_inertia = material.density() * second_moment;
         Ok(Bending {
-            stiffness: positive("bending stiffness of the beam", stiffness)?,
+            flexural_rigidity: positive("bending stiffness of the beam", flexural_rigidity)?,
             shear_stiffness,
             section_inertia: finite("inertia of the section", section_inertia)?,
             has_rotary_inertia: false,
@@ -141,9 +143,9 @@ impl SpaceBeam {
     /// y. The releases add to earlier ones. A lumped mass has no entries in released directions.
     ///
     /// # Errors
-    /// [`Error::Index`] for another end; [`Error::Scene`] for [`Direction::Rotation`], and for releases that make
-    /// the beam a mechanism: both ends along or about x, both ends along y or along z, or three of the four
-    /// displacements and rotations of bending along y or along z. All are in an [`Error::Item`] with the nodes.
+    /// [`Error::Index`] for another end; [`Error::Scene`] for [`Direction::Rotation`], and for releases that make the
+    /// beam a mechanism: both ends along or about x, both ends along y or along z, or three of the four displacements
+    /// and rotations of bending along y or along z. Each of these errors is in an [`Error::Item`] that names the nodes.
     pub fn with_releases(self, end: usize, directions: &[Direction]) -> Result<Self> {
         let releases = self
             .releases
@@ -282,8 +284,8 @@ impl Element for SpaceBeam {
             let row = to_local[6 * end];
             row.iter().zip(displacement).map(|(a, b)| a * b).sum::<f64>()
         };
-        // Displacements of the nodes are exact, so the compression by the elongation is the mean over the length. The
-        // compression varies between the ends because of the element's weight.
+        // Displacements of the nodes are exact, so the compression that follows from the elongation is the mean over
+        // the length. The compression varies between the ends because of the element's weight.
         let axial_force = AxialForce {
             compression: -self.axial_stiffness / axes.length
                 * (axial_displacement(1) - axial_displacement(0)),

@@ -46,11 +46,11 @@ impl RepeatableNumbers {
     }
 }
 
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+fn max_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()))
 }
 
-fn largest(values: &[f64]) -> f64 {
+fn max_magnitude(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |max: f64, value| max.max(value.abs()))
 }
 
@@ -60,9 +60,14 @@ fn stiffness(element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
     matrix
 }
 
-fn force(element: &dyn InelasticForce, points: &[[f64; 3]], u: &[f64], v: &[f64]) -> Vec<f64> {
+fn force(
+    element: &dyn InelasticForce,
+    points: &[[f64; 3]],
+    u: &[f64],
+    variables: &[f64],
+) -> Vec<f64> {
     let mut force = vec![0.0; u.len()];
-    element.force(points, u, v, &mut force).unwrap();
+    element.force(points, u, variables, &mut force).unwrap();
     force
 }
 
@@ -95,15 +100,15 @@ fn elastic_law_of_a_user_has_the_forces_of_the_elastic_element() {
         let mut tangent = vec![0.0; matrix.len()];
         let u = RepeatableNumbers(3).list(2 * points.len(), 1e-3);
         law.tangent(points, &u, &[], &mut tangent).unwrap();
-        let scale = 1e-14 * largest(&expected);
-        assert!(largest_difference(&matrix, &expected) < 10.0 * scale);
-        assert!(largest_difference(&tangent, &expected) < 10.0 * scale);
+        let scale = 1e-14 * max_magnitude(&expected);
+        assert!(max_difference(&matrix, &expected) < 10.0 * scale);
+        assert!(max_difference(&tangent, &expected) < 10.0 * scale);
         let expected_force: Vec<f64> = expected
             .chunks_exact(u.len())
             .map(|row| row.iter().zip(&u).map(|(k, u)| k * u).sum())
             .collect();
-        let difference = largest_difference(&force(law, points, &u, &[]), &expected_force);
-        assert!(difference < 1e-13 * largest(&expected_force), "{difference}");
+        let difference = max_difference(&force(law, points, &u, &[]), &expected_force);
+        assert!(difference < 1e-13 * max_magnitude(&expected_force), "{difference}");
         assert_eq!(user.density(), Some(1900.0));
     }
 }
@@ -137,7 +142,7 @@ fn linear_displacements_give_the_stress_of_their_strain() {
             let lame = 30.0e6 - 20.0e6 / 3.0;
             let expected =
                 [lame * -2e-4 + 2.0e3, lame * -2e-4 - 6.0e3, lame * -2e-4, 10.0e6 * 2e-4];
-            assert!(largest_difference(&point.stress, &expected) < 1e-9, "{:?}", point.stress);
+            assert!(max_difference(&point.stress, &expected) < 1e-9, "{:?}", point.stress);
         }
     }
 }
@@ -151,7 +156,7 @@ fn rigid_motions_give_no_force() {
         let u: Vec<f64> =
             points.iter().flat_map(|[x, y, _]| [3.0 - 0.5 * y, 0.5 * x - 2.0]).collect();
         let forces = force(law, &points, &u, &variables);
-        assert!(largest(&forces) < 1e-15 * 30.0e6 * 10.0, "{forces:?}");
+        assert!(max_magnitude(&forces) < 1e-15 * 30.0e6 * 10.0, "{forces:?}");
     }
 }
 
@@ -188,12 +193,12 @@ fn tangent_is_the_derivative_of_the_force() {
         // Softer than the stiffness of small strains: points yield.
         assert!(tangent[0] < 0.9 * stiffness(&element, &points)[0]);
         let differences = difference_quotients(law, &points, &u, &variables);
-        let error = largest_difference(&tangent, &differences) / largest(&tangent);
+        let error = max_difference(&tangent, &differences) / max_magnitude(&tangent);
         assert!(error < 1e-6, "{error}");
     }
 }
 
-/// Sand dilates less than its friction angle says: ∂f_i/∂u_j is not ∂f_j/∂u_i.
+/// Sand dilates less than an associated flow rule gives for its friction angle: ∂f_i/∂u_j is not ∂f_j/∂u_i.
 #[test]
 fn unsymmetric_tangent_has_its_rows_and_columns() {
     let elastic = Material::new(40.0e6, 0.3, 1900.0).unwrap();
@@ -202,7 +207,7 @@ fn unsymmetric_tangent_has_its_rows_and_columns() {
         let law = element.inelastic().unwrap();
         let mut variables = vec![0.0; law.variable_count()];
         law.initialize(&points, &mut variables).unwrap();
-        // Compression, so that no point comes to the tip of the cone, and shear.
+        // Shear, and compression so that no stress reaches the tip of the cone.
         let mut u = RepeatableNumbers(31).list(2 * points.len(), 1e-4);
         for (k, point) in points.iter().enumerate() {
             u[2 * k] += 5e-3 * point[1] - 1e-3 * point[0];
@@ -215,12 +220,12 @@ fn unsymmetric_tangent_has_its_rows_and_columns() {
         let mut tangent = vec![0.0; order * order];
         law.tangent(&points, &u, &variables, &mut tangent).unwrap();
         let differences = difference_quotients(law, &points, &u, &variables);
-        let error = largest_difference(&tangent, &differences) / largest(&tangent);
+        let error = max_difference(&tangent, &differences) / max_magnitude(&tangent);
         assert!(error < 1e-6, "{error}");
         let mirrored: Vec<f64> = (0..order * order)
             .map(|index| tangent[index % order * order + index / order])
             .collect();
-        assert!(largest_difference(&tangent, &mirrored) > 0.1 * largest(&tangent));
+        assert!(max_difference(&tangent, &mirrored) > 0.1 * max_magnitude(&tangent));
         assert!(!law.has_symmetric_tangent());
     }
 }
@@ -272,11 +277,12 @@ fn energy_is_the_integral_of_the_force() {
         let target = RepeatableNumbers(5).list(2 * points.len(), 3e-3);
         let mut work = 0.0;
         for step in 0..400 {
-            let at = |fraction: f64| target.iter().map(|u| u * fraction).collect::<Vec<_>>();
-            let midstep = at((f64::from(step) + 0.5) / 400.0);
+            let displacement_at =
+                |fraction: f64| target.iter().map(|u| u * fraction).collect::<Vec<_>>();
+            let midstep = displacement_at((f64::from(step) + 0.5) / 400.0);
             let midstep_force = force(law, &points, &midstep, &variables);
             work += midstep_force.iter().zip(&target).map(|(f, u)| f * u / 400.0).sum::<f64>();
-            law.commit(&points, &at(f64::from(step + 1) / 400.0), &mut variables);
+            law.commit(&points, &displacement_at(f64::from(step + 1) / 400.0), &mut variables);
         }
         let energy = law.energy(&points, &target, &variables).unwrap();
         assert!(energy.dissipated > 0.1 * energy.stored);
@@ -300,7 +306,7 @@ fn initial_stress_acts_at_zero_displacement() {
         law.initialize(points, &mut variables).unwrap();
         let u = vec![0.0; 2 * points.len()];
         for point in law.points(points, &u, &variables).unwrap() {
-            assert!(largest_difference(&point.stress, &stress) < 1e-10);
+            assert!(max_difference(&point.stress, &stress) < 1e-10);
         }
         // The forces do the work of the stress on a strain, and none on a rigid motion.
         let forces = force(law, points, &u, &variables);
@@ -309,12 +315,12 @@ fn initial_stress_acts_at_zero_displacement() {
         let strain_work: f64 =
             points.iter().enumerate().map(|(k, point)| forces[2 * k] * point[0]).sum();
         assert!((strain_work - stress[0] * area).abs() < 1e-9);
-        let turn_work: f64 = points
+        let rotation_work: f64 = points
             .iter()
             .enumerate()
             .map(|(k, point)| forces[2 * k + 1] * point[0] - forces[2 * k] * point[1])
             .sum();
-        assert!(turn_work.abs() < 1e-9);
+        assert!(rotation_work.abs() < 1e-9);
     }
 }
 
@@ -340,10 +346,11 @@ fn refused_elements_are_named() {
     let elastic = Material::new(20.0e6, 0.3, 1900.0).unwrap();
     let stressed = Quad8::new(nodes, elastic).with_initial_stress([-1.0, 0.0, 0.0, 0.0]);
     assert!(matches!(mesh.add(stressed), Err(Error::Input { .. })));
-    let outside = Quad8::new(nodes, soil.clone()).with_initial_stress([-1e6, 0.0, 0.0, 0.0]);
-    assert!(matches!(mesh.add(outside), Err(Error::Part { .. })));
-    let unknown = Quad8::new(nodes, soil.clone()).with_initial_stress([f64::NAN; 4]);
-    assert!(matches!(mesh.add(unknown), Err(Error::NotFinite { .. })));
+    let beyond_yield_surface =
+        Quad8::new(nodes, soil.clone()).with_initial_stress([-1e6, 0.0, 0.0, 0.0]);
+    assert!(matches!(mesh.add(beyond_yield_surface), Err(Error::Part { .. })));
+    let not_finite_stress = Quad8::new(nodes, soil.clone()).with_initial_stress([f64::NAN; 4]);
+    assert!(matches!(mesh.add(not_finite_stress), Err(Error::NotFinite { .. })));
     mesh.add(Quad8::new(nodes, soil).with_initial_stress([-20.0e3; 4].map(|s| s / 4.0)))
         .unwrap();
 }

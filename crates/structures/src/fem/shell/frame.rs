@@ -38,7 +38,9 @@ impl Frame<3> {
 }
 
 impl<const N: usize> Frame<N> {
-    /// Frame with n along `normal` and e1 along the part of `tangent` in the plane; both of any length.
+    /// Frame with n along `normal` and e1 along the part of `tangent` in the plane.
+    ///
+    /// Both vectors may have any length.
     fn new(nodes: &[[f64; 3]; N], normal: [f64; 3], tangent: [f64; 3]) -> Self {
         let n = unit_vector(normal);
         let e1 = unit_vector(add_scaled(tangent, -dot(tangent, n), n));
@@ -55,7 +57,7 @@ impl<const N: usize> Frame<N> {
         }
     }
 
-    /// Rigid link of a node: displacements of its projection by the six displacements of the node.
+    /// Rigid link: matrix from the six displacements of a node to those of its projection.
     ///
     /// Rows: u, v, w, θ1, θ2, θn.
     fn rigid_link(&self, node: usize) -> [[f64; 6]; 6] {
@@ -97,7 +99,7 @@ impl<const N: usize> Frame<N> {
         }
     }
 
-    /// Displacements of all projections by the six displacements of each node, M = 3N.
+    /// Displacements of all projections due to the six displacements of each node; M = 3N.
     pub(super) fn local_displacements<const M: usize>(
         &self,
         displacement: &[f64],

@@ -134,10 +134,10 @@ impl Shell {
     ///     Shell::new([1, 2, 4], concrete, 0.3)?,
     ///     Shell::new([2, 5, 4], concrete, 0.3)?,
     /// ];
-    /// let alone = wall.clone();
+    /// let unmatched = wall.clone();
     /// Shell::match_sides(&mut wall);
     /// // The first triangle shares a side with the quadrilateral, the second triangle does not.
-    /// assert!(wall[0] == alone[0] && wall[1] != alone[1] && wall[2] == alone[2]);
+    /// assert!(wall[0] == unmatched[0] && wall[1] != unmatched[1] && wall[2] == unmatched[2]);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn match_sides(shells: &mut [Self]) {
@@ -259,7 +259,7 @@ impl Shell {
         })
     }
 
-    /// Adds the mass matrix by the integrals over the middle surface.
+    /// Adds the mass matrix, from integrals over the middle surface, to `matrix`.
     fn add_mass<const N: usize>(
         &self,
         surface: &MiddleSurface<N>,

@@ -24,7 +24,7 @@ impl QuadBending<'_> {
         })
     }
 
-    /// Strains `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` at the corners by w, θ1, θ2 of the nodes.
+    /// Strains `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` at the corners due to w, θ1, θ2 of the nodes.
     pub(super) fn corner_strains(&self, displacement: &[f64; DOF_COUNT]) -> [[f64; 5]; 4] {
         NODE_COORDINATES.map(|corner| {
             let columns = self.strains(corner).0;
@@ -32,7 +32,7 @@ impl QuadBending<'_> {
         })
     }
 
-    /// Strains at a point by each degree of freedom, and the Jacobian determinant.
+    /// Strains at a point due to each unit degree of freedom, and the Jacobian determinant.
     ///
     /// Each entry holds `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]`.
     fn strains(&self, point: [f64; 2]) -> ([[f64; 5]; DOF_COUNT], f64) {
@@ -51,7 +51,7 @@ impl QuadBending<'_> {
         (columns, jacobian.determinant)
     }
 
-    /// Covariant shear strain along an axis by each degree of freedom, between two tying points.
+    /// Covariant shear strains along an axis due to each unit degree of freedom, between two tying points.
     ///
     /// `coordinate`: from −1 at the first tying point to 1 at the second.
     fn interpolated_shear(
@@ -67,7 +67,7 @@ impl QuadBending<'_> {
         })
     }
 
-    /// Covariant shear strain along an axis (0 for ξ, 1 for η) by each degree of freedom.
+    /// Covariant shear strains along an axis (0 for ξ, 1 for η) due to each unit degree of freedom.
     ///
     /// Along ξ it is w,ξ + x,ξ θ2 − y,ξ θ1.
     fn shear(&self, axis: usize, point: [f64; 2]) -> [f64; DOF_COUNT] {

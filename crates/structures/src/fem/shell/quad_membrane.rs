@@ -32,7 +32,7 @@ impl QuadMembrane<'_> {
     /// rotation ½(v,x − u,y) of the displacements. `Quad4` has the same bending modes (QM6).
     pub(super) fn stiffness(&self) -> [[f64; FULL_DOF_COUNT]; FULL_DOF_COUNT] {
         let ShellSection { shear_modulus, thickness, .. } = *self.section;
-        let centre_jacobian = Jacobian::at([0.0; 2], self.points);
+        let center_jacobian = Jacobian::at([0.0; 2], self.points);
         let mut moduli = [[0.0; 4]; 4];
         for (row, membrane_row) in moduli.iter_mut().zip(self.section.membrane_stiffness()) {
             row[..3].copy_from_slice(&membrane_row);
@@ -40,10 +40,10 @@ impl QuadMembrane<'_> {
         moduli[3][3] = shear_modulus * thickness;
         let weighted_points = gauss_points().into_iter().map(|point| (point, 1.0));
         let mut matrix = integrate_stiffness(&moduli, weighted_points, |point| {
-            self.strains(point, &centre_jacobian)
+            self.strains(point, &center_jacobian)
         });
         let area = self.area();
-        let hourglass_pattern = self.hourglass_pattern(&centre_jacobian);
+        let hourglass_pattern = self.hourglass_pattern(&center_jacobian);
         for i in 0..4 {
             for j in 0..4 {
                 matrix[3 * i + 2][3 * j + 2] += HOURGLASS_STIFFNESS_RATIO
@@ -58,16 +58,16 @@ impl QuadMembrane<'_> {
         matrix
     }
 
-    /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners by u, v, ω of the nodes.
+    /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners due to u, v, ω of the nodes.
     ///
-    /// They are computed with the bending modes at 2 × 2 points and extrapolated bilinearly.
+    /// The strains, with those of the bending modes, are computed at 2 × 2 points and extrapolated bilinearly.
     pub(super) fn corner_strains(&self, displacement: &[f64; NODAL_DOF_COUNT]) -> [[f64; 3]; 4] {
         let mut full_displacement = [0.0; FULL_DOF_COUNT];
         full_displacement[..NODAL_DOF_COUNT].copy_from_slice(displacement);
         recover_inner(&self.stiffness(), NODAL_DOF_COUNT, &mut full_displacement);
-        let centre_jacobian = Jacobian::at([0.0; 2], self.points);
+        let center_jacobian = Jacobian::at([0.0; 2], self.points);
         let gauss_strains = gauss_points().map(|point| {
-            let columns = self.strains(point, &centre_jacobian).0;
+            let columns = self.strains(point, &center_jacobian).0;
             [0, 1, 2]
                 .map(|k| columns.iter().zip(&full_displacement).map(|(e, u)| e[k] * u).sum::<f64>())
         });
@@ -81,13 +81,13 @@ impl QuadMembrane<'_> {
         })
     }
 
-    /// Strains at a point by each degree of freedom, and the Jacobian determinant.
+    /// Strains at a point due to each unit degree of freedom, and the Jacobian determinant.
     ///
     /// Each entry holds `[ε_xx, ε_yy, γ_xy, ω − ½(v,x − u,y)]`.
     fn strains(
         &self,
         point: [f64; 2],
-        centre_jacobian: &Jacobian,
+        center_jacobian: &Jacobian,
     ) -> ([[f64; 4]; FULL_DOF_COUNT], f64) {
         let jacobian = Jacobian::at(point, self.points);
         let mut columns = [[0.0; 4]; FULL_DOF_COUNT];
@@ -100,7 +100,7 @@ impl QuadMembrane<'_> {
             let second_node = (first_node + 1) % 4;
             let start = self.points[first_node];
             let end = self.points[second_node];
-            // Displacement of the middle of the side by a unit difference of the rotations of its ends.
+            // Displacement of the middle of the side due to a unit difference between the rotations of its ends.
             let bulge_vector = [(end[1] - start[1]) / 8.0, (start[0] - end[0]) / 8.0];
             let bulge_strains = strain_columns(jacobian.global_derivatives(bulge));
             for k in 0..4 {
@@ -110,10 +110,10 @@ impl QuadMembrane<'_> {
                 columns[3 * first_node + 2][k] -= strain;
             }
         }
-        // Derivatives of 1 − ξ² and 1 − η² by the Jacobian at the centre, scaled so that their integrals vanish.
-        let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
-        let xi_mode = strain_columns(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
-        let eta_mode = strain_columns(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
+        // Derivatives of 1 − ξ² and 1 − η² from the Jacobian at the centre, scaled so that their integrals vanish.
+        let scale = -2.0 * center_jacobian.determinant / jacobian.determinant;
+        let xi_mode = strain_columns(center_jacobian.global_derivatives([scale * point[0], 0.0]));
+        let eta_mode = strain_columns(center_jacobian.global_derivatives([0.0, scale * point[1]]));
         columns[NODAL_DOF_COUNT..NODAL_DOF_COUNT + 2].copy_from_slice(&xi_mode);
         columns[NODAL_DOF_COUNT + 2..].copy_from_slice(&eta_mode);
         (columns, jacobian.determinant)
@@ -127,19 +127,19 @@ impl QuadMembrane<'_> {
     /// Hourglass pattern +, −, +, − of rotations less its linear part.
     ///
     /// It is orthogonal to every linear field of ω.
-    fn hourglass_pattern(&self, centre_jacobian: &Jacobian) -> [f64; 4] {
+    fn hourglass_pattern(&self, center_jacobian: &Jacobian) -> [f64; 4] {
         let signs = NODE_COORDINATES.map(|[xi, eta]| xi * eta);
         let pairs = signs.iter().zip(self.points);
         let x_sum: f64 = pairs.clone().map(|(sign, point)| sign * point[0]).sum();
         let y_sum: f64 = pairs.map(|(sign, point)| sign * point[1]).sum();
-        let derivatives = centre_jacobian.shape_derivatives([0.0; 2]);
+        let derivatives = center_jacobian.shape_derivatives([0.0; 2]);
         std::array::from_fn(|node| {
             0.25 * (signs[node] - x_sum * derivatives[node][0] - y_sum * derivatives[node][1])
         })
     }
 }
 
-/// Strains by a displacement u, and by a displacement v, with derivatives (∂/∂x, ∂/∂y).
+/// Strains due to a displacement u, and due to a displacement v, with derivatives (∂/∂x, ∂/∂y).
 fn strain_columns([dx, dy]: [f64; 2]) -> [[f64; 4]; 2] {
     [[dx, 0.0, dy, 0.5 * dy], [0.0, dy, dx, -0.5 * dx]]
 }

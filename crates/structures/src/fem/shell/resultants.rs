@@ -31,8 +31,8 @@ impl ShellResultants {
     /// Larger and smaller principal moment, N m/m.
     pub fn principal_moments(&self) -> [f64; 2] {
         let mean = 0.5 * (self.moments[0] + self.moments[1]);
-        let radius = (0.5 * (self.moments[0] - self.moments[1])).hypot(self.moments[2]);
-        [mean + radius, mean - radius]
+        let mohr_radius = (0.5 * (self.moments[0] - self.moments[1])).hypot(self.moments[2]);
+        [mean + mohr_radius, mean - mohr_radius]
     }
 
     /// Membrane forces, moments and shear forces in one list.
@@ -44,7 +44,7 @@ impl ShellResultants {
         values
     }
 
-    /// Mean axes of several elements, by the sums of their unit vectors e1, e2, n.
+    /// Mean axes of several elements, from the sums of their unit vectors e1, e2, n.
     pub(crate) fn mean_axes([e1_sum, _, normal_sum]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let normal = unit_vector(normal_sum);
         let e1 = unit_vector(add_scaled(e1_sum, -dot(e1_sum, normal), normal));
@@ -53,22 +53,23 @@ impl ShellResultants {
 
     /// The same forces and moments in other axes.
     ///
-    /// The new e1 is the part of `along` in the plane of the element. The new n is the normal on the side of `outward`,
-    /// so that the signs of moments and shear forces do not depend on the order of an element's nodes. Both vectors may
-    /// have any length.
+    /// The new e1 is the part of `tangent` in the plane of the element. The new n is the normal on the side of
+    /// `outward_direction`, so that the signs of moments and shear forces do not depend on the order of an element's
+    /// nodes. Both vectors may have any length.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) if `along` is normal to the element or `outward` lies in its plane.
-    pub fn in_axes(&self, along: [f64; 3], outward: [f64; 3]) -> Result<Self> {
+    /// [`Error::Input`](crate::Error::Input) if `tangent` is normal to the element, or if `outward_direction` lies in
+    /// its plane.
+    pub fn in_axes(&self, tangent: [f64; 3], outward_direction: [f64; 3]) -> Result<Self> {
         let [e1, e2, normal] = self.axes;
-        let outward_cosine = dot(normal, unit_vector(outward));
+        let outward_cosine = dot(normal, unit_vector(outward_direction));
         let quantity = "part of the outward direction along a shell's normal, of a unit vector";
         let needed = "at least 1e-6 in size: not in the plane of the shell";
         let is_outward = outward_cosine.abs() >= MIN_SINE_TO_AXIS;
         require(quantity, outward_cosine, is_outward, needed)?;
         let normal_sign = outward_cosine.signum();
-        let unit_along = unit_vector(along);
-        let projection = add_scaled(unit_along, -dot(unit_along, normal), normal);
+        let unit_tangent = unit_vector(tangent);
+        let projection = add_scaled(unit_tangent, -dot(unit_tangent, normal), normal);
         let in_plane_length = norm(projection);
         let quantity = "part of the direction of a shell's axis in its plane, of a unit vector";
         let needed = "at least 1e-6: not along the normal";

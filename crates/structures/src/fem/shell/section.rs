@@ -30,7 +30,7 @@ impl ShellSection {
         }
     }
 
-    /// Membrane stiffness D t (N/m), which gives `[n_xx, n_yy, n_xy]` by the strains `[ε_xx, ε_yy, γ_xy]`.
+    /// Membrane stiffness D t (N/m), which gives `[n_xx, n_yy, n_xy]` from the strains `[ε_xx, ε_yy, γ_xy]`.
     pub(super) fn membrane_stiffness(&self) -> [[f64; 3]; 3] {
         self.elasticity.map(|row| row.map(|modulus| modulus * self.thickness))
     }
@@ -58,7 +58,7 @@ impl ShellSection {
         stiffness
     }
 
-    /// Resultants at N corners by the strains of membrane and plate.
+    /// Resultants at N corners from the strains of membrane and plate.
     ///
     /// `membrane_strains`: `[ε_11, ε_22, γ_12]`; `plate_strains`: `[κ_11, κ_22, 2κ_12, γ_1, γ_2]`; `axes`: axes of the
     /// element.

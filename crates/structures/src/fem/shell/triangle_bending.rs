@@ -47,7 +47,7 @@ impl TriangleBending<'_> {
         matrix
     }
 
-    /// Strains `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` at the corners by w, θ1, θ2 of the nodes.
+    /// Strains `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` at the corners due to w, θ1, θ2 of the nodes.
     pub(super) fn corner_strains(&self, displacement: &[f64; NODAL_DOF_COUNT]) -> [[f64; 5]; 3] {
         let mut full_displacement = [0.0; FULL_DOF_COUNT];
         full_displacement[..NODAL_DOF_COUNT].copy_from_slice(displacement);
@@ -61,7 +61,7 @@ impl TriangleBending<'_> {
         })
     }
 
-    /// Strains at a point by each degree of freedom, and the Jacobian determinant.
+    /// Strains at a point due to each unit degree of freedom, and the Jacobian determinant.
     ///
     /// Each entry holds `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]`.
     fn strains(
@@ -71,7 +71,7 @@ impl TriangleBending<'_> {
     ) -> ([[f64; 5]; FULL_DOF_COUNT], f64) {
         let tangents = self.tangents();
         let determinant = tangents[0][0] * tangents[1][1] - tangents[1][0] * tangents[0][1];
-        // Derivatives (∂/∂x, ∂/∂y) by derivatives (∂/∂r, ∂/∂s).
+        // Derivatives (∂/∂x, ∂/∂y) from derivatives (∂/∂r, ∂/∂s).
         let global_derivatives = |[dr, ds]: [f64; 2]| {
             [
                 (tangents[1][1] * dr - tangents[0][1] * ds) / determinant,
@@ -93,7 +93,7 @@ impl TriangleBending<'_> {
         (columns, determinant)
     }
 
-    /// Covariant shear strains by each degree of freedom.
+    /// Covariant shear strains due to each unit degree of freedom.
     fn shear_fields(&self) -> [ShearField; FULL_DOF_COUNT] {
         let tying_strains = TYING_POINTS.map(|point| self.displacement_shears(point));
         let side_strains = SIDE_MIDPOINTS.map(|point| self.displacement_shears(point));
@@ -101,19 +101,22 @@ impl TriangleBending<'_> {
         let twist_factor = thickness / thickness.hypot(self.longest_side());
         std::array::from_fn(|k| {
             // Strains at the tying points near the nodes 3, 2 and 1.
-            let [near_3, near_2, near_1] = tying_strains.map(|strains| strains[k]);
+            let [shear_near_3, shear_near_2, shear_near_1] =
+                tying_strains.map(|strains| strains[k]);
             let [side_12, side_13, side_23] = side_strains.map(|strains| strains[k]);
             ShearField {
                 constant: [
-                    2.0 / 3.0 * (near_2[0] - 0.5 * near_2[1]) + (near_1[0] + near_1[1]) / 3.0,
-                    2.0 / 3.0 * (near_3[1] - 0.5 * near_3[0]) + (near_1[0] + near_1[1]) / 3.0,
+                    2.0 / 3.0 * (shear_near_2[0] - 0.5 * shear_near_2[1])
+                        + (shear_near_1[0] + shear_near_1[1]) / 3.0,
+                    2.0 / 3.0 * (shear_near_3[1] - 0.5 * shear_near_3[0])
+                        + (shear_near_1[0] + shear_near_1[1]) / 3.0,
                 ],
                 twist: twist_factor * (side_23[0] - side_12[0] - side_23[1] + side_13[1]),
             }
         })
     }
 
-    /// Covariant shear strains of the displacement field, by each degree of freedom.
+    /// Covariant shear strains of the displacement field due to each unit degree of freedom.
     ///
     /// They are w,r + x,r θ2 − y,r θ1 and w,s + x,s θ2 − y,s θ1.
     fn displacement_shears(&self, [r, s]: [f64; 2]) -> [[f64; 2]; FULL_DOF_COUNT] {
@@ -147,11 +150,11 @@ impl TriangleBending<'_> {
     }
 }
 
-/// Covariant shear strains of a degree of freedom, linear over the element.
+/// Covariant shear strains due to one degree of freedom; they vary linearly over the element.
 struct ShearField {
     /// Strains along r and along s at the centroid.
     constant: [f64; 2],
-    /// Derivative by s of the strain along r, and minus the derivative by r of the strain along s.
+    /// Derivative ∂/∂s of the strain along r, and minus the derivative ∂/∂r of the strain along s.
     twist: f64,
 }
 
@@ -190,12 +193,12 @@ fn rotation_derivatives([r, s]: [f64; 2]) -> [[f64; 2]; 4] {
 fn radon_rule() -> [([f64; 2], f64); 7] {
     let mut points = [([1.0 / 3.0, 1.0 / 3.0], 9.0 / 80.0); 7];
     for (orbit, sign) in points[1..].chunks_exact_mut(3).zip([-1.0, 1.0]) {
-        let near = (6.0 + sign * 15.0_f64.sqrt()) / 21.0;
-        let far = 1.0 - 2.0 * near;
+        let repeated_coordinate = (6.0 + sign * 15.0_f64.sqrt()) / 21.0;
+        let single_coordinate = 1.0 - 2.0 * repeated_coordinate;
         let weight = (155.0 + sign * 15.0_f64.sqrt()) / 2400.0;
-        orbit[0] = ([near, near], weight);
-        orbit[1] = ([far, near], weight);
-        orbit[2] = ([near, far], weight);
+        orbit[0] = ([repeated_coordinate, repeated_coordinate], weight);
+        orbit[1] = ([single_coordinate, repeated_coordinate], weight);
+        orbit[2] = ([repeated_coordinate, single_coordinate], weight);
     }
     points
 }

@@ -12,7 +12,10 @@ const SIDE_BULGE_RATIO: f64 = 1.5;
 /// Smallest factor β₀ of the deviatoric stiffness, which would vanish as ν → 1/2 (Felippa 2003).
 const MIN_DEVIATORIC_FACTOR: f64 = 0.01;
 
-/// Factors β₁ to β₉ of the natural strains by the rotations, with signs: by node, side and rotation.
+/// Factor of the stiffness of the deviatoric strains, summed over the middles of the three sides (Felippa 2003).
+const DEVIATORIC_STIFFNESS_SCALE: f64 = 0.75;
+
+/// Factors β₁ to β₉, with signs, of the natural strains due to the rotations. Indices: node, side, rotation.
 const ROTATION_STRAIN_PARAMETERS: [[[f64; 3]; 3]; 3] = [
     [[1.0, 2.0, 1.0], [0.0, 1.0, -1.0], [-1.0, -1.0, -2.0]],
     [[-2.0, -1.0, -1.0], [1.0, 1.0, 2.0], [-1.0, 0.0, 1.0]],
@@ -39,13 +42,13 @@ impl TriangleMembrane<'_> {
             let first_strains = nodal_strains[side];
             let second_strains = nodal_strains[(side + 1) % 3];
             let side_strains = std::array::from_fn(|k| mean(first_strains[k], second_strains[k]));
-            let weighted_area = 0.75 * self.deviatoric_factor() * area;
+            let weighted_area = DEVIATORIC_STIFFNESS_SCALE * self.deviatoric_factor() * area;
             add_point_stiffness(&mut matrix, &side_strains, &membrane_stiffness, weighted_area);
         }
         matrix
     }
 
-    /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners by u, v, ω of the nodes.
+    /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners due to u, v, ω of the nodes.
     pub(super) fn corner_strains(&self, displacement: &[f64; DOF_COUNT]) -> [[f64; 3]; 3] {
         let mean_strains = self.mean_strains();
         [0, 1, 2].map(|node| {
@@ -77,7 +80,7 @@ impl TriangleMembrane<'_> {
         0.5 * (self.x(1, 0) * self.y(2, 0) - self.x(2, 0) * self.y(1, 0))
     }
 
-    /// Mean strains Lᵀ/A by each degree of freedom, constant over the element.
+    /// Mean strains Lᵀ/A over the element due to each unit degree of freedom.
     fn mean_strains(&self) -> [[f64; 3]; DOF_COUNT] {
         let area = self.area();
         let side_bulges = self
@@ -105,7 +108,7 @@ impl TriangleMembrane<'_> {
         columns.map(|column| column.map(|value| value / area))
     }
 
-    /// Strains at a node less the mean strains, T_e Q T_θu, by each degree of freedom.
+    /// Strains at a node less the mean strains, T_e Q T_θu, due to each unit degree of freedom.
     fn deviatoric_strains(&self, node: usize) -> [[f64; 3]; DOF_COUNT] {
         let area = self.area();
         let natural_to_plane = self.natural_to_plane();
@@ -133,7 +136,7 @@ impl TriangleMembrane<'_> {
         columns
     }
 
-    /// Rotation of a node less the mean rotation of the triangle, by each degree of freedom.
+    /// Rotation of a node less the mean rotation of the triangle due to each unit degree of freedom.
     fn hierarchical_rotation(&self, node: usize) -> [f64; DOF_COUNT] {
         let area = self.area();
         let mut row = [0.0; DOF_COUNT];

@@ -1,7 +1,7 @@
 //! Drucker–Prager's cone, and the return of elastic trial stresses to it.
 //!
-//! Elastic–perfectly plastic with a cone as yield surface (Drucker & Prager 1952, Q. Appl. Math. 10, 157–165), matched to
-//! Mohr–Coulomb's law in plane strain. Symbols:
+//! Elastic–perfectly plastic with a cone as yield surface (Drucker & Prager 1952, Q. Appl. Math. 10, 157–165), matched
+//! to Mohr–Coulomb's law in plane strain. Symbols:
 //!
 //! | symbol | quantity |
 //! |---|---|
@@ -39,7 +39,7 @@ pub(super) struct Stress {
     pub(super) first_invariant: f64,
 }
 
-/// Where an elastic trial stress returns to.
+/// Part of the cone to which an elastic trial stress returns.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum ConeReturn {
     /// The trial stress is within the cone.
@@ -112,7 +112,8 @@ impl Cone {
         let multiplier = yield_function / self.consistency_modulus();
         let shear = trial_shear - self.g * multiplier;
         if shear < 0.0 {
-            // Without friction f = √J₂ − k, and the shear stress here is k: only a cone with a tip comes here.
+            // Without friction f = √J₂ − k, and `shear` is k, above zero. This branch is therefore reached only for a
+            // cone with a tip.
             return ConeReturn::Apex { first_invariant: self.shear_at_zero_pressure / self.alpha };
         }
         let stress = Stress {

@@ -1,5 +1,4 @@
 //! Drucker–Prager's law: drained sand, and soil with cohesion and friction.
-//!
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,12 +12,12 @@ use crate::fem::material::Material;
 /// Sand or other drained soil: yields on Drucker–Prager's cone, matched to Mohr–Coulomb in plane strain.
 ///
 /// Elastic–perfectly plastic with cohesion c, friction angle φ and dilation angle ψ ≤ φ. A smaller ψ than φ makes the
-/// tangent unsymmetric. Stress beyond the tip of the cone returns to the tip, where the tangent is 10⁻⁴ of the elasticity
-/// in place of zero, so that stiffness matrices stay regular. With φ = 0 it is von Mises' law with the
-/// shear strength c. The table of laws in [`SolidMaterial`] has the formulas.
+/// tangent unsymmetric. Stress beyond the tip of the cone returns to the tip, where the tangent is 10⁻⁴ of the
+/// elasticity in place of zero, so that stiffness matrices stay regular. With φ = 0 it is von Mises' law with the shear
+/// strength c. The table of laws in [`SolidMaterial`] has the formulas.
 ///
-/// An **initial stress** lies within the cone. Stress at rest with σ_h = K₀ σ_v and K₀ = 1 − sin φ (Jaky) lies outside of
-/// it for c = 0 and φ above about 36°.
+/// An **initial stress** lies within the cone. Stress at rest with σ_h = K₀ σ_v and K₀ = 1 − sin φ (Jaky) lies outside
+/// of it for c = 0 and φ above about 36°.
 ///
 /// The internal variables are the plastic strain, the energy dissipated so far and the initial stress.
 ///
@@ -65,11 +64,12 @@ const VARIABLE_COUNT: usize = 9;
 /// Part of the elasticity that the tangent has at the tip of the cone.
 ///
 /// The stress at the tip does not change with the strain. A tangent of zeros would make the stiffness matrix singular
-/// where all points around a node are at the tip. This part leaves a condition that double precision resolves, and slows
-/// Newton's method where only some points are at the tip by less than an iteration. Stress and energies do not depend on it.
+/// where all points around a node are at the tip. With this part the condition number of the matrix is small enough for
+/// double precision. Where only some points are at the tip, Newton's method needs less than one iteration more. Stress
+/// and energies do not depend on it.
 pub(super) const APEX_TANGENT_FRACTION: f64 = 1e-4;
 
-/// Yield function of a stress on the cone over the terms of its strength: what rounding leaves there.
+/// Largest yield function that rounding gives for a stress on the cone, relative to the terms of the strength.
 const YIELD_FUNCTION_ROUNDING: f64 = 1e-9;
 
 /// Internal variables of a point.
@@ -179,7 +179,7 @@ impl DruckerPrager {
     }
 }
 
-/// Internal variables of a point, by their names.
+/// Internal variables of a point, as named fields.
 fn read(variables: &[f64]) -> Result<ConeVariables> {
     let quantity = "internal variables of Drucker-Prager's law";
     same_length(quantity, variables.len(), VARIABLE_COUNT)?;

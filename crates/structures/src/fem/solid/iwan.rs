@@ -26,11 +26,11 @@ use crate::fem::internal_energy::InternalEnergy;
 /// follows the backbone, and unloads and reloads by Masing's rules. The strength is the stress of the last point; it
 /// does not depend on the mean stress, which stays elastic. The table of laws in [`SolidMaterial`] has the formulas.
 ///
-/// An **initial stress** takes the components as far as shear from zero to this stress does: in proportion to their
-/// shear moduli until they yield. The strength stays that of the backbone.
+/// An **initial stress** loads the components as shear from zero to this stress would: in proportion to their shear
+/// moduli until they yield. The strength is still that of the backbone.
 ///
-/// The internal variables are the initial stress with its stored energy, the energy dissipated so far, and of each
-/// component the strain at which it has no stress.
+/// The internal variables are the initial stress with its stored energy, the energy dissipated so far, and, for each
+/// component, the strain at which the component has no stress.
 ///
 /// ```
 /// use basemat::fem::{Iwan, SolidMaterial};
@@ -95,8 +95,8 @@ impl Iwan {
     ///
     /// `points`: shear strain γ (engineering, 0.01 is 1 %) and shear stress τ (Pa) in simple shear, without the origin.
     /// The backbone is straight between points and constant beyond the last one. `poisson`: Poisson's ratio ν of small
-    /// strains; the bulk modulus is K = 2 G (1 + ν)/(3 (1 − 2ν)) with G = τ/γ of the first point. `density`: kg/m³; 0 is
-    /// allowed.
+    /// strains; the bulk modulus is K = 2 G (1 + ν)/(3 (1 − 2ν)) with G = τ/γ of the first point. `density`: kg/m³; 0
+    /// is allowed.
     ///
     /// ```
     /// use basemat::fem::Iwan;
@@ -132,12 +132,13 @@ impl Iwan {
     /// Soil with a hyperbolic backbone from shear modulus and strength.
     ///
     /// `shear_modulus`: G of small strains, Pa. `strength`: τ_s, Pa. `limit_strain`: γ_n at which the strength is
-    /// reached; 200 τ_s/G is usual. `poisson` and `density` (kg/m³) are those of [`Iwan::new`]. The backbone is
-    /// τ = G γ/(1 + G γ/τ_m) with 1/τ_m = 1/τ_s − 1/(γ_n G), at 12 strains in a geometric series from 0.02 τ_s/G to γ_n. Up
+    /// reached; 200 τ_s/G is usual. `poisson` and `density` (kg/m³) are those of [`Iwan::new`]. The backbone is τ = G
+    /// γ/(1 + G γ/τ_m) with 1/τ_m = 1/τ_s − 1/(γ_n G), at 12 strains in a geometric series from 0.02 τ_s/G to γ_n. Up
     /// to the first of them it is straight with the slope G.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless G and τ_s are positive and γ_n ≥ 5 τ_s/G, and those of [`Iwan::new`].
+    /// [`Error::Input`](crate::Error::Input) unless G and τ_s are positive and γ_n ≥ 5 τ_s/G, and those of
+    /// [`Iwan::new`].
     pub fn hyperbolic(
         shear_modulus: f64,
         strength: f64,
@@ -168,7 +169,7 @@ impl Iwan {
         self.points.last().map_or(0.0, |point| point[1])
     }
 
-    /// Radius √2 τ_n of the surface that no stress leaves, Pa.
+    /// Radius √2 τ_n of the surface that bounds all deviators of the stress, Pa.
     fn strength_radius(&self) -> f64 {
         std::f64::consts::SQRT_2 * self.strength()
     }
@@ -178,17 +179,17 @@ impl Iwan {
         check_strain(strain, self.shear_modulus.max(self.bulk_modulus))
     }
 
-    /// Internal variables of a point, by their names.
+    /// Internal variables of a point, as named fields.
     fn read<'a>(&self, variables: &'a [f64]) -> Result<IwanVariables<'a>> {
         let quantity = "internal variables of Iwan's model";
         same_length(quantity, variables.len(), self.variable_count())?;
-        let (common, of_components) = variables.split_at(COMMON_VARIABLE_COUNT);
+        let (common_variables, component_variables) = variables.split_at(COMMON_VARIABLE_COUNT);
         Ok(IwanVariables {
-            rest_deviator: [common[0], common[1], common[2]],
-            rest_mean_stress: common[3],
-            rest_energy: common[4],
-            dissipated: common[5],
-            stress_free_strains: of_components.as_chunks().0,
+            rest_deviator: [common_variables[0], common_variables[1], common_variables[2]],
+            rest_mean_stress: common_variables[3],
+            rest_energy: common_variables[4],
+            dissipated: common_variables[5],
+            stress_free_strains: component_variables.as_chunks().0,
         })
     }
 
@@ -245,17 +246,17 @@ impl SolidMaterial for Iwan {
         let strain_norm = virgin_strain_norm(&self.components, norm.min(strength_radius));
         let mean_stress = trace(initial_stress) / 3.0;
         let mut rest_energy = 0.5 * mean_stress * mean_stress / self.bulk_modulus;
-        let (common, of_components) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
-        let stress_free_strains = of_components.as_chunks_mut().0;
+        let (common_variables, component_variables) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
+        let stress_free_strains = component_variables.as_chunks_mut().0;
         for (component, stress_free_strain) in self.components.iter().zip(stress_free_strains) {
             let elastic_norm = strain_norm.min(component.yield_strain_norm());
             rest_energy += component.shear_modulus * elastic_norm * elastic_norm;
             *stress_free_strain = scaled(direction, -elastic_norm);
         }
-        common[..3].copy_from_slice(&deviator);
-        common[3] = mean_stress;
-        common[4] = rest_energy;
-        common[5] = 0.0;
+        common_variables[..3].copy_from_slice(&deviator);
+        common_variables[3] = mean_stress;
+        common_variables[4] = rest_energy;
+        common_variables[5] = 0.0;
         Ok(())
     }
 
@@ -319,7 +320,8 @@ impl SolidMaterial for Iwan {
         Ok(InternalEnergy { stored, dissipated })
     }
 
-    /// Σ [(s_m − s_1) : Δe + |Δs|²/(4 G_j)] over the components, and what the mean stress adds off the middle.
+    /// Σ [(s_m − s_1) : Δe + |Δs|²/(4 G_j)] over the components, and a term of the mean stress if `midstep` is not the
+    /// middle of `start` and `end`.
     fn remainder(&self, path: &StrainPath, variables: &[f64]) -> Result<f64> {
         let variables = self.read(variables)?;
         for strain in [path.start, path.midstep, path.end] {
@@ -351,13 +353,13 @@ impl SolidMaterial for Iwan {
             return;
         }
         let strain_deviator = strain_deviator(strain);
-        let (common, of_components) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
-        let stress_free_strains = of_components.as_chunks_mut().0;
+        let (common_variables, component_variables) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
+        let stress_free_strains = component_variables.as_chunks_mut().0;
         for (component, stress_free_strain) in self.components.iter().zip(stress_free_strains) {
             let trial = component.trial_stress(strain_deviator, *stress_free_strain);
             let squared_norm = contraction(trial, trial);
             if component.yields(squared_norm) {
-                common[5] += component.dissipation(squared_norm);
+                common_variables[5] += component.dissipation(squared_norm);
                 let elastic_factor =
                     0.5 * component.return_factor(squared_norm) / component.shear_modulus;
                 *stress_free_strain = difference(strain_deviator, scaled(trial, elastic_factor));
@@ -367,8 +369,8 @@ impl SolidMaterial for Iwan {
 
     /// The plastic strain is the part of the strain deviator that stays when all stress unloads with G.
     ///
-    /// It is Σ G_j e_j^p/G with the plastic strain e_j^p of each component since the initial state. The mobilised strength
-    /// is |s|/(√2 τ_n).
+    /// It is Σ G_j e_j^p/G with the plastic strain e_j^p of each component since the initial state. The mobilised
+    /// strength is |s|/(√2 τ_n).
     fn state(&self, strain: [f64; 4], variables: &[f64]) -> SolidState {
         let Ok(variables) = self.read(variables) else { return SolidState::default() };
         let strain_deviator = strain_deviator(strain);

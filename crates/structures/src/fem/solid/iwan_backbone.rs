@@ -7,11 +7,13 @@ use crate::error::{Result, at_least, positive, require};
 
 /// Number of points of a hyperbolic backbone.
 const HYPERBOLIC_POINT_COUNT: usize = 12;
-/// First strain of a hyperbolic backbone over τ_s/G: up to there it is straight.
+/// First strain of a hyperbolic backbone over τ_s/G; up to this strain the backbone is straight.
 const FIRST_STRAIN_RATIO: f64 = 0.02;
-/// Smallest limit strain over τ_s/G: with less, the second of the 12 points lies below a concave curve.
+/// Smallest limit strain over τ_s/G. With a smaller one, the backbone would be convex at the second of the 12 points.
 const MIN_LIMIT_STRAIN_RATIO: f64 = 5.0;
-/// Difference of slopes over the first slope that is rounding: there the backbone is straight.
+/// Largest difference of two slopes because of rounding, relative to the first slope.
+///
+/// At a point with a smaller difference the backbone counts as straight.
 const SLOPE_ROUNDING: f64 = 1e-12;
 
 /// Elastic–perfectly plastic component.
@@ -29,7 +31,7 @@ impl Component {
         0.5 * self.radius / self.shear_modulus
     }
 
-    /// Stress that the component would have without a limit.
+    /// Elastic stress that the component would have without yielding.
     #[inline]
     pub(super) fn trial_stress(
         &self,
@@ -73,7 +75,9 @@ impl Component {
     }
 }
 
-/// Components of a backbone, by ascending yield strain; straight points have none.
+/// Components of a backbone, in the order of their yield strains.
+///
+/// A point at which the backbone is straight has no component.
 pub(super) fn backbone_components(points: &[[f64; 2]]) -> Result<Vec<Component>> {
     at_least("points of the backbone", points.len(), 1)?;
     let mut slopes = Vec::with_capacity(points.len() + 1);
@@ -141,7 +145,7 @@ pub(super) fn hyperbolic_points(
     Ok(points)
 }
 
-/// Norm of the strain deviator at which the virgin material has a stress deviator of a norm (Pa).
+/// Norm of the strain deviator at which the virgin material has a stress of norm `stress_norm` (Pa).
 ///
 /// The norm |e| of the strain follows from Σ min(2 G_j |e|, r_j) = `stress_norm`.
 pub(super) fn virgin_strain_norm(components: &[Component], stress_norm: f64) -> f64 {

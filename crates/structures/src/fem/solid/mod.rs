@@ -6,7 +6,8 @@
 //! | Iwan's model: clay without drainage | `iwan.rs`; `iwan_backbone.rs`: its components from a backbone |
 //! | Drucker–Prager: drained sand | `drucker_prager.rs`; `cone.rs`: return of stresses to the cone |
 //!
-//! Formulas, units and sources stand in the documentation of [`SolidMaterial`]. `tensor.rs` has the algebra of deviators.
+//! Formulas, units and sources stand in the documentation of [`SolidMaterial`]. `tensor.rs` has the algebra of
+//! deviators.
 
 mod cone;
 mod drucker_prager;
@@ -63,8 +64,8 @@ pub struct SolidState {
 /// | [`Iwan`] | clay without drainage; any modulus-reduction curve | \|s_j\| = r_j of parallel components; \|s\| = √2 τ_n in all | symmetric |
 /// | [`DruckerPrager`] | drained sand; soil with friction and cohesion | √J₂ + α I₁ = k | symmetric for ψ = φ |
 ///
-/// All have the elasticity C : ε = 2 G e + K tr ε 1, with the deviator e of the strain, and evaluate the plastic strain at
-/// the end of the path (backward Euler). |s| = √(s : s), I₁ = tr σ, √J₂ = |s|/√2.
+/// All have the elasticity C : ε = 2 G e + K tr ε 1, with the deviator e of the strain, and evaluate the plastic strain
+/// at the end of the path (backward Euler). |s| = √(s : s), I₁ = tr σ, √J₂ = |s|/√2.
 ///
 /// **Iwan** (Iwan 1967; Besseling 1958): from the points (γ_j, τ_j) of the backbone in simple shear, with slopes k_j,
 ///
@@ -87,7 +88,7 @@ pub struct SolidState {
 /// remainder:  (σ_m − σ_1) : Δε + ½ Δσ : C⁻¹ : Δσ, ≥ 0 for ψ = φ
 /// ```
 ///
-/// Stored energy counts from the initial state, and so below zero where an initial stress is relieved.
+/// Stored energy is relative to the initial state. It is therefore negative where an initial stress is relieved.
 ///
 /// # A law of your own
 ///
@@ -200,7 +201,8 @@ pub trait SolidMaterial: Any + Debug + Send + Sync {
     /// Work of the midstep stress that is neither stored nor dissipated, J/m³.
     ///
     /// It is σ(`midstep`):(`end` − `start`) less the changes of [`energy`](SolidMaterial::energy). The default
-    /// evaluates this definition. With a formula of its own, the energy balance of a run checks stress and energies.
+    /// evaluates this definition. If a material computes the remainder from a separate formula, the energy balance of a
+    /// run checks the stress and the energies.
     ///
     /// # Errors
     /// As for [`stress`](SolidMaterial::stress).
@@ -216,8 +218,8 @@ pub trait SolidMaterial: Any + Debug + Send + Sync {
 
     /// Overwrites `variables` by those after a step that ended with `strain`.
     ///
-    /// `variables` must stay finite. A material that cannot follow the step keeps them, and returns an error from the
-    /// next [`stress`](SolidMaterial::stress).
+    /// `variables` must stay finite. For a step that it cannot follow, a material does not change `variables`, and
+    /// returns an error from the next [`stress`](SolidMaterial::stress).
     fn commit(&self, strain: [f64; 4], variables: &mut [f64]);
 
     /// Plastic strain and mobilised strength at a strain. Default: zeros.

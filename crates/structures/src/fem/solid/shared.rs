@@ -11,11 +11,11 @@ use crate::fem::material::Material;
 /// the law, which never changes.
 #[derive(Debug, Clone)]
 pub struct SharedMaterial {
-    kind: Kind,
+    kind: LawKind,
 }
 
 #[derive(Debug, Clone)]
-enum Kind {
+enum LawKind {
     Elastic(Material),
     Inelastic(Arc<dyn SolidMaterial>),
 }
@@ -24,24 +24,24 @@ impl SharedMaterial {
     /// The linear elastic material; `None` for an inelastic one.
     pub fn elastic(&self) -> Option<&Material> {
         match &self.kind {
-            Kind::Elastic(material) => Some(material),
-            Kind::Inelastic(_) => None,
+            LawKind::Elastic(material) => Some(material),
+            LawKind::Inelastic(_) => None,
         }
     }
 
     /// The law of an inelastic material; `None` for a linear elastic one.
     pub fn inelastic(&self) -> Option<&dyn SolidMaterial> {
         match &self.kind {
-            Kind::Elastic(_) => None,
-            Kind::Inelastic(law) => Some(law.as_ref()),
+            LawKind::Elastic(_) => None,
+            LawKind::Inelastic(law) => Some(law.as_ref()),
         }
     }
 
     /// The material as a law.
     pub fn law(&self) -> &dyn SolidMaterial {
         match &self.kind {
-            Kind::Elastic(material) => material,
-            Kind::Inelastic(law) => law.as_ref(),
+            LawKind::Elastic(material) => material,
+            LawKind::Inelastic(law) => law.as_ref(),
         }
     }
 }
@@ -49,8 +49,8 @@ impl SharedMaterial {
 impl<M: SolidMaterial> From<M> for SharedMaterial {
     fn from(material: M) -> Self {
         let kind = match material.as_elastic() {
-            Some(elastic) => Kind::Elastic(elastic),
-            None => Kind::Inelastic(Arc::new(material)),
+            Some(elastic) => LawKind::Elastic(elastic),
+            None => LawKind::Inelastic(Arc::new(material)),
         };
         Self { kind }
     }
@@ -60,8 +60,10 @@ impl<M: SolidMaterial> From<M> for SharedMaterial {
 impl PartialEq for SharedMaterial {
     fn eq(&self, other: &Self) -> bool {
         match (&self.kind, &other.kind) {
-            (Kind::Elastic(material), Kind::Elastic(other_material)) => material == other_material,
-            (Kind::Inelastic(law), Kind::Inelastic(other_law)) => Arc::ptr_eq(law, other_law),
+            (LawKind::Elastic(material), LawKind::Elastic(other_material)) => {
+                material == other_material
+            }
+            (LawKind::Inelastic(law), LawKind::Inelastic(other_law)) => Arc::ptr_eq(law, other_law),
             _ => false,
         }
     }

@@ -52,24 +52,24 @@ pub(super) fn shear_strain(deviator: Deviator) -> f64 {
     (2.0 * contraction(deviator, deviator)).sqrt()
 }
 
-/// Matrix factor · I_dev + volume_factor · 1⊗1, for a strain with engineering shear.
+/// Matrix `deviator_factor` · I_dev + `volume_factor` · 1⊗1, for a strain with engineering shear.
 ///
-/// I_dev maps such a strain to its deviator. With 2 G and K it is the elasticity matrix.
-pub(super) fn isotropic_matrix(factor: f64, volume_factor: f64) -> [[f64; 4]; 4] {
-    let lateral = volume_factor - factor / 3.0;
-    let direct = lateral + factor;
+/// I_dev maps such a strain to its deviator. With the factors 2 G and K the matrix is that of elasticity.
+pub(super) fn isotropic_matrix(deviator_factor: f64, volume_factor: f64) -> [[f64; 4]; 4] {
+    let lateral = volume_factor - deviator_factor / 3.0;
+    let direct = lateral + deviator_factor;
     [
         [direct, lateral, lateral, 0.0],
         [lateral, direct, lateral, 0.0],
         [lateral, lateral, direct, 0.0],
-        [0.0, 0.0, 0.0, 0.5 * factor],
+        [0.0, 0.0, 0.0, 0.5 * deviator_factor],
     ]
 }
 
 /// Returns an error for a strain that is not finite, or whose elastic stress has no finite square.
 ///
-/// `modulus`: largest modulus of the material, Pa. Yield functions need the square of the elastic stress, here with a
-/// factor of 4 for strain and plastic strain of opposite signs.
+/// `modulus`: largest modulus of the material, Pa. Yield functions need the square of the elastic stress 2 G (ε − ε^p).
+/// Strain and plastic strain of opposite signs make it up to four times as large, hence the second factor of 4.
 pub(super) fn check_strain(strain: [f64; 4], modulus: f64) -> Result<()> {
     all_finite("strain of the solid", &strain)?;
     let squared_strain: f64 = strain.iter().map(|component| component * component).sum();

@@ -7,8 +7,8 @@ use crate::error::{Result, positive};
 
 /// Bilinear force with kinematic hardening: yielding columns, braces, dampers of mild steel.
 ///
-/// Elastic with stiffness k up to the yield force F_y, then with α k; after a reversal it is elastic over 2 F_y.
-/// Energy stored by hardening counts as recoverable.
+/// The spring is elastic with the stiffness k up to the yield force F_y, and has the stiffness α k beyond. After a
+/// reversal it is elastic over a range of 2 F_y. Energy stored by hardening counts as recoverable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bilinear {
     slider: Slider,
@@ -17,8 +17,8 @@ pub struct Bilinear {
 impl Bilinear {
     /// Spring with stiffness k, yield force F_y and hardening α.
     ///
-    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the slope after yield to k. All per metre of
-    /// thickness.
+    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the slope after yield to k. All values are per metre
+    /// of thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.

@@ -19,7 +19,7 @@ const DEFAULT_BETA: f64 = 0.5;
 /// F = α k d + (1 − α) F_y z,      ż = (1 − (β sgn(ḋ z) + γ)|z|ⁿ) ḋ/d_y,      β + γ = 1,  d_y = F_y/k
 /// ```
 ///
-/// Steps follow this equation exactly on straight paths of any length. With β ≥ ½ the spring never releases more energy
+/// Steps solve this equation exactly on straight paths of any length. With β ≥ ½ the spring never releases more energy
 /// than it has stored (Erlicher & Point 2004). The stored energy is ½ α k d² + ½ (1−α) F_y d_y z².
 ///
 /// ```
@@ -94,10 +94,9 @@ impl BoucWen {
     /// F = α k d + (1 − α) F_y z,      ż = (ḋ − (β |ḋ·z| + γ ḋ·z) z)/d_y
     /// ```
     ///
-    /// with vectors F, d and z. Steps follow this equation exactly on straight paths of any length. |ḋ·z| replaces the
-    /// sum
-    /// |ḋ_x z_x| + |ḋ_y z_y| of the paper, with which the force depends on the axes: on an ellipse of 3 by 1.5 d_y it
-    /// changes by 0.11 F_y if the axes are rotated by 45°. Both laws agree along straight lines.
+    /// with vectors F, d and z. Steps solve this equation exactly on straight paths of any length. Here |ḋ·z| replaces
+    /// the sum |ḋ_x z_x| + |ḋ_y z_y| of the paper, with which the force depends on the axes: on an ellipse of 3 by 1.5
+    /// d_y it changes by 0.11 F_y if the axes are rotated by 45°. Both laws agree along straight lines.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the exponent is 2, as in the paper.
@@ -201,7 +200,7 @@ struct LoopEnd {
 
 /// Largest number of Newton iterations, which converge from one side and finally quadratically.
 const MAX_NEWTON_ITERATIONS: usize = 60;
-/// Change of y ≤ 1 at which Newton's method has converged: rounding.
+/// Change of y ≤ 1 at which Newton's method has converged; it is the rounding of y.
 const UNLOADING_TOLERANCE: f64 = 1e-16;
 /// Relative change of v at which Newton's method has converged: a few roundings.
 const LOADING_TOLERANCE: f64 = 1e-15;

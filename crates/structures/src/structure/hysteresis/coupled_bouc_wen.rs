@@ -24,9 +24,10 @@ pub(super) struct CoupledBoucWen {
     dissipated: f64,
 }
 
-/// Largest |z| of a saved state: the radius of the yield circle, and rounding.
+/// Largest |z| of a saved state: the radius of the yield circle, plus rounding.
 const MAX_SAVED_NORM: f64 = 1.0 + 1e-12;
-/// Path length ξ up to which ln q follows from 1 − q without loss of digits: q is at least 1/cosh² 1.
+/// Path length ξ up to which [`Phase::lost_energy`] computes ln q from 1 − q without loss of digits: there q is at
+/// least 1/cosh² 1.
 const MAX_SHORT_PATH: f64 = 1.0;
 
 impl CoupledBoucWen {
@@ -61,7 +62,7 @@ impl CoupledBoucWen {
             self.z[0] * direction[0] + self.z[1] * direction[1],
             self.z[1] * direction[0] - self.z[0] * direction[1],
         ];
-        PlanePath { direction, end: GlideEnd::of_path(self.unloading, start, path_length) }
+        PlanePath { direction, end: PlanePathEnd::of_path(self.unloading, start, path_length) }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
@@ -128,11 +129,11 @@ fn squared_norm([x, y]: [f64; 2]) -> f64 {
 /// A straight path in a direction (unit vector), and z at its end.
 struct PlanePath {
     direction: [f64; 2],
-    end: GlideEnd,
+    end: PlanePathEnd,
 }
 
 impl PlanePath {
-    /// Vector in the axes of the spring, by its components along and normal to the path.
+    /// Vector in the axes of the spring, from its components along and normal to the path.
     fn in_spring_axes(&self, [tangential, normal]: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.direction;
         [x * tangential - y * normal, y * tangential + x * normal]
@@ -146,10 +147,14 @@ impl PlanePath {
     /// Derivatives ∂z/∂(d/d_y) at the end of the path.
     fn z_derivative(&self) -> [[f64; 2]; 2] {
         let [x, y] = self.direction;
-        let by_length = self.in_spring_axes(self.end.length_derivative);
-        let by_rotation = self.in_spring_axes(self.end.rotation_derivative);
-        [0, 1]
-            .map(|i| [by_length[i] * x - by_rotation[i] * y, by_length[i] * y + by_rotation[i] * x])
+        let length_derivative = self.in_spring_axes(self.end.length_derivative);
+        let rotation_derivative = self.in_spring_axes(self.end.rotation_derivative);
+        [0, 1].map(|i| {
+            [
+                length_derivative[i] * x - rotation_derivative[i] * y,
+                length_derivative[i] * y + rotation_derivative[i] * x,
+            ]
+        })
     }
 }
 
@@ -163,7 +168,7 @@ impl PlanePath {
 ///
 /// has elementary solutions by the addition theorems of tanh and tan, exact for any ξ.
 #[derive(Clone, Copy)]
-struct GlideEnd {
+struct PlanePathEnd {
     z: [f64; 2],
     /// ∂z/∂ξ.
     length_derivative: [f64; 2],
@@ -173,7 +178,7 @@ struct GlideEnd {
     lost_energy: f64,
 }
 
-impl GlideEnd {
+impl PlanePathEnd {
     /// End of a path of the length ξ = `path_length` from z = `start`; b = `unloading`.
     fn of_path(unloading: f64, start: [f64; 2], path_length: f64) -> Self {
         if start[0] >= 0.0 {
@@ -190,11 +195,12 @@ impl GlideEnd {
         let loading_phase = Phase::loading(path_length - unloading_length);
         let loading_start = [0.0, unloaded.z[1]];
         let loaded = loading_phase.end(loading_start);
-        let carried = loading_phase.carry(loading_start, unloaded.rotation_derivative);
+        let rotation_derivative =
+            loading_phase.propagated_change(loading_start, unloaded.rotation_derivative);
         let unloading_fraction = unloading_length / path_length;
         Self {
             rotation_derivative: [0, 1].map(|i| {
-                unloading_fraction * carried[i]
+                unloading_fraction * rotation_derivative[i]
                     + (1.0 - unloading_fraction) * loaded.rotation_derivative[i]
             }),
             lost_energy: unloaded.lost_energy + loaded.lost_energy,
@@ -238,14 +244,14 @@ impl Phase {
     }
 
     /// End of the path from z = (c, w).
-    fn end(&self, [c, w]: [f64; 2]) -> GlideEnd {
+    fn end(&self, [c, w]: [f64; 2]) -> PlanePathEnd {
         let Self { kappa, tangent, secant, half_tangent, .. } = *self;
         let denominator = 1.0 + kappa * c * tangent;
         let z = [(c + tangent) / denominator, w * secant / denominator];
         // tangent/ξ
         let tangent_ratio = if self.path_length > 0.0 { tangent / self.path_length } else { 1.0 };
         let coupling = kappa * w * secant / (denominator * denominator);
-        GlideEnd {
+        PlanePathEnd {
             z,
             length_derivative: [1.0 - kappa * z[0] * z[0], -kappa * z[0] * z[1]],
             rotation_derivative: [
@@ -256,8 +262,8 @@ impl Phase {
         }
     }
 
-    /// Change of z at the end of the path by a small change at its start (c, w).
-    fn carry(&self, [c, w]: [f64; 2], change: [f64; 2]) -> [f64; 2] {
+    /// Change of z at the end of the path due to a small `change` of z at its start (c, w).
+    fn propagated_change(&self, [c, w]: [f64; 2], change: [f64; 2]) -> [f64; 2] {
         let Self { kappa, tangent, secant, .. } = *self;
         let denominator = 1.0 + kappa * c * tangent;
         let tangential = secant / (denominator * denominator) * change[0];

@@ -12,9 +12,9 @@ use crate::structure::InternalEnergy;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CoupledSlider {
     /// Stiffness of the parallel spring, N/m.
-    parallel: f64,
+    parallel_stiffness: f64,
     /// Stiffness of the spring in series with the slider, N/m.
-    series: f64,
+    series_stiffness: f64,
     /// Force at which the slider yields, N.
     pub(super) limit: f64,
     /// Displacement of the slider, m.
@@ -36,8 +36,8 @@ struct SliderMotion {
 impl CoupledSlider {
     /// A new spring with the parameters of `slider`.
     pub(super) fn new(slider: &Slider) -> Self {
-        let Slider { parallel, series, limit, .. } = *slider;
-        Self { parallel, series, limit, slip: [0.0; 2], dissipated: 0.0 }
+        let Slider { parallel_stiffness, series_stiffness, limit, .. } = *slider;
+        Self { parallel_stiffness, series_stiffness, limit, slip: [0.0; 2], dissipated: 0.0 }
     }
 
     /// Motion of the slider to a deformation.
@@ -48,29 +48,34 @@ impl CoupledSlider {
             return SliderMotion { direction: [0.0; 2], force: 0.0, distance: 0.0 };
         }
         let direction = elongation.map(|component| component / length);
-        let trial_force = self.series * length;
+        let trial_force = self.series_stiffness * length;
         if trial_force <= self.limit {
             return SliderMotion { direction, force: trial_force, distance: 0.0 };
         }
-        let distance = length - self.limit / self.series;
+        let distance = length - self.limit / self.series_stiffness;
         SliderMotion { direction, force: self.limit, distance }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
         let SliderMotion { direction, force, distance } = self.motion_to(deformation);
         // For a deformation at a right angle, the force rotates about the displacement of the slider.
-        let normal_stiffness =
-            if distance > 0.0 { force / (force / self.series + distance) } else { self.series };
-        let tangent_stiffness = if distance > 0.0 { 0.0 } else { self.series };
+        let normal_stiffness = if distance > 0.0 {
+            force / (force / self.series_stiffness + distance)
+        } else {
+            self.series_stiffness
+        };
+        let tangent_stiffness = if distance > 0.0 { 0.0 } else { self.series_stiffness };
         let mut tangent = [[0.0; 2]; 2];
         for (i, row) in tangent.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let isotropic = if i == j { self.parallel + normal_stiffness } else { 0.0 };
+                let isotropic =
+                    if i == j { self.parallel_stiffness + normal_stiffness } else { 0.0 };
                 *entry = isotropic
                     + (tangent_stiffness - normal_stiffness) * (direction[i] * direction[j]);
             }
         }
-        let total_force = [0, 1].map(|k| self.parallel * deformation[k] + force * direction[k]);
+        let total_force =
+            [0, 1].map(|k| self.parallel_stiffness * deformation[k] + force * direction[k]);
         BiaxialResponse { force: total_force, tangent }
     }
 
@@ -78,7 +83,9 @@ impl CoupledSlider {
         let SliderMotion { force, distance, .. } = self.motion_to(deformation);
         let squared_deformation: f64 = deformation.iter().map(|d| d * d).sum();
         InternalEnergy {
-            stored: 0.5 * (self.parallel * squared_deformation + force * force / self.series),
+            stored: 0.5
+                * (self.parallel_stiffness * squared_deformation
+                    + force * force / self.series_stiffness),
             dissipated: self.dissipated + self.limit * distance,
         }
     }
@@ -98,7 +105,7 @@ impl CoupledSlider {
         let new_motion = self.motion_to(deformation);
         let released_square =
             old_motion.force * old_motion.force - new_motion.force * new_motion.force;
-        self.dissipated += 0.5 * released_square / self.series;
+        self.dissipated += 0.5 * released_square / self.series_stiffness;
         self.slip = [0, 1].map(|k| self.slip[k] + new_motion.distance * old_motion.direction[k]);
     }
 

@@ -71,7 +71,7 @@ impl FrictionPendulum {
     pub fn with_yield_displacement(mut self, displacement: f64) -> Result<Self> {
         positive("displacement at which sliding begins", displacement)?;
         let initial_stiffness = self.slider.limit / displacement;
-        self.slider.series = positive("stiffness before sliding", initial_stiffness)?;
+        self.slider.series_stiffness = positive("stiffness before sliding", initial_stiffness)?;
         Ok(self)
     }
 
@@ -103,8 +103,8 @@ impl FrictionPendulum {
     /// [`Error::Input`](crate::Error::Input) unless the stiffness is positive.
     pub fn with_vertical_stiffness(&self, stiffness: f64) -> Result<PendulumBearing> {
         positive("vertical stiffness of the friction pendulum", stiffness)?;
-        let Slider { series, limit, .. } = self.slider;
-        let slider = CoupledSlider::new(&Slider::new(0.0, series, limit));
+        let Slider { series_stiffness, limit, .. } = self.slider;
+        let slider = CoupledSlider::new(&Slider::new(0.0, series_stiffness, limit));
         Ok(PendulumBearing::new(slider, self.radius, self.friction, stiffness))
     }
 }

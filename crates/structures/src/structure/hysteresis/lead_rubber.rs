@@ -1,4 +1,4 @@
-//! Lead–rubber bearing by its engineering parameters.
+//! Lead–rubber bearing from its engineering parameters.
 
 use super::biaxial::BiaxialSpring;
 use super::coupled_slider::CoupledSlider;
@@ -32,7 +32,7 @@ impl LeadRubber {
     /// Default ratio of the initial stiffness to the stiffness after yield.
     pub const STIFFNESS_RATIO: f64 = 10.0;
 
-    /// Bearing by the dimensions of its rubber and lead cores.
+    /// Bearing from the dimensions of its rubber and lead cores.
     ///
     /// `shear_modulus` G of the rubber: Pa. `rubber_area` A: m². `rubber_thickness` t: total, m. `lead_area` of
     /// the cores: m². Areas are per metre of the structure's thickness, out of the plane.
@@ -74,8 +74,8 @@ impl LeadRubber {
     pub fn with_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
         let requirement = "finite and above 1";
         require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, requirement)?;
-        let lead_stiffness = (ratio - 1.0) * self.slider.parallel;
-        self.slider.series = positive("first stiffness of the bearing", lead_stiffness)?;
+        let lead_stiffness = (ratio - 1.0) * self.slider.parallel_stiffness;
+        self.slider.series_stiffness = positive("first stiffness of the bearing", lead_stiffness)?;
         Ok(self)
     }
 
@@ -86,7 +86,7 @@ impl LeadRubber {
 
     /// Stiffness after yield K₂, N/m per metre of thickness.
     pub fn stiffness(&self) -> f64 {
-        self.slider.parallel
+        self.slider.parallel_stiffness
     }
 
     /// A new bearing with these parameters for two directions.

@@ -57,8 +57,9 @@ impl PendulumBearing {
         self.vertical_stiffness * self.shortening(deformation).max(0.0)
     }
 
-    /// Vertical shortening of the bearing, m: climb on the dish less the rise of the part above; negative after
-    /// lift-off.
+    /// Vertical shortening of the bearing, m; negative after lift-off.
+    ///
+    /// It is the climb on the dish less the rise of the part above.
     fn shortening(&self, [x, y, z]: [f64; 3]) -> f64 {
         (x * x + y * y) / (2.0 * self.radius) - z
     }
@@ -75,7 +76,7 @@ impl PendulumBearing {
         ]
     }
 
-    /// Derivatives of the forces by the deformation, N/m: a symmetric matrix, by rows.
+    /// Derivatives of the forces with respect to the deformation, N/m: a symmetric matrix, row by row.
     pub(super) fn tangent(&self, deformation: [f64; 3]) -> [[f64; 3]; 3] {
         let horizontal_deformation = horizontal(deformation);
         let slider_tangent = self.slider.response(horizontal_deformation).tangent;

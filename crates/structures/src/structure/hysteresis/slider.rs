@@ -4,15 +4,15 @@ use super::{SpringResponse, corrupt_state};
 use crate::error::{Result, require};
 use crate::structure::InternalEnergy;
 
-/// Spring parallel to another spring in series with a slider: a bilinear law with kinematic hardening.
+/// A spring, and parallel to it a spring in series with a slider: a bilinear law with kinematic hardening.
 ///
 /// The return mapping is exact for straight paths.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Slider {
     /// Stiffness of the parallel spring, N/m.
-    pub(super) parallel: f64,
+    pub(super) parallel_stiffness: f64,
     /// Stiffness of the spring in series with the slider, N/m.
-    pub(super) series: f64,
+    pub(super) series_stiffness: f64,
     /// Force at which the slider yields, N.
     pub(super) limit: f64,
     /// Displacement of the slider, m.
@@ -28,33 +28,35 @@ struct SliderState {
 }
 
 impl Slider {
-    pub(super) fn new(parallel: f64, series: f64, limit: f64) -> Self {
-        Self { parallel, series, limit, slip: 0.0, dissipated: 0.0 }
+    pub(super) fn new(parallel_stiffness: f64, series_stiffness: f64, limit: f64) -> Self {
+        Self { parallel_stiffness, series_stiffness, limit, slip: 0.0, dissipated: 0.0 }
     }
 
     /// State of the slider at a deformation.
     fn state_at(&self, deformation: f64) -> SliderState {
-        let trial_force = self.series * (deformation - self.slip);
+        let trial_force = self.series_stiffness * (deformation - self.slip);
         if trial_force.abs() <= self.limit {
             return SliderState { force: trial_force, slip: self.slip };
         }
         let force = self.limit.copysign(trial_force);
-        SliderState { force, slip: deformation - force / self.series }
+        SliderState { force, slip: deformation - force / self.series_stiffness }
     }
 
     pub(super) fn response(&self, deformation: f64) -> SpringResponse {
         let SliderState { force, slip } = self.state_at(deformation);
-        let series_tangent = if slip == self.slip { self.series } else { 0.0 };
+        let series_tangent = if slip == self.slip { self.series_stiffness } else { 0.0 };
         SpringResponse {
-            force: self.parallel * deformation + force,
-            tangent: self.parallel + series_tangent,
+            force: self.parallel_stiffness * deformation + force,
+            tangent: self.parallel_stiffness + series_tangent,
         }
     }
 
     pub(super) fn energy(&self, deformation: f64) -> InternalEnergy {
         let SliderState { force, slip } = self.state_at(deformation);
         InternalEnergy {
-            stored: 0.5 * (self.parallel * deformation * deformation + force * force / self.series),
+            stored: 0.5
+                * (self.parallel_stiffness * deformation * deformation
+                    + force * force / self.series_stiffness),
             dissipated: self.dissipated + self.limit * (slip - self.slip).abs(),
         }
     }

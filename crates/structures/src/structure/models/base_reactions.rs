@@ -1,4 +1,4 @@
-//! Geometric stiffness of P–Δ by rigid links, and by reactions of the ground that rotate with the base.
+//! Geometric stiffness of P–Δ due to rigid links, and due to reactions of the ground that rotate with the base.
 //!
 //! The forces of the static state are in equilibrium with the weights and with the reactions at the fixed contact
 //! nodes. In a rigid rotation the forces of the elements rotate with them, and the weights keep their direction. The
@@ -13,7 +13,7 @@
 //! |---|---|
 //! | K_G | geometric stiffness of elements and links |
 //! | R | rigid rotations by 1 rad about the middle of the base, one column for each axis |
-//! | Q | mean rotations of the base by the degrees of freedom, one row for each axis; Q R = 1 |
+//! | Q | matrix from the degrees of freedom to the mean rotations of the base, one row for each axis; Q R = 1 |
 //! | T | forces in equilibrium with the structure in these rotations |
 //! | D | surplus K_G R − T, at degrees of freedom of the base |
 //!
@@ -29,7 +29,7 @@ use crate::structure::{BaseNode, DofCombination, FemModel, Structure, Triplets};
 /// Forces below this fraction of the largest are rounding.
 const FORCE_ROUNDING_RATIO: f64 = 1e-12;
 
-/// Difference of two distances that counts as rounding, relative to the extent of the base.
+/// Largest difference of two distances because of rounding, relative to the extent of the base.
 const DISTANCE_ROUNDING_RATIO: f64 = 1e-9;
 
 /// Matrix entries (row, column, value).
@@ -40,8 +40,10 @@ struct ReactionAxis {
     axis: usize,
     direction: Direction,
 }
+/// Rotations of a mesh in the plane.
 const PLANE_ROTATIONS: &[ReactionAxis] =
     &[ReactionAxis { axis: 2, direction: Direction::Rotation }];
+/// Rotations of a mesh in space.
 const SPACE_ROTATIONS: &[ReactionAxis] = &[
     ReactionAxis { axis: 0, direction: Direction::RotationX },
     ReactionAxis { axis: 1, direction: Direction::RotationY },
@@ -49,17 +51,17 @@ const SPACE_ROTATIONS: &[ReactionAxis] = &[
 ];
 
 impl FemModel {
-    /// Whether each degree of freedom moves a contact node of the base's floor.
+    /// Whether each degree of freedom of the model moves a contact node of the base's floor.
     ///
     /// Walls have no static reactions to the weight.
-    pub(super) fn moves_base(&self) -> Vec<bool> {
-        let mut moves_base = vec![false; self.dofs()];
+    pub(super) fn is_base_dof(&self) -> Vec<bool> {
+        let mut is_base_dof = vec![false; self.dofs()];
         let base = self.base();
         let floors = base.parts().iter().flat_map(|part| BaseNode::floor(part));
         for dof in floors.flat_map(BaseNode::dofs) {
-            moves_base[dof] = true;
+            is_base_dof[dof] = true;
         }
-        moves_base
+        is_base_dof
     }
 
     /// Rotations of the mesh.
@@ -115,9 +117,9 @@ impl FemModel {
         Ok(entries)
     }
 
-    /// Forces of the elements less the weight, by the degrees of freedom of the mesh.
+    /// Forces of the elements less the weight, one for each degree of freedom of the mesh.
     ///
-    /// They are the forces that followers of rigid links exert on their leaders.
+    /// These are the forces that followers of rigid links exert on their leaders.
     fn mesh_forces(&self, displacement: &[f64], gravity: f64) -> Result<Vec<f64>> {
         let n = self.numbering.dofs();
         let mut upwards = vec![0.0; n];
@@ -195,7 +197,7 @@ impl FemModel {
         let mut reactions = self.inertia_forces(&mass, up_direction, gravity);
         self.model_matrix(MatrixKind::Stiffness)?
             .multiply_add(1.0, displacement, &mut reactions);
-        let moves_base = self.moves_base();
+        let is_base_dof = self.is_base_dof();
         let mut force_lists = Vec::with_capacity(base.rigid_rotations.len());
         for rotation in self.rotations() {
             // In this rotation the end of a vertical unit vector moves by `factor` along `horizontal`.
@@ -212,8 +214,8 @@ impl FemModel {
             let weight_moments: Vec<f64> =
                 base.rigid_rotations.iter().map(|motion| dot(motion, &forces)).collect();
             for node in 0..self.mesh.nodes().len() {
-                let vertical_dof = self.dof(node, up_direction).filter(|&dof| moves_base[dof]);
-                let horizontal_dof = self.dof(node, horizontal).filter(|&dof| moves_base[dof]);
+                let vertical_dof = self.dof(node, up_direction).filter(|&dof| is_base_dof[dof]);
+                let horizontal_dof = self.dof(node, horizontal).filter(|&dof| is_base_dof[dof]);
                 if let (Some(vertical_dof), Some(horizontal_dof)) = (vertical_dof, horizontal_dof) {
                     forces[horizontal_dof] += factor * reactions[vertical_dof];
                 }
@@ -278,7 +280,7 @@ impl BaseRotations {
             .then_some(Self { rigid_rotations, mean_rotations })
     }
 
-    /// Subtracts the surplus forces D from the forces of rigid rotations, by matrix `entries`.
+    /// Adds the matrix `entries` that subtract the surplus forces D from the forces of rigid rotations.
     fn remove_forces(&self, surplus_forces: &[Vec<f64>], entries: &mut Entries) {
         for (a, row) in self.mean_rotations.iter().enumerate() {
             let nonzero_forces =
@@ -309,9 +311,9 @@ impl BaseRotations {
 /// mean rotations of a base, and keep the matrix sparse. The choice depends on the coordinates only, not on the
 /// numbering.
 fn outermost_nodes(nodes: &[BaseNode]) -> Vec<BaseNode> {
-    let grid = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
+    let direction_grid = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
     let mut outermost: Vec<BaseNode> = Vec::new();
-    for [x, y] in grid.into_iter().flatten().filter(|direction| *direction != [0.0; 2]) {
+    for [x, y] in direction_grid.into_iter().flatten().filter(|direction| *direction != [0.0; 2]) {
         let distances: Vec<f64> = nodes.iter().map(|node| x * node.x + y * node.y).collect();
         let distance_range = span(distances.iter().copied());
         let max_distance = distance_range[1];

@@ -126,7 +126,7 @@ impl FemModel {
     }
 }
 
-/// Axes and offsets of a beam; `None` for another element.
+/// Axes and offsets of a beam; `None` for other elements.
 ///
 /// A boxed element is unboxed first.
 fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
@@ -179,6 +179,8 @@ fn end_force_row(
     row
 }
 
+/// Translations of a rigid motion in space.
 const TRANSLATION_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+/// Rotations of a rigid motion in space.
 const ROTATION_DIRECTIONS: [Direction; 3] =
     [Direction::RotationX, Direction::RotationY, Direction::RotationZ];

@@ -29,7 +29,7 @@ impl FemModel {
         Ok(values)
     }
 
-    /// Elements with internal variables in their undeformed state, by the present degrees of freedom.
+    /// Elements with internal variables in their undeformed state, for the present degrees of freedom.
     pub(super) fn undeformed_inelastic_elements(&self) -> Result<Option<InelasticElements>> {
         let row = |node, direction| self.row(node, direction);
         InelasticElements::new(&self.mesh, self.dofs(), row)

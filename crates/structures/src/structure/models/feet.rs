@@ -142,8 +142,10 @@ pub(super) fn lowest_face_feet(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
     Ok(faces.iter().map(|face| feet_at(face.corners(), 0.5 * face.thickness())).collect())
 }
 
-/// Number of element faces at the height of the base that it does not cover, and the middle of the first one, m.
-pub(super) fn uncovered(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize, [f64; 2])> {
+/// Element faces at the height of the base that the base does not cover.
+///
+/// Returns their number, and the middle [x, y] of the first one, m; `None` without such faces.
+pub(super) fn uncovered_faces(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize, [f64; 2])> {
     let height = mesh.nodes()[feet.first()?.first()?.node][mesh.up_axis()];
     let base_faces: Vec<Vec<usize>> =
         feet.iter().map(|face| face.iter().map(|foot| foot.node).collect()).collect();

@@ -17,7 +17,7 @@ use crate::structure::{
 /// [`Mesh::directions`](crate::fem::Mesh::directions). A node has those directions that one of its elements has;
 /// [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh damping.
 ///
-/// Elements with internal variables, such as soil that yields, act by the model's [`NonlinearForce`];
+/// The forces of elements with internal variables, such as soil that yields, are the model's [`NonlinearForce`];
 /// [`solid_points`](FemModel::solid_points) returns their stresses and plastic strains.
 ///
 /// Elements act on each other through common nodes. A part without a common node with the part on the ground must be
@@ -52,7 +52,7 @@ pub struct FemModel {
     has_active_stiffness: bool,
     /// Acceleration of gravity for the static forces of P–Δ, m/s²; `None` without P–Δ.
     pub(super) p_delta_gravity: Option<f64>,
-    /// Entries (row, column, value) of the geometric stiffness by rigid links and by reactions at the base.
+    /// Entries (row, column, value) of the geometric stiffness due to rigid links and to reactions at the base.
     pub(super) link_and_base_stiffness: Vec<(usize, usize, f64)>,
     /// Elements with internal variables; `None` if all are linear.
     pub(super) inelastic: Option<InelasticElements>,
@@ -93,7 +93,7 @@ impl FemModel {
         })
     }
 
-    /// Base by the present degrees of freedom.
+    /// Base in terms of the present degrees of freedom.
     fn foot_base(&self) -> Result<Base> {
         let parts = self
             .feet
@@ -255,7 +255,7 @@ impl FemModel {
         foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up_axis()] - foot.height)
     }
 
-    /// The model with other links, and with base and static forces of P–Δ by these links.
+    /// The model with other links; its base and the static forces of P–Δ are computed again.
     pub(super) fn with_links(self, links: RigidLinks) -> Result<Self> {
         let linked = Self { links: Some(links), ..self };
         let inelastic = linked.undeformed_inelastic_elements()?;
@@ -343,7 +343,7 @@ impl Structure for FemModel {
         Ok(())
     }
 
-    /// Stiffness of the linear elements; the others act by the nonlinear force.
+    /// Stiffness of the linear elements; the forces of the other elements are the nonlinear force.
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_matrices(
             matrix,
@@ -371,7 +371,7 @@ impl Structure for FemModel {
     }
 
     fn description(&self) -> StructureDescription {
-        let faces_off_ground = feet::uncovered(&self.mesh, &self.feet);
+        let faces_off_ground = feet::uncovered_faces(&self.mesh, &self.feet);
         StructureDescription::for_mesh(&self.mesh, faces_off_ground)
     }
 

@@ -45,8 +45,8 @@ impl NonlinearForce for StructureGroup {
     fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
         self.nonlinear_members().try_fold(0.0, |sum, (member, nonlinear_force)| {
             let range = member.dof_range();
-            let midstep = midstep.get(range.clone())?;
-            Some(sum + nonlinear_force.remainder(midstep, end.get(range)?)?)
+            let member_midstep = midstep.get(range.clone())?;
+            Some(sum + nonlinear_force.remainder(member_midstep, end.get(range)?)?)
         })
     }
 
@@ -102,7 +102,7 @@ impl NonlinearForce for StructureGroup {
     }
 }
 
-/// Splits saved values into `count` lists, each of which follows its length.
+/// Splits saved values into `count` lists; the length of each list precedes its values.
 fn split_by_length(values: &[f64], count: usize) -> Result<Vec<&[f64]>> {
     let corrupt = || CheckpointError::Corrupt { quantity: "state of the structures" };
     let mut remaining_values = values;

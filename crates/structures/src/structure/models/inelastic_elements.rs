@@ -19,6 +19,8 @@ struct InelasticElement {
     terms: Vec<(usize, f64)>,
     /// Range of the terms of each of the element's degrees of freedom.
     rows: Vec<Range<usize>>,
+    /// The model's degree of freedom of each of the element's, if each is one of the model's with a weight of 1.
+    dofs: Option<Vec<usize>>,
     /// Range of the element's internal variables.
     variables: Range<usize>,
 }
@@ -26,10 +28,23 @@ struct InelasticElement {
 impl InelasticElement {
     /// Overwrites `element_displacement` by the displacements of the element's degrees of freedom.
     fn gather(&self, displacement: &[f64], element_displacement: &mut [f64]) {
+        if let Some(dofs) = &self.dofs {
+            let values = element_displacement.iter_mut().zip(dofs);
+            return values.for_each(|(value, dof)| *value = displacement[*dof]);
+        }
         for (value, row) in element_displacement.iter_mut().zip(&self.rows) {
             let terms = self.terms[row.clone()].iter();
             *value = terms.map(|&(dof, weight)| weight * displacement[dof]).sum();
         }
+    }
+
+    /// The model's degree of freedom of each of the element's; `None` unless each is one with a weight of 1.
+    fn single_dofs(&self) -> Option<Vec<usize>> {
+        let single_dof = |row: &Range<usize>| match self.terms[row.clone()] {
+            [(dof, 1.0)] => Some(dof),
+            _ => None,
+        };
+        self.rows.iter().map(single_dof).collect()
     }
 
     /// Adds forces on the element's degrees of freedom to those on the model's.
@@ -43,6 +58,9 @@ impl InelasticElement {
 
     /// Adds a matrix of the element, with all its zeros, to that of the model.
     fn scatter_matrix(&self, element_matrix: &[f64], matrix: &mut Triplets) {
+        if let Some(dofs) = &self.dofs {
+            return matrix.add_block(dofs, element_matrix);
+        }
         for (values, row) in element_matrix.chunks_exact(self.rows.len()).zip(&self.rows) {
             for (value, column) in values.iter().zip(&self.rows) {
                 for &(i, row_weight) in &self.terms[row.clone()] {
@@ -99,7 +117,7 @@ pub(super) struct InelasticElements {
     variables: Vec<f64>,
     /// Displacement of the model at the end of the last step, m and rad.
     committed_displacement: Vec<f64>,
-    /// Energies of the undeformed model, from which energies count.
+    /// Energies of the undeformed model, which are subtracted from those of a deformed one.
     energy_at_rest: InternalEnergy,
     /// Whether forces act at zero displacement.
     has_initial_stress: bool,
@@ -129,7 +147,7 @@ impl Clone for InelasticElements {
 impl InelasticElements {
     /// Elements of a mesh in their undeformed state; `None` if all are linear.
     ///
-    /// `row` returns the motion of a node by the model's `dof_count` degrees of freedom.
+    /// `row` returns the motion of a node as a sum of the model's `dof_count` degrees of freedom.
     ///
     /// # Errors
     /// [`Error::Item`](crate::Error::Item) with the element and its error in the undeformed state.
@@ -151,6 +169,7 @@ impl InelasticElements {
                 coordinates: mesh.coordinates(element.nodes()),
                 terms: Vec::new(),
                 rows: Vec::new(),
+                dofs: None,
                 variables: first_variable..variables.len(),
             };
             for &node in element.nodes() {
@@ -161,6 +180,7 @@ impl InelasticElements {
                 }
             }
             let element_variables = &mut variables[first_variable..];
+            inelastic.dofs = inelastic.single_dofs();
             force
                 .initialize(&inelastic.coordinates, element_variables)
                 .and_then(|()| all_finite("internal variables", element_variables))
@@ -318,7 +338,9 @@ impl NonlinearForce for InelasticElements {
         Some(self.total_remainder(midstep, end).unwrap_or(f64::NAN))
     }
 
-    /// The element with the highest mobilised strength at the first of the degrees of freedom that has one.
+    /// Text of the element with the highest mobilised strength at one degree of freedom.
+    ///
+    /// It is the first of `dofs` that belongs to an element with internal variables.
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         self.check_length(displacement).ok()?;
         dofs.iter().find_map(|dof| {

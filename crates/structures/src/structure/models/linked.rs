@@ -9,9 +9,9 @@ impl FemModel {
     ///
     /// Uses are stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and
     /// the remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
-    /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses still act at the
-    /// followers. Contact nodes may be followers. The static forces of [`with_p_delta`](FemModel::with_p_delta) are
-    /// computed again.
+    /// [`row`](FemModel::row) its motion as a sum of the leader's degrees of freedom. Masses and stiffnesses still act
+    /// at the followers. Contact nodes may be followers. The static forces of [`with_p_delta`](FemModel::with_p_delta)
+    /// are computed again.
     ///
     /// ```
     /// use basemat::fem::{Beam, Direction, Mesh};
@@ -60,8 +60,9 @@ impl FemModel {
 
     /// Gives the nodes `followers` the displacements of `leader`; their rotations remain free.
     ///
-    /// Both sides of a soil column are tied at each height, so that it deforms as a soil of infinite width in vertically
-    /// propagating waves. A tie resists the rotation of the structure as a whole, as the soil beside the column does.
+    /// Both sides of a soil column are tied at each height, so that it deforms as a soil of infinite width in
+    /// vertically propagating waves. A tie resists the rotation of the structure as a whole, as the soil beside the
+    /// column does.
     ///
     /// ```
     /// use basemat::fem::{Direction, Layer, Material, Mesh};

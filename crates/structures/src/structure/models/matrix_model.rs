@@ -1,4 +1,4 @@
-//! Structures by their matrices.
+//! Structures that are defined by their matrices.
 
 use crate::error::{Error, Result, at_least, same_length};
 use crate::linalg::{Elimination, SparseMatrix};
@@ -8,7 +8,7 @@ use crate::structure::{Base, DofCombination, RayleighDamping, SectionRows, Struc
 /// Name of the damping matrix in errors.
 const DAMPING_MATRIX_NAME: &str = "damping matrix";
 
-/// A structure by its mass, damping and stiffness matrices, for example from another program.
+/// A structure defined by its mass, damping and stiffness matrices, for example from another program.
 ///
 /// The degrees of freedom are absolute displacements in m and rotations in rad, in any order. The structure is
 /// **free**, without supports, since the ground supports it: a rigid translation must give no elastic force beyond
@@ -92,7 +92,7 @@ impl MatrixModel {
         })
     }
 
-    /// Force or moment that a part of the structure exerts on the other parts, by its inertia.
+    /// Force or moment that the inertia of a part exerts on the other parts.
     ///
     /// `motion`: a rigid motion of the part by one unit, as (degree of freedom, displacement) terms. A translation
     /// gives the force in its direction, a rotation about a point the moment about this point. The weights of the
@@ -152,7 +152,7 @@ impl MatrixModel {
         Ok(Self { damping, has_active_damping: false, ..self })
     }
 
-    /// Error for a stiffness that is not symmetric, by which proportional damping is not symmetric either.
+    /// Error for a stiffness that is not symmetric, which makes proportional damping unsymmetric too.
     fn unsymmetric_stiffness(&self) -> Option<Error> {
         let stiffness = SparseMatrix::new("stiffness matrix", &self.stiffness).ok()?;
         let mass = SparseMatrix::new("mass matrix", &self.mass).ok()?;

@@ -1,4 +1,4 @@
-//! P–Δ effect of finite-element models: static forces by the weight, and the buckling factor.
+//! P–Δ effect of finite-element models: static forces due to the weight, and the buckling factor.
 
 use super::inelastic_elements::InelasticElements;
 use crate::error::{Error, Result, StructureError, not_negative, require_part};
@@ -106,8 +106,8 @@ impl FemModel {
     /// Factor on the axial forces of the elements at which the structure buckles.
     ///
     /// The contact nodes are fixed. The forces come from [`with_p_delta`](FemModel::with_p_delta), or are prescribed.
-    /// The factor is infinite if the structure does not buckle under a million times the forces. For the present
-    /// mesh it is accurate to nine digits, by some forty sparse factorisations.
+    /// The factor is infinite if the structure does not buckle under a million times the forces. For the present mesh
+    /// it is accurate to nine digits; the search takes some forty sparse factorisations.
     ///
     /// # Errors
     /// [`Error::Singular`] when the structure is a mechanism on fixed contact nodes.
@@ -150,16 +150,16 @@ struct FixedBaseModel {
     /// Degrees of freedom that are not fixed.
     free_dofs: Vec<usize>,
     /// Stiffness of the free degrees of freedom without P–Δ.
-    elastic: SparseMatrix,
+    elastic_stiffness: SparseMatrix,
     /// Geometric stiffness of the free degrees of freedom.
-    geometric: SparseMatrix,
+    geometric_stiffness: SparseMatrix,
 }
 
 impl FixedBaseModel {
     /// Assembles both matrices; returns an error for invalid entries.
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
-        let is_fixed = model.moves_base();
+        let is_fixed = model.is_base_dof();
         let free_dofs: Vec<usize> = (0..n).filter(|&dof| !is_fixed[dof]).collect();
         let mut free_index = vec![None; n];
         free_dofs.iter().enumerate().for_each(|(index, &dof)| free_index[dof] = Some(index));
@@ -170,9 +170,9 @@ impl FixedBaseModel {
             let full_matrix = SparseMatrix::new(MATRIX_NAME, &entries)?;
             submatrix(MATRIX_NAME, &full_matrix, free_dofs.len(), |dof| free_index[dof])
         };
-        let elastic = free_matrix(MatrixKind::Stiffness)?;
-        let geometric = free_matrix(MatrixKind::GeometricStiffness)?;
-        Ok(Self { free_dofs, elastic, geometric })
+        let elastic_stiffness = free_matrix(MatrixKind::Stiffness)?;
+        let geometric_stiffness = free_matrix(MatrixKind::GeometricStiffness)?;
+        Ok(Self { free_dofs, elastic_stiffness, geometric_stiffness })
     }
 
     /// Elastic displacements under a load.
@@ -181,10 +181,11 @@ impl FixedBaseModel {
             return Ok(load);
         }
         let mut displacement = load.clone();
-        SparseFactor::positive_definite(MATRIX_NAME, &self.elastic)?.solve(&mut displacement);
+        SparseFactor::positive_definite(MATRIX_NAME, &self.elastic_stiffness)?
+            .solve(&mut displacement);
         let mut residual = load;
         let max_load = largest(&residual);
-        self.elastic.multiply_add(-1.0, &displacement, &mut residual);
+        self.elastic_stiffness.multiply_add(-1.0, &displacement, &mut residual);
         if residual.iter().all(|force| force.abs() <= EQUILIBRIUM_TOLERANCE * max_load) {
             Ok(displacement)
         } else {
@@ -198,8 +199,8 @@ impl FixedBaseModel {
             return Ok(true);
         }
         let mut entries = Triplets::new(self.free_dofs.len());
-        self.elastic.add_to(1.0, &mut entries);
-        self.geometric.add_to(factor, &mut entries);
+        self.elastic_stiffness.add_to(1.0, &mut entries);
+        self.geometric_stiffness.add_to(factor, &mut entries);
         let matrix = SparseMatrix::new(MATRIX_NAME, &entries)?;
         Ok(SparseFactor::positive_definite(MATRIX_NAME, &matrix).is_ok())
     }

@@ -32,7 +32,7 @@ pub struct RigidBody {
     /// Corners of the base from its middle, m.
     outline: Vec<[f64; 2]>,
     mass: f64,
-    /// Tensor about the centre of gravity, kg m².
+    /// Tensor of inertia about the centre of gravity, kg m².
     inertia: [[f64; 3]; 3],
     /// Centre of gravity from the middle of the base, m.
     gravity_center: [f64; 3],
@@ -55,11 +55,11 @@ impl RigidBody {
         let half_length = 0.5 * length;
         let half_width = 0.5 * width;
         let mass = length * width * height * density;
-        let inertia_by = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
+        let moment_of_inertia = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
         let inertia = diagonal_tensor([
-            inertia_by(width, height),
-            inertia_by(length, height),
-            inertia_by(length, width),
+            moment_of_inertia(width, height),
+            moment_of_inertia(length, height),
+            moment_of_inertia(length, width),
         ]);
         let outline = vec![
             [-half_length, -half_width],
@@ -89,7 +89,7 @@ impl RigidBody {
         Self::from_mass(outline, mass, inertia, [0.0, 0.0, 0.5 * height])
     }
 
-    /// Any rigid body, by its convex base, mass, inertia and centre of gravity.
+    /// Any rigid body, from its convex base, mass, inertia and centre of gravity.
     ///
     /// `outline`: corners of the base relative to the point of the degrees of freedom, m. `mass`: kg. `inertia`: tensor
     /// about the centre of gravity, kg m², with moments of inertia on the diagonal and minus the products of inertia

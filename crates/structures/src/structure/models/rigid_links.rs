@@ -67,7 +67,7 @@ pub(super) struct RigidLinks {
 }
 
 impl RigidLinks {
-    /// Links of a mesh, without any.
+    /// Numbering of a mesh without links, to which [`link`](Self::link) adds links.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
         let node_count = mesh.nodes().len();
         let dof_count = numbering.dofs();
@@ -127,14 +127,14 @@ impl RigidLinks {
     fn renumber(&mut self, mesh: &Mesh, numbering: &Numbering) {
         let nodes = mesh.nodes();
         let mut remaining_count = 0;
-        let mut remaining = vec![None; numbering.dofs()];
+        let mut remaining_indices = vec![None; numbering.dofs()];
         for node in 0..nodes.len() {
             for &direction in mesh.directions() {
                 if self.is_tied(node, direction) {
                     continue;
                 }
                 if let Some(dof) = numbering.dof(node, direction) {
-                    remaining[dof] = Some(remaining_count);
+                    remaining_indices[dof] = Some(remaining_count);
                     remaining_count += 1;
                 }
             }
@@ -149,13 +149,13 @@ impl RigidLinks {
                     RigidLinkKind::Tie => [0.0; 3],
                     _ => [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]),
                 };
-                // A follower has the motion of its leader, and displacements by the leader's rotations.
+                // A follower has the motion of its leader, and displacements due to the leader's rotations.
                 let motions = mesh.directions().iter().filter(|motion| kind.ties(**motion));
                 let mut row = Vec::new();
                 for &motion in motions {
                     let weight = direction.in_rigid_motion(motion, arm);
                     let remaining_dof =
-                        numbering.dof(leader, motion).and_then(|dof| remaining[dof]);
+                        numbering.dof(leader, motion).and_then(|dof| remaining_indices[dof]);
                     if let Some(remaining_dof) = remaining_dof.filter(|_| weight != 0.0) {
                         row.push((remaining_dof, weight));
                     }
@@ -191,7 +191,7 @@ impl RigidLinks {
             .map(|&(remaining_dof, _)| remaining_dof)
     }
 
-    /// Terms by remaining degrees of freedom of a weighted sum of the mesh's degrees of freedom.
+    /// Converts a weighted sum of the mesh's degrees of freedom to the remaining ones.
     pub(super) fn remaining_terms(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let mut remaining_terms: Vec<(usize, f64)> = Vec::new();
         for &(dof, weight) in terms {
@@ -228,7 +228,7 @@ impl RigidLinks {
         }
     }
 
-    /// Adds Lᵀ A L to `matrix`, with the matrix A of the mesh and u = L q by the remaining degrees of freedom q.
+    /// Adds Lᵀ A L to `matrix`, with the matrix A of the mesh, and u = L q for the remaining degrees of freedom q.
     pub(super) fn add_condensed(&self, mesh_matrix: &Triplets, matrix: &mut Triplets) {
         for &(row, column, value) in mesh_matrix.entries() {
             // Degrees of freedom of a user's element may be out of range; the matrix later returns an error.

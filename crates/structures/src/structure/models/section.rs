@@ -52,8 +52,8 @@ impl FemModel {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when a number is not finite, when no node lies at `height`, when no
     /// element lies above it, or when an element crosses it; [`Error::Part`](crate::Error::Part) when an element above
-    /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in
-    /// space, for which [`section_in_space`](FemModel::section_in_space) exists.
+    /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in space, which needs
+    /// [`section_in_space`](FemModel::section_in_space).
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
         require_part(
             "section of three resultants",
@@ -104,8 +104,8 @@ impl FemModel {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when a number is not finite, when no node lies at `height`, when no
     /// element lies above it, or when an element crosses it; [`Error::Part`](crate::Error::Part) when an element above
-    /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in the
-    /// plane, for which [`section`](FemModel::section) exists.
+    /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in the plane, which needs
+    /// [`section`](FemModel::section).
     pub fn section_in_space(&self, height: f64, reference: [f64; 2]) -> Result<SpaceSection> {
         require_part(
             "section of six resultants",

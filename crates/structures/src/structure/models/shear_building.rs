@@ -36,7 +36,7 @@ impl Storey {
 ///
 /// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each floor, from
 /// below. The columns do not shorten, so all floors rise and rotate with the base. A storey's drift is the relative
-/// displacement of its floors without the part by the rotation, `d_j = u_j − u_(j−1) + h_j θ`.
+/// displacement of its floors less the part due to the rotation, `d_j = u_j − u_(j−1) + h_j θ`.
 ///
 /// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law ([`with_law`](ShearBuilding::with_law)), and
 /// the building may stand on isolators ([`isolated`](ShearBuilding::isolated)).
@@ -59,7 +59,7 @@ pub struct ShearBuilding {
     pub(super) storeys: Vec<Storey>,
     /// Initial tangent of the law that replaces a storey's stiffness, N/m; `None` without a law.
     pub(super) law_tangents: Vec<Option<f64>>,
-    /// The laws, as springs that deform by the drifts of their storeys.
+    /// The laws, as springs whose deformations are the drifts of their storeys.
     pub(super) springs: HystereticSprings,
     /// Whether storey 0 is a level of isolators, with the P–Δ effect of [`ShearBuilding::add_p_delta`].
     pub(super) is_isolated: bool,
@@ -74,11 +74,11 @@ pub struct ShearBuilding {
 short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.len() }
 
 impl ShearBuilding {
-    // Degrees of freedom of the base. Those of the floors follow from `FIRST_FLOOR` on.
-    const BASE_HORIZONTAL: usize = 0;
-    const BASE_VERTICAL: usize = 1;
-    const BASE_ROTATION: usize = 2;
-    const FIRST_FLOOR: usize = 3;
+    // Degrees of freedom of the base. Those of the floors follow from `FIRST_FLOOR_DOF` on.
+    const BASE_HORIZONTAL_DOF: usize = 0;
+    const BASE_VERTICAL_DOF: usize = 1;
+    const BASE_ROTATION_DOF: usize = 2;
+    const FIRST_FLOOR_DOF: usize = 3;
 
     /// Building on a rigid base, with storeys listed from below.
     ///
@@ -163,12 +163,12 @@ impl ShearBuilding {
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn floor(&self, storey: usize) -> Result<usize> {
-        Ok(in_bounds("storey", storey, self.storeys.len())? + Self::FIRST_FLOOR)
+        Ok(in_bounds("storey", storey, self.storeys.len())? + Self::FIRST_FLOOR_DOF)
     }
 
     /// Index of the horizontal displacement of the highest floor.
     pub fn roof(&self) -> usize {
-        Self::FIRST_FLOOR + self.storeys.len() - 1
+        Self::FIRST_FLOOR_DOF + self.storeys.len() - 1
     }
 
     /// Drift of `storey` (0: the lowest): `u_j − u_(j−1) + h_j θ`.
@@ -190,7 +190,8 @@ impl ShearBuilding {
     pub fn total_drift(&self, storey: usize) -> Result<DofCombination> {
         let floor = self.floor(storey)?;
         let height = self.storeys[..=storey].iter().map(|storey| storey.height).sum();
-        Ok([(floor, 1.0), (Self::BASE_HORIZONTAL, -1.0), (Self::BASE_ROTATION, height)].into())
+        Ok([(floor, 1.0), (Self::BASE_HORIZONTAL_DOF, -1.0), (Self::BASE_ROTATION_DOF, height)]
+            .into())
     }
 
     /// Horizontal force of the floor on top of `storey` on the part below, N.
@@ -208,7 +209,7 @@ impl ShearBuilding {
         if self.law_tangents[storey].is_some() {
             let floors = self.storeys.iter().enumerate().skip(storey);
             let acceleration =
-                floors.map(|(index, floor)| (Self::FIRST_FLOOR + index, -floor.mass)).collect();
+                floors.map(|(index, floor)| (Self::FIRST_FLOOR_DOF + index, -floor.mass)).collect();
             return Ok(SectionRows { acceleration, ..SectionRows::default() });
         }
         let Storey { height, stiffness, .. } = self.storeys[storey];
@@ -222,21 +223,24 @@ impl ShearBuilding {
                 drift_term.1 -= weight_stiffness * sway_term.1;
             }
         }
-        let velocity = scaled_drift(self.dashpot(storey)).into();
+        let velocity = scaled_drift(self.damping_coefficient(storey)).into();
         Ok(SectionRows { displacement: displacement.into(), velocity, ..SectionRows::default() })
     }
 
-    /// Relative displacement `u_j − u_(j−1)`, with the part by the base's rotation.
+    /// Relative displacement `u_j − u_(j−1)`, which includes the part due to the base's rotation.
     fn sway_row(storey: usize) -> [(usize, f64); 2] {
-        let lower_dof =
-            if storey == 0 { Self::BASE_HORIZONTAL } else { Self::FIRST_FLOOR + storey - 1 };
-        [(Self::FIRST_FLOOR + storey, 1.0), (lower_dof, -1.0)]
+        let lower_dof = if storey == 0 {
+            Self::BASE_HORIZONTAL_DOF
+        } else {
+            Self::FIRST_FLOOR_DOF + storey - 1
+        };
+        [(Self::FIRST_FLOOR_DOF + storey, 1.0), (lower_dof, -1.0)]
     }
 
     /// Terms of the drift of a storey that exists.
     fn drift_terms(&self, storey: usize) -> [(usize, f64); 3] {
         let sway = Self::sway_row(storey);
-        [sway[0], sway[1], (Self::BASE_ROTATION, self.storeys[storey].height)]
+        [sway[0], sway[1], (Self::BASE_ROTATION_DOF, self.storeys[storey].height)]
     }
 
     /// Weight that the columns of `storey` carry, N.
@@ -268,11 +272,15 @@ impl ShearBuilding {
             let weight = self.weight_on(index);
             if self.is_isolated && index == 0 {
                 for (dof, sign) in Self::sway_row(0) {
-                    matrix.add(dof, Self::BASE_ROTATION, sign * weight);
-                    matrix.add(Self::BASE_ROTATION, dof, sign * weight);
+                    matrix.add(dof, Self::BASE_ROTATION_DOF, sign * weight);
+                    matrix.add(Self::BASE_ROTATION_DOF, dof, sign * weight);
                 }
                 // d = u_1 − u_0 + h θ, so that d θ contains a further h θ².
-                matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, weight * storey.height);
+                matrix.add(
+                    Self::BASE_ROTATION_DOF,
+                    Self::BASE_ROTATION_DOF,
+                    weight * storey.height,
+                );
             } else {
                 matrix.add_outer(Self::sway_row(index), -weight / storey.height);
             }
@@ -287,7 +295,7 @@ impl ShearBuilding {
     /// Damping coefficient of a storey, N s/m: its dashpot and the stiffness-proportional damping of its columns.
     ///
     /// The latter uses the stiffness in [`Storey`], even if a law replaces this stiffness. Isolators have none.
-    fn dashpot(&self, storey: usize) -> f64 {
+    fn damping_coefficient(&self, storey: usize) -> f64 {
         let Storey { stiffness, damping, .. } = self.storeys[storey];
         let is_isolator = self.is_isolated && storey == 0;
         damping + if is_isolator { 0.0 } else { self.stiffness_damping * stiffness }
@@ -303,22 +311,22 @@ impl ShearBuilding {
 
 impl Structure for ShearBuilding {
     fn dofs(&self) -> usize {
-        Self::FIRST_FLOOR + self.storeys.len()
+        Self::FIRST_FLOOR_DOF + self.storeys.len()
     }
 
     fn base(&self) -> Base {
         let left = self.center - 0.5 * self.width;
         let right = self.center + 0.5 * self.width;
-        let dofs = [Self::BASE_HORIZONTAL, Self::BASE_VERTICAL, Self::BASE_ROTATION];
+        let dofs = [Self::BASE_HORIZONTAL_DOF, Self::BASE_VERTICAL_DOF, Self::BASE_ROTATION_DOF];
         BaseNode::rigid_base(left, right, dofs).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        matrix.add(Self::BASE_HORIZONTAL, Self::BASE_HORIZONTAL, self.base_mass);
-        matrix.add(Self::BASE_VERTICAL, Self::BASE_VERTICAL, self.total_mass());
-        matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, self.rotary_inertia());
+        matrix.add(Self::BASE_HORIZONTAL_DOF, Self::BASE_HORIZONTAL_DOF, self.base_mass);
+        matrix.add(Self::BASE_VERTICAL_DOF, Self::BASE_VERTICAL_DOF, self.total_mass());
+        matrix.add(Self::BASE_ROTATION_DOF, Self::BASE_ROTATION_DOF, self.rotary_inertia());
         for (index, storey) in self.storeys.iter().enumerate() {
-            let dof = Self::FIRST_FLOOR + index;
+            let dof = Self::FIRST_FLOOR_DOF + index;
             matrix.add(dof, dof, storey.mass);
         }
         Ok(())
@@ -341,7 +349,7 @@ impl Structure for ShearBuilding {
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add_drifts(matrix, |storey| self.dashpot(storey));
+        self.add_drifts(matrix, |storey| self.damping_coefficient(storey));
         Ok(())
     }
 

@@ -1,12 +1,13 @@
-//! Stiffness-proportional damping of shear buildings, by their first frequency.
+//! Stiffness-proportional damping of shear buildings, set at their first frequency.
 
 use std::f64::consts::{PI, TAU};
 
 use super::shear_building::ShearBuilding;
 use crate::error::{Result, damping_ratio, finite, positive};
 
-/// Limit of inverse iterations, which only matters for nearly equal frequencies: the quotient is then accurate long
-/// before.
+/// Largest number of inverse iterations.
+///
+/// The limit is reached only for nearly equal frequencies, for which the quotient is accurate much earlier.
 const MAX_INVERSE_ITERATIONS: usize = 10_000;
 /// Relative change at which the Rayleigh quotient has converged: a few roundings.
 const QUOTIENT_TOLERANCE: f64 = 1e-15;

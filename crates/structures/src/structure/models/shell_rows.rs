@@ -65,8 +65,8 @@ impl FemModel {
     /// At each node they are means over these shells. Pass the shells of one mat or one wall only: the moments of
     /// another wall at a common node are different. `elements` are indices from [`Mesh::add`].
     ///
-    /// `axes` returns [along, outward] at a point [x, y, z] (m): e1 is the part of `along` in the plane of a shell, and
-    /// the normal n is on the side of `outward`, as for [`ShellResultants::in_axes`].
+    /// `axes` returns [tangent, outward direction] at a point [x, y, z] (m): e1 is the part of the tangent in the plane
+    /// of a shell, and the normal n is on the side of the outward direction, as for [`ShellResultants::in_axes`].
     ///
     /// ```
     /// use basemat::coupled::Probe;
@@ -88,8 +88,8 @@ impl FemModel {
     /// let probe = Probe::section("moment along x", &node_rows.moments[0]);
     /// assert_eq!(probe.unit, "N·m/m");
     /// // The largest moment in the mat in any direction, for any displacement.
-    /// let rest = model.rigid_motion(Direction::Z, [0.0; 3]);
-    /// let moments = rows.iter().flat_map(|rows| rows.value(&rest).principal_moments());
+    /// let rigid_motion = model.rigid_motion(Direction::Z, [0.0; 3]);
+    /// let moments = rows.iter().flat_map(|rows| rows.value(&rigid_motion).principal_moments());
     /// assert!(moments.fold(0.0, |largest: f64, moment| largest.max(moment.abs())) < 1e-3);
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -114,9 +114,9 @@ impl FemModel {
                 unit_displacement[k] = 0.0;
                 let nodes = shell.nodes().iter().zip(&points);
                 for ((&node, &point), resultants) in nodes.zip(&node_resultants) {
-                    let [along, outward] = axes(point);
+                    let [tangent, outward_direction] = axes(point);
                     let common_resultants = resultants
-                        .in_axes(along, outward)
+                        .in_axes(tangent, outward_direction)
                         .map_err(|fault| fault.within(element_name(element)))?;
                     let sum = node_sums.entry(node).or_default();
                     if k == 0 {
@@ -159,7 +159,7 @@ struct NodeSum {
     shell_count: f64,
     /// Sums of the unit vectors e1, e2, n.
     axes: [[f64; 3]; 3],
-    /// Sums of each resultant by a unit value of each degree of freedom of the mesh.
+    /// Sums of each resultant due to a unit value of each degree of freedom of the mesh.
     rows: [BTreeMap<usize, f64>; 8],
 }
 
@@ -172,7 +172,7 @@ impl NodeSum {
         }
     }
 
-    /// Adds the resultants of a shell by a unit value of the degree of freedom `dof`.
+    /// Adds the resultants of a shell due to a unit value of the degree of freedom `dof`.
     fn add_resultants(&mut self, dof: usize, resultants: &ShellResultants) {
         for (row, value) in self.rows.iter_mut().zip(resultants.values()) {
             if value != 0.0 {
@@ -189,7 +189,7 @@ fn shell_at(mesh: &Mesh, element: usize) -> Result<&Shell> {
     shell.ok_or_else(|| Error::part(element_name(element), "it is not a shell"))
 }
 
-/// The element as a shell, also if it is in a box; `None` for another element.
+/// The element as a shell, also if it is in a box; `None` for other elements.
 fn as_shell(element: &dyn Element) -> Option<&Shell> {
     let any: &dyn Any = element;
     match any.downcast_ref::<Box<dyn Element>>() {

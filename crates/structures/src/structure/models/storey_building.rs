@@ -36,8 +36,8 @@ pub struct PlanStorey {
 impl PlanStorey {
     /// Storey with a homogeneous rectangular floor above the middle of the mat.
     ///
-    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as the field. The
-    /// storey has no eccentricities and no dashpots.
+    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as in the field
+    /// [`stiffness`](PlanStorey::stiffness). The storey has no eccentricities and no dashpots.
     pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
         let y_inertia = mass * length * length / 12.0;
         let x_inertia = mass * width * width / 12.0;
@@ -57,8 +57,8 @@ impl PlanStorey {
 ///
 /// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from below,
 /// the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not shorten: all
-/// floors rise and tilt with the mat. The deformation of a storey is the relative motion of its floors without the part
-/// by the tilt. Along one axis and without eccentricities the building is a
+/// floors rise and tilt with the mat. The deformation of a storey is the relative motion of its floors less the part
+/// due to the tilt. Along one axis and without eccentricities the building is a
 /// [`ShearBuilding`](crate::structure::ShearBuilding).
 ///
 /// [`ModalDamping`](crate::structure::ModalDamping) adds modal damping. Single walls and dampers at any point of a
@@ -136,9 +136,9 @@ impl StoreyBuilding {
     /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`.
     ///
     /// Directions: [`ALONG`](StoreyBuilding::DIRECTION_ALONG), [`ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or
-    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's [`drift`](StoreyBuilding::drift) in
-    /// that direction. Laws along x and y act independently: along the diagonal, two sliders have √2 times the friction
-    /// of one. For bearings that slide or yield in any direction use
+    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's
+    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: along the diagonal,
+    /// two sliders have √2 times the friction of one. For bearings that slide or yield in any direction use
     /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
     ///
     /// # Errors
@@ -250,7 +250,7 @@ impl StoreyBuilding {
         Ok(self.deformation([0, storey + 1], place))
     }
 
-    /// Displacement of the second of two `levels` relative to the first, without the part by the mat's rotation.
+    /// Displacement of the second of two `levels` relative to the first, less the part due to the mat's rotation.
     fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
         let storeys = &self.storeys[levels[0]..levels[1]];
         let height: f64 = storeys.iter().map(|storey| storey.height).sum();
@@ -307,13 +307,13 @@ fn level_motion(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     [translation_row(x_dof, twist, -y), translation_row(y_dof, twist, x), twist.into()]
 }
 
-/// Displacement by the translation `dof` and the rotation `twist` at a lever arm, m.
+/// Displacement due to the translation `dof` and the rotation `twist` at a lever arm, m.
 fn translation_row(dof: usize, twist: usize, lever_arm: f64) -> DofCombination {
     let twist_term = Some((twist, lever_arm)).filter(|_| lever_arm != 0.0);
     std::iter::once((dof, 1.0)).chain(twist_term).collect()
 }
 
-/// Displacement of an upper level relative to a lower one, with the part by the mat's tilt.
+/// Displacement of an upper level relative to a lower one, which includes the part due to the mat's tilt.
 fn relative_displacement(
     [lower_level, upper_level]: [usize; 2],
     place: [f64; 2],

@@ -43,8 +43,8 @@ impl ShearBuilding {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) when there is no such storey, [`Error::Scene`](crate::Error::Scene)
-    /// when it has a law already, [`Error::Input`](crate::Error::Input) when the storey buckles with P–Δ by the law's
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey, [`Error::Scene`](crate::Error::Scene) when
+    /// it has a law already, [`Error::Input`](crate::Error::Input) when the storey buckles with P–Δ at the law's
     /// initial tangent.
     pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
         let drift = self.drift(storey)?;
@@ -65,7 +65,7 @@ impl ShearBuilding {
     /// damping of their law and of [`IsolationLevel::damping`], but no stiffness-proportional damping.
     ///
     /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators exerts the force W θ along the
-    /// slope of a rotated base, and the moment W d on the base by the drift d. The softening −W/h of columns does not
+    /// slope of a rotated base, and, at the drift d, the moment W d on the base. The softening −W/h of columns does not
     /// apply: the law of a slider contains its weight already (W/R of a
     /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings must be that
     /// under their load.

@@ -66,7 +66,7 @@ pub struct ReducedModel {
     has_active_damping: bool,
     /// Circular frequencies of the modes, rad/s.
     circular_frequencies: Vec<f64>,
-    /// Full model, by which loads are reduced.
+    /// Full model, whose loads are reduced in every step.
     full_model: Mutex<FullModel>,
 }
 
@@ -81,9 +81,9 @@ short_debug! {
 }
 
 impl CraigBampton {
-    /// Reduction to contact nodes and the lowest `modes` modes.
-    pub fn new(modes: usize) -> Self {
-        Self { mode_count: modes, kept_dofs: Vec::new() }
+    /// Reduction to the contact nodes and to `mode_count` lowest modes.
+    pub fn new(mode_count: usize) -> Self {
+        Self { mode_count, kept_dofs: Vec::new() }
     }
 
     /// Also keeps these `dofs` unreduced.
@@ -289,7 +289,7 @@ impl Structure for ReducedModel {
         full.structure.description()
     }
 
-    /// Text by the full model for kept degrees of freedom, and the index of the first mode.
+    /// Text of the full model for kept degrees of freedom, and the index of the first mode.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
         let kept_dofs = self.basis.kept();

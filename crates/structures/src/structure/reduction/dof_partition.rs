@@ -1,4 +1,4 @@
-//! Kept and interior degrees of freedom of a reduction, and the basis by them.
+//! Kept and interior degrees of freedom of a reduction, and its basis.
 
 use crate::error::{Error, Result, at_least, in_bounds, memory};
 use crate::linalg::{Eigenpairs, SparseFactor, SparseMatrix, lowest_modes};
@@ -12,7 +12,7 @@ const BASIS_BYTES_PER_ENTRY: f64 = 24.0;
 pub(super) struct DofPartition {
     pub(super) kept: Vec<usize>,
     pub(super) interior: Vec<usize>,
-    /// Index of each degree of freedom in its list.
+    /// Index of each degree of freedom among the kept or among the interior ones.
     list_index: Vec<usize>,
     is_kept: Vec<bool>,
 }

@@ -6,16 +6,16 @@ use super::{
 };
 use crate::fem::material::Material;
 
-/// Strains `material` along a direction in equal steps up to a size, and returns the last strain.
+/// Strains `material` in equal steps up to `last_factor` times `direction`, and returns the last strain.
 fn strain_along(
     material: &dyn SolidMaterial,
     direction: [f64; 4],
-    size: f64,
+    last_factor: f64,
     variables: &mut [f64],
 ) -> [f64; 4] {
     let mut strain = [0.0; 4];
     for step in 1..=400 {
-        strain = direction.map(|component| component * size * f64::from(step) / 400.0);
+        strain = direction.map(|component| component * last_factor * f64::from(step) / 400.0);
         material.commit(strain, variables);
     }
     strain
@@ -57,7 +57,8 @@ fn without_friction_the_cohesion_is_the_strength() {
     assert!((dissipated - cohesion * plastic_strain).abs() < 1e-9 * dissipated);
 }
 
-/// Dilation of all directions ends at the tip: σ = c cot φ, and the energy that this stress spends on volume.
+/// Equal tension in all directions ends at the tip, where σ = c cot φ. The dissipated energy is the work of this stress
+/// on the plastic change of volume.
 #[test]
 fn dilation_ends_at_the_tip() {
     let cohesion = 5.0e3;
@@ -87,18 +88,18 @@ fn dilation_ends_at_the_tip() {
     }
 }
 
-/// An initial stress counts towards the strength: simple shear on top of it ends where no initial stress would.
+/// Simple shear from an initial shear stress ends at the same strength as from zero.
 #[test]
-fn an_initial_stress_leaves_the_strength() {
+fn an_initial_stress_does_not_change_the_strength() {
     let clay = hyperbolic_clay();
-    for level in [0.01, 0.5, 0.999] {
-        let shear = level * clay.strength();
+    for shear_level in [0.01, 0.5, 0.999] {
+        let shear = shear_level * clay.strength();
         let initial_stress = [-1.0e5, -1.0e5, -1.0e5, shear];
         let mut variables = variables_at_rest(&clay, initial_stress);
         let state = clay.state([0.0; 4], &variables);
-        assert!((state.mobilised_strength - level).abs() < 1e-12);
+        assert!((state.mobilised_strength - shear_level).abs() < 1e-12);
         assert!(state.plastic_strain < 1e-15);
-        // In the direction of the stress it follows the backbone from the stress at rest on.
+        // Shear in the direction of the initial stress follows the backbone from this stress on.
         let strain = strain_along(&clay, [0.0, 0.0, 0.0, 1.0], 0.2, &mut variables);
         let stress = clay.stress(strain, &variables).unwrap();
         assert!((stress[3] - clay.strength()).abs() < 1e-9 * clay.strength());
@@ -107,10 +108,10 @@ fn an_initial_stress_leaves_the_strength() {
     // σ_v(1 − K₀) = √3 τ_n is the largest difference at rest.
     let difference = 3.0_f64.sqrt() * clay.strength();
     let mut variables = vec![0.0; clay.variable_count()];
-    let at_limit = [-1.0e5, -1.0e5 - difference, -1.0e5, 0.0];
-    clay.initialize(at_limit, &mut variables).unwrap();
-    let beyond = [-1.0e5, -1.0e5 - 1.001 * difference, -1.0e5, 0.0];
-    let text = clay.initialize(beyond, &mut variables).unwrap_err().to_string();
+    let largest_initial_stress = [-1.0e5, -1.0e5 - difference, -1.0e5, 0.0];
+    clay.initialize(largest_initial_stress, &mut variables).unwrap();
+    let excessive_initial_stress = [-1.0e5, -1.0e5 - 1.001 * difference, -1.0e5, 0.0];
+    let text = clay.initialize(excessive_initial_stress, &mut variables).unwrap_err().to_string();
     assert_eq!(
         text,
         "soil with a strength of 40000 Pa: shear stress √J₂ of the initial stress (Pa) is 40040, but must be at most \
@@ -118,17 +119,17 @@ fn an_initial_stress_leaves_the_strength() {
     );
 }
 
-/// Components on a straight part of the backbone have no modulus; they are left out.
+/// Points on a straight part of the backbone have no component.
 #[test]
-fn straight_points_are_left_out() {
+fn points_on_a_straight_line_have_no_component() {
     let straight = [[1e-3, 1.0e4], [2e-3, 2.0e4], [3e-3, 3.0e4], [0.01, 5.0e4], [0.02, 5.0e4]];
     let clay = Iwan::new(&straight, 0.3, 0.0).unwrap();
     let bent = Iwan::new(&[straight[2], straight[3]], 0.3, 0.0).unwrap();
     assert_eq!(clay.variable_count(), bent.variable_count());
     assert_eq!(clay.points(), straight);
     let variables = variables_at_rest(&clay, [0.0; 4]);
-    for strain in [1e-3, 7e-3, 0.05] {
-        let strain = [0.3 * strain, 0.0, 0.0, strain];
+    for shear_strain in [1e-3, 7e-3, 0.05] {
+        let strain = [0.3 * shear_strain, 0.0, 0.0, shear_strain];
         let stress = clay.stress(strain, &variables).unwrap();
         let bent_stress = bent.stress(strain, &variables).unwrap();
         let difference: [f64; 4] = std::array::from_fn(|i| stress[i] - bent_stress[i]);

@@ -11,33 +11,37 @@ use super::{
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::solid::StrainPath;
 
-/// What random steps of a material show.
+/// Statistics of the energies in random steps of a material.
 #[derive(Debug, Default)]
 struct EnergyRange {
-    /// Steps that dissipate.
+    /// Number of steps that dissipate energy.
     yielding_count: usize,
-    /// Smallest remainder over the energy of the step.
+    /// Smallest remainder, relative to the energy of the step.
     min_remainder_ratio: f64,
-    /// Largest remainder over the energy of the step.
+    /// Largest remainder, relative to the energy of the step.
     max_remainder_ratio: f64,
 }
 
-/// Takes random steps, checks each, and returns the range of the remainder.
-fn observe(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) -> EnergyRange {
+/// Checks the energies of random steps, and returns their statistics.
+fn checked_energy_range(
+    material: &dyn SolidMaterial,
+    initial_stress: [f64; 4],
+    seed: u64,
+) -> EnergyRange {
     let mut random = Random(seed);
-    let mut observed = EnergyRange::default();
+    let mut energy_range = EnergyRange::default();
     for _ in 0..300 {
         let mut variables = variables_at_rest(material, initial_stress);
-        let size = random.log_within(1e-5, 1e-2);
+        let strain_size = random.log_within(1e-5, 1e-2);
         let mut start = [0.0; 4];
         let mut start_energy = material.energy(start, &variables).unwrap();
-        // A component on its yield surface returns to it by rounding.
+        // Rounding can place a component slightly outside of its yield surface, from where it returns.
         assert!(start_energy.stored.abs() < 1e-11 && start_energy.dissipated < 1e-12);
         start_energy = InternalEnergy::default();
         for _ in 0..12 {
-            let increment = random_strain(&mut random, size);
+            let increment = random_strain(&mut random, strain_size);
             let end = std::array::from_fn(|i| start[i] + increment[i]);
-            // The middle for most schemes; others evaluate elsewhere.
+            // Most time schemes evaluate the stress in the middle of the step, others at a later strain.
             let position = if random.chance(0.8) { 0.5 } else { random.within(0.5, 1.0) };
             let midstep = std::array::from_fn(|i| start[i] + position * increment[i]);
             let path = StrainPath { start, midstep, end };
@@ -58,10 +62,10 @@ fn observe(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) ->
             assert!(dissipation >= 0.0, "{material:?}, {path:?}: {dissipation}");
             if position == 0.5 {
                 let ratio = remainder / scale;
-                observed.min_remainder_ratio = observed.min_remainder_ratio.min(ratio);
-                observed.max_remainder_ratio = observed.max_remainder_ratio.max(ratio);
+                energy_range.min_remainder_ratio = energy_range.min_remainder_ratio.min(ratio);
+                energy_range.max_remainder_ratio = energy_range.max_remainder_ratio.max(ratio);
             }
-            observed.yielding_count += usize::from(dissipation > 1e-6 * scale);
+            energy_range.yielding_count += usize::from(dissipation > 1e-6 * scale);
             material.commit(end, &mut variables);
             start = end;
             start_energy = end_energy;
@@ -69,10 +73,10 @@ fn observe(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) ->
             assert!(state.plastic_strain >= 0.0 && (0.0..=1.0).contains(&state.mobilised_strength));
         }
     }
-    observed
+    energy_range
 }
 
-/// Rounding of a remainder over the energy of the step.
+/// Rounding of a remainder, relative to the energy of the step.
 const REMAINDER_ROUNDING: f64 = 1e-12;
 
 #[test]
@@ -86,10 +90,10 @@ fn iwans_model_dissipates_and_loses_work_at_midstep() {
             if clay.strength() < 2.0e4 && initial_stress != [0.0; 4] {
                 continue;
             }
-            let observed = observe(clay, initial_stress, seed as u64);
-            assert!(observed.min_remainder_ratio >= -REMAINDER_ROUNDING, "{observed:?}");
-            assert!(observed.max_remainder_ratio > 1e-3, "{observed:?}");
-            assert!(observed.yielding_count > 1000, "{observed:?}");
+            let energy_range = checked_energy_range(clay, initial_stress, seed as u64);
+            assert!(energy_range.min_remainder_ratio >= -REMAINDER_ROUNDING, "{energy_range:?}");
+            assert!(energy_range.max_remainder_ratio > 1e-3, "{energy_range:?}");
+            assert!(energy_range.yielding_count > 1000, "{energy_range:?}");
         }
     }
 }
@@ -102,26 +106,26 @@ fn drucker_pragers_law_dissipates_and_with_associated_flow_loses_work_at_midstep
     sands.push(no_cohesion);
     for (seed, sand) in sands.iter().enumerate() {
         for initial_stress in [[0.0; 4], [-0.9e5, -1.0e5, -0.8e5, 0.5e4]] {
-            let observed = observe(sand, initial_stress, seed as u64);
+            let energy_range = checked_energy_range(sand, initial_stress, seed as u64);
             let is_associated = sand.friction_angle() == sand.dilation_angle();
-            let has_lost_work_only = observed.min_remainder_ratio >= -REMAINDER_ROUNDING;
-            assert_eq!(has_lost_work_only, is_associated, "{sand:?}: {observed:?}");
-            assert!(observed.max_remainder_ratio > 1e-3, "{sand:?}: {observed:?}");
+            let has_lost_work_only = energy_range.min_remainder_ratio >= -REMAINDER_ROUNDING;
+            assert_eq!(has_lost_work_only, is_associated, "{sand:?}: {energy_range:?}");
+            assert!(energy_range.max_remainder_ratio > 1e-3, "{sand:?}: {energy_range:?}");
             // Without cohesion and with ψ = φ all work is stored, or lost at mid-step.
             let dissipates = sand.cohesion() > 0.0 || !is_associated;
-            assert_eq!(observed.yielding_count > 500, dissipates, "{sand:?}: {observed:?}");
+            assert_eq!(energy_range.yielding_count > 500, dissipates, "{sand:?}: {energy_range:?}");
         }
     }
 }
 
-/// The default of the trait, whose definition the formulas must fulfil, on a law that loses no work.
+/// A linear material uses the trait's default, which is the definition of the remainder.
 #[test]
 fn a_linear_material_loses_no_work_at_midstep() {
     let material = elastic(3.0e7, 5.0e7);
-    let observed = observe(&material, [0.0; 4], 1);
-    assert_eq!(observed.yielding_count, 0);
-    assert!(observed.min_remainder_ratio >= -REMAINDER_ROUNDING, "{observed:?}");
-    assert!(observed.max_remainder_ratio <= REMAINDER_ROUNDING, "{observed:?}");
+    let energy_range = checked_energy_range(&material, [0.0; 4], 1);
+    assert_eq!(energy_range.yielding_count, 0);
+    assert!(energy_range.min_remainder_ratio >= -REMAINDER_ROUNDING, "{energy_range:?}");
+    assert!(energy_range.max_remainder_ratio <= REMAINDER_ROUNDING, "{energy_range:?}");
 }
 
 /// R ≥ |2 s_m − s_0 − s_1|²/(4 G) for a component.
@@ -148,9 +152,9 @@ fn the_remainder_of_a_component_has_a_lower_bound() {
     }
 }
 
-/// R over the dissipation falls with the square of the step: 64 times in steps an eighth as long.
+/// The ratio of remainder to dissipation falls with the square of the step: 64 times for steps an eighth as long.
 ///
-/// Where in its step a point begins to yield scatters this by a third.
+/// The factor scatters, because it depends on where in a step the material begins to yield.
 #[test]
 fn the_remainder_is_of_second_order() {
     let clay = hyperbolic_clay();
@@ -163,7 +167,7 @@ fn the_remainder_is_of_second_order() {
             for step in 1..=step_count {
                 let phase = std::f64::consts::TAU * f64::from(step) / f64::from(step_count);
                 let stretch = 0.5 * amplitude * (1.0 - phase.cos());
-                // The direction of the strain turns all the time.
+                // The direction of the strain changes in every step.
                 let end = [-stretch, stretch, 0.0, amplitude * phase.sin()];
                 let midstep = std::array::from_fn(|i| 0.5 * (start[i] + end[i]));
                 let path = StrainPath { start, midstep, end };

@@ -47,7 +47,7 @@ fn table_sands() -> Vec<DruckerPrager> {
         .collect()
 }
 
-/// Twelve components, as the hyperbolic backbone has them.
+/// Clay with the twelve components of a hyperbolic backbone.
 fn hyperbolic_clay() -> Iwan {
     Iwan::hyperbolic(45.6e6, 40.0e3, 200.0 * 40.0e3 / 45.6e6, 0.49, 1900.0).unwrap()
 }

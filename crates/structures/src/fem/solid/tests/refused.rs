@@ -1,4 +1,4 @@
-//! GOAL: input that no soil has is refused by name, value and place; nothing panics.
+//! GOAL: for input that no soil has, errors name the quantity, its value and its place; nothing panics.
 
 use super::{
     DruckerPrager, Iwan, SolidMaterial, associated_sand, elastic, hyperbolic_clay,
@@ -6,9 +6,9 @@ use super::{
 };
 use crate::error::{Error, Result};
 
-/// Asserts that a constructor refuses, with a text that contains `part`.
+/// Asserts that a result is an error whose text contains `part`.
 #[track_caller]
-fn assert_refused<T: std::fmt::Debug>(result: Result<T>, part: &str) {
+fn assert_error_text<T: std::fmt::Debug>(result: Result<T>, part: &str) {
     let text = result.unwrap_err().to_string();
     assert!(text.contains(part), "'{text}' does not contain '{part}'");
 }
@@ -35,14 +35,14 @@ fn backbones_that_no_soil_has_are_refused() {
         (&[[1e-308, 1.0e3]], "point 1 of the backbone: slope up to the point (Pa) is inf"),
     ];
     for (points, part) in bad_points {
-        assert_refused(Iwan::new(points, 0.3, 0.0), part);
+        assert_error_text(Iwan::new(points, 0.3, 0.0), part);
     }
     let points = [[1e-3, 1.0e3]];
     for poisson in [-1.0, 0.5, f64::NAN, 2.0] {
-        assert_refused(Iwan::new(&points, poisson, 0.0), "Poisson's ratio of the soil");
+        assert_error_text(Iwan::new(&points, poisson, 0.0), "Poisson's ratio of the soil");
     }
     for density in [-1.0, f64::NAN, f64::INFINITY] {
-        assert_refused(Iwan::new(&points, 0.3, density), "density of the soil");
+        assert_error_text(Iwan::new(&points, 0.3, density), "density of the soil");
     }
     assert!(matches!(Iwan::new(&[], 0.3, 0.0), Err(Error::Size { found: 0, needed: 1, .. })));
 }
@@ -50,12 +50,15 @@ fn backbones_that_no_soil_has_are_refused() {
 #[test]
 fn hyperbolic_backbones_that_no_soil_has_are_refused() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_refused(Iwan::hyperbolic(bad, 1.0e3, 0.1, 0.3, 0.0), "shear modulus of the soil");
-        assert_refused(Iwan::hyperbolic(1.0e6, bad, 0.1, 0.3, 0.0), "shear strength of the soil");
+        assert_error_text(Iwan::hyperbolic(bad, 1.0e3, 0.1, 0.3, 0.0), "shear modulus of the soil");
+        assert_error_text(
+            Iwan::hyperbolic(1.0e6, bad, 0.1, 0.3, 0.0),
+            "shear strength of the soil",
+        );
     }
     for limit_strain in [4.9e-3, 0.0, -1.0, f64::NAN, f64::INFINITY] {
         let clay = Iwan::hyperbolic(1.0e6, 1.0e3, limit_strain, 0.3, 0.0);
-        assert_refused(clay, "strain at which the soil has its strength");
+        assert_error_text(clay, "strain at which the soil has its strength");
     }
     assert!(Iwan::hyperbolic(1e-300, 1e300, 0.1, 0.3, 0.0).is_err());
     assert!(Iwan::hyperbolic(1e300, 1e-300, 0.1, 0.3, 0.0).is_err());
@@ -79,7 +82,7 @@ fn cones_that_no_soil_has_are_refused() {
     ];
     for (cohesion, friction_angle, dilation_angle, part) in bad_cones {
         let sand = DruckerPrager::new(material, cohesion, friction_angle, dilation_angle);
-        assert_refused(sand, part);
+        assert_error_text(sand, part);
     }
 }
 
@@ -98,7 +101,7 @@ fn initial_stresses_outside_of_the_yield_surface_are_refused() {
             "initial stress of Drucker-Prager's law is not finite: entry 0",
         ),
     ] {
-        assert_refused(sand.initialize(initial_stress, &mut variables), part);
+        assert_error_text(sand.initialize(initial_stress, &mut variables), part);
     }
     let clay = hyperbolic_clay();
     let mut clay_variables = vec![0.5; clay.variable_count()];
@@ -109,9 +112,9 @@ fn initial_stresses_outside_of_the_yield_surface_are_refused() {
         ),
         ([0.0, 0.0, 0.0, f64::INFINITY], "initial stress of Iwan's model is not finite: entry 3"),
     ] {
-        assert_refused(clay.initialize(initial_stress, &mut clay_variables), part);
+        assert_error_text(clay.initialize(initial_stress, &mut clay_variables), part);
     }
-    // Refused input leaves the variables.
+    // Input that returns an error does not change the variables.
     assert!(variables.iter().chain(&clay_variables).all(|&value| value == 0.5));
     // Jaky's K₀ = 1 − sin φ without cohesion: inside the cone at 30°, outside at 40°.
     for (degrees, is_inside) in [(30.0_f64, true), (40.0, false)] {
@@ -123,7 +126,7 @@ fn initial_stresses_outside_of_the_yield_surface_are_refused() {
     }
 }
 
-/// Strains that are not finite are errors, and leave the variables; so do lists of a wrong length.
+/// Strains that are not finite, and lists of a wrong length, are errors and do not change the variables.
 #[test]
 fn strains_that_are_not_finite_change_nothing() {
     let clay = hyperbolic_clay();

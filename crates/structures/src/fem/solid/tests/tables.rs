@@ -1,6 +1,6 @@
-//! GOAL: stresses, tangents and energies of both laws along paths.
-//! REFERENCE: tables of two other programs (`tests/data/yielding`): one for plane strain without an initial stress, one
-//! with strain across the plane and with an initial stress.
+//! GOAL: stresses, tangents and energies of both laws along paths. REFERENCE: tables of two other programs
+//! (`tests/data/yielding`): one for plane strain without an initial stress, one with strain normal to the plane and
+//! with an initial stress.
 
 use basemat_testkit::{ReferenceTable, table};
 
@@ -8,13 +8,13 @@ use super::{SolidMaterial, max_abs, table_clays, table_sands, variables_at_rest}
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::solid::drucker_prager::APEX_TANGENT_FRACTION;
 
-/// Allowed error over the largest entry of its kind in the row.
+/// Allowed error over the largest entry of its quantity in the row.
 const TABLE_TOLERANCE: f64 = 1e-9;
 
-/// PathRows of a table in groups of columns.
+/// Rows of a table of strain paths, in groups of columns.
 struct PathRows {
-    /// Material, path and step.
-    places: Vec<[f64; 3]>,
+    /// Material, path and step of each row.
+    row_labels: Vec<[f64; 3]>,
     strains: Vec<[f64; 4]>,
     stresses: Vec<[f64; 4]>,
     tangents: Vec<[f64; 16]>,
@@ -25,7 +25,7 @@ impl PathRows {
         let tangent_columns: Vec<String> =
             (0..16).map(|entry| format!("c{}{}", entry / 4, entry % 4)).collect();
         Self {
-            places: table.rows(["material", "path", "step"]),
+            row_labels: table.rows(["material", "path", "step"]),
             strains: table.rows(["e_xx", "e_yy", "e_zz", "g_xy"]),
             stresses: table.rows(["s_xx", "s_yy", "s_zz", "s_xy"]),
             tangents: table.rows(std::array::from_fn(|entry| tangent_columns[entry].as_str())),
@@ -33,17 +33,17 @@ impl PathRows {
     }
 }
 
-/// Asserts that a list equals that of the table, relative to the table's largest entry.
+/// Asserts that a list equals that of the table, up to a tolerance relative to the table's largest entry in the row.
 #[track_caller]
-fn assert_row(place: [f64; 3], kind: &str, computed: &[f64], expected: &[f64]) {
+fn assert_row(row_label: [f64; 3], quantity: &str, computed: &[f64], expected: &[f64]) {
     let tolerance = TABLE_TOLERANCE * max_abs(expected);
     for (value, reference) in computed.iter().zip(expected) {
         let error = (value - reference).abs();
-        assert!(error <= tolerance, "{kind} in {place:?}: {computed:?}, not {expected:?}");
+        assert!(error <= tolerance, "{quantity} in {row_label:?}: {computed:?}, not {expected:?}");
     }
 }
 
-/// What a table has beside strain, stress and tangent.
+/// Columns of a table beside those of strain, stress and tangent.
 struct PathExtras {
     initial_stresses: Option<Vec<[f64; 4]>>,
     stored: Option<Vec<f64>>,
@@ -63,7 +63,8 @@ impl PathExtras {
 
     /// Variables at the start of a path, whose stress at rest must be the initial stress.
     fn variables_at_start(&self, index: usize, material: &dyn SolidMaterial) -> Vec<f64> {
-        let initial_stress = self.initial_stresses.as_ref().map_or([0.0; 4], |list| list[index]);
+        let initial_stress =
+            self.initial_stresses.as_ref().map_or([0.0; 4], |stresses| stresses[index]);
         let variables = variables_at_rest(material, initial_stress);
         let stress_at_rest = material.stress([0.0; 4], &variables).unwrap();
         for i in 0..4 {
@@ -73,15 +74,15 @@ impl PathExtras {
         variables
     }
 
-    fn assert_energies(&self, place: [f64; 3], index: usize, energy: InternalEnergy) {
+    fn assert_energies(&self, row_label: [f64; 3], index: usize, energy: InternalEnergy) {
         if let Some(stored) = &self.stored {
-            assert_row(place, "stored energy", &[energy.stored], &[stored[index]]);
+            assert_row(row_label, "stored energy", &[energy.stored], &[stored[index]]);
         }
         if let Some(dissipated) = &self.dissipated {
-            // Where a soil dissipates nothing, this is rounding beside the stored energy.
+            // Where a soil dissipates nothing, the value is the rounding of the stored energy.
             let scale = dissipated[index].abs().max(1e-3 * energy.stored.abs());
             let error = (energy.dissipated - dissipated[index]).abs();
-            assert!(error <= TABLE_TOLERANCE * scale, "{place:?}: {energy:?}");
+            assert!(error <= TABLE_TOLERANCE * scale, "{row_label:?}: {energy:?}");
         }
     }
 }
@@ -93,30 +94,31 @@ fn compare<M: SolidMaterial>(file: &str, materials: &[M]) -> usize {
     let extras = PathExtras::of(&table, file);
     let mut apex_count = 0;
     let mut variables = Vec::new();
-    for (index, &place) in rows.places.iter().enumerate() {
-        let numbered = materials.iter().enumerate().find(|(number, _)| *number as f64 == place[0]);
-        let material = numbered.unwrap().1;
+    for (index, &row_label) in rows.row_labels.iter().enumerate() {
+        let material_entry =
+            materials.iter().enumerate().find(|(number, _)| *number as f64 == row_label[0]);
+        let material = material_entry.unwrap().1;
         let strain = rows.strains[index];
-        if place[2] == 0.0 {
+        if row_label[2] == 0.0 {
             variables = extras.variables_at_start(index, material);
         }
         let stress = material.stress(strain, &variables).unwrap();
-        assert_row(place, "stress", &stress, &rows.stresses[index]);
+        assert_row(row_label, "stress", &stress, &rows.stresses[index]);
         if max_abs(&rows.tangents[index]) == 0.0 {
             apex_count += 1;
             assert_tangent_at_tip(material, strain, &variables);
         } else {
             let tangent = material.tangent(strain, &variables).unwrap();
-            assert_row(place, "tangent", tangent.as_flattened(), &rows.tangents[index]);
+            assert_row(row_label, "tangent", tangent.as_flattened(), &rows.tangents[index]);
         }
         let energy = material.energy(strain, &variables).unwrap();
-        extras.assert_energies(place, index, energy);
+        extras.assert_energies(row_label, index, energy);
 
         // Committed variables give the same stress and energies.
         material.commit(strain, &mut variables);
         let committed_energy = material.energy(strain, &variables).unwrap();
         let committed_stress = material.stress(strain, &variables).unwrap();
-        assert_row(place, "committed stress", &committed_stress, &rows.stresses[index]);
+        assert_row(row_label, "committed stress", &committed_stress, &rows.stresses[index]);
         let energy_change = [
             committed_energy.stored - energy.stored,
             committed_energy.dissipated - energy.dissipated,
@@ -126,7 +128,7 @@ fn compare<M: SolidMaterial>(file: &str, materials: &[M]) -> usize {
     apex_count
 }
 
-/// The table has zeros. The small part of the elasticity, and nothing else, comes on top.
+/// Asserts that the tangent at the tip is the small fraction of the elasticity; the table has zeros there.
 fn assert_tangent_at_tip(material: &dyn SolidMaterial, strain: [f64; 4], variables: &[f64]) {
     let elasticity = material.elasticity();
     let tangent = material.tangent(strain, variables).unwrap();

@@ -1,6 +1,5 @@
-//! GOAL: the tangent is the derivative of the stress, and K of small strains that of the virgin material.
-//! SCENE: random strains after random histories, with and without an initial stress, away from kinks.
-//! REFERENCE: central differences.
+//! GOAL: the tangent is the derivative of the stress, and at small strains that of the virgin material. SCENE: random
+//! strains after random histories, with and without an initial stress, away from kinks. REFERENCE: central differences.
 
 use basemat_testkit::random::Random;
 
@@ -10,9 +9,9 @@ use super::{
 };
 use crate::fem::solid::drucker_prager::APEX_TANGENT_FRACTION;
 
-/// Step of the differences over the size of the strains.
+/// Step of the differences, relative to the size of the strains.
 const DIFFERENCE_STEP: f64 = 1e-5;
-/// Allowed error over the largest entry of the elasticity.
+/// Allowed error, relative to the largest entry of the elasticity.
 const DIFFERENCE_TOLERANCE: f64 = 1e-6;
 
 /// Tangent by central differences.
@@ -47,7 +46,7 @@ fn compare_at(
     let elasticity = material.elasticity();
     let tolerance = DIFFERENCE_TOLERANCE * elasticity[0][0];
     let differences = difference_tangent(material, strain, step, variables);
-    // At a kink the differences of two steps are not the same.
+    // At a kink the differences depend on the step.
     let finer_differences = difference_tangent(material, strain, 0.5 * step, variables);
     for (fine, coarse) in finer_differences.as_flattened().iter().zip(differences.as_flattened()) {
         if (fine - coarse).abs() > 0.3 * tolerance {
@@ -77,10 +76,10 @@ fn compare(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) ->
     let mut apex_count = 0;
     for _ in 0..100 {
         let mut variables = variables_at_rest(material, initial_stress);
-        let size = random.log_within(1e-4, 2e-2);
+        let strain_size = random.log_within(1e-4, 2e-2);
         for _ in 0..5 {
-            let strain = random_strain(&mut random, size);
-            let step = DIFFERENCE_STEP * size;
+            let strain = random_strain(&mut random, strain_size);
+            let step = DIFFERENCE_STEP * strain_size;
             if let Some(is_apex) = compare_at(material, strain, step, &variables) {
                 compared_count += 1;
                 apex_count += usize::from(is_apex);

@@ -17,18 +17,19 @@ use crate::structure::{
 fn members_of_a_group_have_their_forces() {
     let mut group =
         StructureGroup::new().with(yielding(), 0.0).unwrap().with(yielding(), 10.0).unwrap();
-    let mut alone = [yielding(), yielding()];
-    let n = alone[0].dofs();
+    let mut separate_models = [yielding(), yielding()];
+    let n = separate_models[0].dofs();
     let mut u = displacements(1, 2 * n, 4e-3);
     group.nonlinear_mut().unwrap().commit(&u);
-    for (k, model) in alone.iter_mut().enumerate() {
+    for (k, model) in separate_models.iter_mut().enumerate() {
         model.nonlinear_mut().unwrap().commit(&u[k * n..(k + 1) * n]);
     }
     let midstep = u.clone();
     u = displacements(5, 2 * n, 5e-3);
-    let expected = [force(&alone[0], &u[..n]), force(&alone[1], &u[n..])].concat();
+    let expected =
+        [force(&separate_models[0], &u[..n]), force(&separate_models[1], &u[n..])].concat();
     assert_eq!(force(&group, &u), expected);
-    let forces = alone.each_ref().map(|model| model.nonlinear().unwrap());
+    let forces = separate_models.each_ref().map(|model| model.nonlinear().unwrap());
     let remainders = [0, 1].map(|k| {
         let range = k * n..(k + 1) * n;
         forces[k].remainder(&midstep[range.clone()], &u[range]).unwrap()
@@ -39,8 +40,8 @@ fn members_of_a_group_have_their_forces() {
         (group_remainder - remainders[0] - remainders[1]).abs() < 1e-12 * group_remainder.abs()
     );
     let text = group_force.describe_state(&u, &[n + 3, 2]).unwrap();
-    let alone_text = forces[1].describe_state(&u[n..], &[3]).unwrap();
-    assert_eq!(text, format!("structure 1: {alone_text}"));
+    let separate_text = forces[1].describe_state(&u[n..], &[3]).unwrap();
+    assert_eq!(text, format!("structure 1: {separate_text}"));
 }
 
 /// The model inside a wrapper has the variables of the last step.
@@ -55,13 +56,13 @@ fn states_are_read_inside_groups_and_wrappers() {
     let wrapper: &dyn Any = group.structure(1).unwrap();
     let wrapper = wrapper.downcast_ref::<WithModalDamping>().unwrap();
     let model: &dyn Any = wrapper.structure();
-    let mut alone = yielding();
-    alone.nonlinear_mut().unwrap().commit(&u[n..]);
+    let mut separate_model = yielding();
+    separate_model.nonlinear_mut().unwrap().commit(&u[n..]);
     let points = model.downcast_ref::<FemModel>().unwrap().solid_points(3).unwrap();
-    assert_eq!(points, alone.solid_points(3).unwrap());
+    assert_eq!(points, separate_model.solid_points(3).unwrap());
     assert!(points.iter().any(|point| point.state.plastic_strain > 0.0));
     assert!(matches!(group.structure(2), Err(Error::Index { .. })));
-    let sprung = WithSprings::new(alone.clone());
+    let sprung = WithSprings::new(separate_model.clone());
     let model: &dyn Any = sprung.structure();
     let inner_points = model.downcast_ref::<FemModel>().unwrap().solid_points(3);
     assert_eq!(inner_points.unwrap(), points);
@@ -87,6 +88,54 @@ fn springs_and_elements_act_together() {
     assert_eq!(energy, sum);
     assert!(combined.describe_state(&u, &[2]).is_some());
     assert!(combined.has_symmetric_tangent());
+}
+
+/// REFERENCE: the work of the midstep force less the changes of the energies, and the remainder of the model alone.
+#[test]
+fn springs_around_elements_have_the_remainder_of_both() {
+    let mut model = yielding();
+    let n = model.dofs();
+    let drift = DofCombination::from(n - 2) - DofCombination::from(0);
+    let spring = Bilinear::new(5.0e6, 2.0e4, 0.1).unwrap();
+    let with_springs = || WithSprings::new(yielding()).spring(drift.clone(), spring.clone());
+    let mut sprung = with_springs().unwrap();
+    // The first step starts at zero displacement.
+    let mut start = vec![0.0; n];
+    let mut spring_remainder = 0.0_f64;
+    for (k, size) in [(2, 5e-3), (7, 2e-2), (4, 1e-2), (6, 4e-3)] {
+        let end = displacements(k, n, size);
+        let midstep: Vec<f64> = start.iter().zip(&end).map(|(a, b)| 0.5 * (a + b)).collect();
+        let sprung_force = sprung.nonlinear().unwrap();
+        let work: f64 = force(&sprung, &midstep)
+            .iter()
+            .zip(end.iter().zip(&start))
+            .map(|(force, (end, start))| force * (end - start))
+            .sum();
+        let start_energy = sprung_force.energy(&start).unwrap();
+        let end_energy = sprung_force.energy(&end).unwrap();
+        let energy_change = end_energy.stored + end_energy.dissipated
+            - start_energy.stored
+            - start_energy.dissipated;
+        let remainder = sprung_force.remainder(&midstep, &end).unwrap();
+        assert!((remainder - work + energy_change).abs() < 1e-11 * work.abs(), "{remainder}");
+        let model_remainder = model.nonlinear().unwrap().remainder(&midstep, &end).unwrap();
+        spring_remainder = spring_remainder.max((remainder - model_remainder) / remainder);
+        sprung.nonlinear_mut().unwrap().commit(&end);
+        model.nonlinear_mut().unwrap().commit(&end);
+        start = end;
+    }
+    assert!(spring_remainder > 1e-6, "{spring_remainder}");
+    // The displacement at the end of the last step is among the saved variables.
+    let mut restored = with_springs().unwrap();
+    restored.nonlinear_mut().unwrap().commit(&vec![0.0; n]);
+    let values = sprung.nonlinear().unwrap().save().unwrap();
+    restored.nonlinear_mut().unwrap().restore(&values).unwrap();
+    let end = displacements(3, n, 5e-3);
+    let remainders = [&sprung, &restored].map(|s| s.nonlinear().unwrap().remainder(&end, &end));
+    assert!(remainders[0].is_some() && remainders[0] == remainders[1]);
+    let error = restored.nonlinear_mut().unwrap().restore(&values[1..]).unwrap_err();
+    assert!(matches!(error, Error::Checkpoint(_)), "{error}");
+    assert_eq!(restored.nonlinear().unwrap().remainder(&end, &end), remainders[0]);
 }
 
 #[test]
@@ -138,11 +187,13 @@ fn merged_nodes_join_yielding_blocks() {
     let joined = FemModel::on_base(parts).unwrap();
     let n = whole.dofs();
     assert_eq!(joined.dofs(), n);
-    let u_at = |[x, y, _]: [f64; 3]| [3e-3 * (x * y).sin(), 4e-3 * (x - y).cos()];
+    let displacement_at = |[x, y, _]: [f64; 3]| [3e-3 * (x * y).sin(), 4e-3 * (x - y).cos()];
     let forces = [&whole, &joined].map(|model| {
         let mut u = vec![0.0; n];
         for (node, point) in model.mesh().nodes().iter().enumerate() {
-            for (direction, value) in [Direction::X, Direction::Y].into_iter().zip(u_at(*point)) {
+            for (direction, value) in
+                [Direction::X, Direction::Y].into_iter().zip(displacement_at(*point))
+            {
                 u[model.dof(node, direction).unwrap()] = value;
             }
         }

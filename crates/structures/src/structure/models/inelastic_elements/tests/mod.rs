@@ -102,14 +102,14 @@ fn force_of_an_elastic_law_is_that_of_the_elastic_model() {
         let mut forces = force(&user, &u);
         linear_part.multiply_add(1.0, &u, &mut forces);
         assert_near(&forces, &expected.times(&u), 1e-13);
-        let whole = assembled(
+        let total_stiffness = assembled(
             |m| {
                 user.stiffness(m).unwrap();
                 user.nonlinear().unwrap().tangent(&u, m).unwrap();
             },
             n,
         );
-        assert!(relative_difference(&whole, &expected) < 1e-13);
+        assert!(relative_difference(&total_stiffness, &expected) < 1e-13);
         let user_damping = assembled(|m| user.damping(m).unwrap(), n);
         let damping = assembled(|m| elastic.damping(m).unwrap(), n);
         assert!(relative_difference(&user_damping, &damping) < 1e-13);
@@ -120,13 +120,13 @@ fn force_of_an_elastic_law_is_that_of_the_elastic_model() {
 fn pattern_of_the_tangent_never_changes() {
     let mut model = with_link(Hardening::FIRM_SOIL);
     let n = model.dofs();
-    let places = |matrix: &Triplets| -> Vec<(usize, usize)> {
+    let entry_places = |matrix: &Triplets| -> Vec<(usize, usize)> {
         matrix.entries().iter().map(|&(row, column, _)| (row, column)).collect()
     };
-    let at_rest = tangent(&model, &vec![0.0; n]);
+    let tangent_at_rest = tangent(&model, &vec![0.0; n]);
     for seed in 1..6 {
         let u = displacements(seed, n, 5e-3);
-        assert_eq!(places(&tangent(&model, &u)), places(&at_rest));
+        assert_eq!(entry_places(&tangent(&model, &u)), entry_places(&tangent_at_rest));
         model.nonlinear_mut().unwrap().commit(&u);
     }
 }
@@ -141,10 +141,13 @@ fn tangent_is_the_derivative_of_the_force() {
     let direction = displacements(4, n, 1.0);
     let shifted =
         |step: f64| -> Vec<f64> { u.iter().zip(&direction).map(|(u, d)| u + step * d).collect() };
-    let above = force(&model, &shifted(1e-9));
-    let below = force(&model, &shifted(-1e-9));
-    let differences: Vec<f64> =
-        above.iter().zip(&below).map(|(above, below)| (above - below) / 2e-9).collect();
+    let upper_force = force(&model, &shifted(1e-9));
+    let lower_force = force(&model, &shifted(-1e-9));
+    let differences: Vec<f64> = upper_force
+        .iter()
+        .zip(&lower_force)
+        .map(|(upper_force, lower_force)| (upper_force - lower_force) / 2e-9)
+        .collect();
     assert_near(&differences, &matrix.times(&direction), 1e-6);
 }
 
@@ -264,8 +267,8 @@ fn energies_count_from_the_state_at_rest() {
     let quad = Quad4::new([0, 1, 2, 3], Hardening::FIRM_SOIL, QuadFormulation::MeanDilatation);
     mesh.add(quad.with_initial_stress(stress)).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
-    let at_rest = model.nonlinear().unwrap().energy(&[0.0; 8]).unwrap();
-    assert_eq!([at_rest.stored, at_rest.dissipated], [0.0, 0.0]);
+    let energy_at_rest = model.nonlinear().unwrap().energy(&[0.0; 8]).unwrap();
+    assert_eq!([energy_at_rest.stored, energy_at_rest.dissipated], [0.0, 0.0]);
     // Compression by 1e-5: work of the stress at rest, and of the elastic stress.
     let u = [0.0, 0.0, 0.0, 0.0, 0.0, -1e-5, 0.0, -1e-5];
     let energy = model.nonlinear().unwrap().energy(&u).unwrap();
@@ -282,7 +285,7 @@ fn wrong_displacements_are_errors_and_change_nothing() {
     let n = model.dofs();
     let short = vec![0.0; n - 1];
     let nonlinear = model.nonlinear_mut().unwrap();
-    let before = nonlinear.save().unwrap();
+    let previous_state = nonlinear.save().unwrap();
     assert!(nonlinear.force(&short, &mut vec![0.0; n]).is_err());
     assert!(nonlinear.force(&vec![0.0; n], &mut vec![0.0; n - 1]).is_err());
     assert!(nonlinear.tangent(&short, &mut Triplets::new(n)).is_err());
@@ -290,5 +293,5 @@ fn wrong_displacements_are_errors_and_change_nothing() {
     assert!(nonlinear.remainder(&short, &short).unwrap().is_nan());
     assert!(nonlinear.describe_state(&short, &[0]).is_none());
     nonlinear.commit(&short);
-    assert_eq!(nonlinear.save().unwrap(), before);
+    assert_eq!(nonlinear.save().unwrap(), previous_state);
 }

@@ -12,29 +12,29 @@ use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
 /// Stiffness K + γ NᵀN of a structure on springs at its contact nodes.
 #[allow(missing_debug_implementations, reason = "a helper of basemat")]
-pub struct HeldBase<'a> {
+pub struct SpringSupportedBase<'a> {
     nodes: &'a [BaseNode],
     /// Stiffness γ of the springs, N/m.
     #[doc(hidden)]
-    pub spring: f64,
+    pub spring_stiffness: f64,
     /// K + γ NᵀN.
     #[doc(hidden)]
     pub matrix: Triplets,
 }
 
-impl<'a> HeldBase<'a> {
+impl<'a> SpringSupportedBase<'a> {
     /// Name of the matrix in errors.
     #[doc(hidden)]
     pub const STIFFNESS_NAME: &'static str = "stiffness matrix with its base held";
 
-    /// Springs of the stiffness `spring` (N/m) at each displacement of `nodes`.
+    /// Structure on springs of `spring_stiffness` (N/m) at each displacement of `nodes`.
     #[doc(hidden)]
-    pub fn new(nodes: &'a [BaseNode], stiffness: &SparseMatrix, spring: f64) -> Self {
+    pub fn new(nodes: &'a [BaseNode], stiffness: &SparseMatrix, spring_stiffness: f64) -> Self {
         let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
         for row in nodes.iter().flat_map(BaseNode::rows).filter(|row| !row.is_empty()) {
-            matrix.add_outer(row, spring);
+            matrix.add_outer(row, spring_stiffness);
         }
-        Self { nodes, spring, matrix }
+        Self { nodes, spring_stiffness, matrix }
     }
 
     /// Factors of the matrix.
@@ -45,7 +45,7 @@ impl<'a> HeldBase<'a> {
 
     /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in space, away.
     #[doc(hidden)]
-    pub fn pulls(&self) -> Vec<Vec<f64>> {
+    pub fn translation_forces(&self) -> Vec<Vec<f64>> {
         (0..self.directions())
             .map(|direction| {
                 self.forces(self.nodes.iter().map(move |node| (node.rows()[direction], 1.0)))
@@ -58,7 +58,7 @@ impl<'a> HeldBase<'a> {
     /// In the plane there is one rotation, which tilts x upwards, about the height of the lowest node. In space there
     /// are three: they tilt x upwards, tilt y upwards, and turn x towards y.
     #[doc(hidden)]
-    pub fn turns<'b>(
+    pub fn rotation_forces<'b>(
         &self,
         nodes: impl Iterator<Item = &'b BaseNode> + Clone,
         [x, y]: [f64; 2],
@@ -79,15 +79,17 @@ impl<'a> HeldBase<'a> {
 
     /// Number of directions in which the nodes move.
     fn directions(&self) -> usize {
-        self.nodes.first().map_or(COMPONENTS_IN_PLANE, BaseNode::directions)
+        self.nodes.first().map_or(COMPONENTS_IN_PLANE, BaseNode::direction_count)
     }
 
-    /// Forces of the springs by elongations (m) of displacements of nodes.
+    /// Nodal forces of the springs for prescribed elongations (m).
+    ///
+    /// Each elongation belongs to a displacement of a node, as a row of degrees of freedom.
     fn forces<'b>(&self, elongations: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
         let mut force = vec![0.0; self.matrix.order()];
         for (row, elongation) in elongations {
             for &(dof, weight) in row {
-                force[dof] += self.spring * weight * elongation;
+                force[dof] += self.spring_stiffness * weight * elongation;
             }
         }
         force
@@ -95,7 +97,7 @@ impl<'a> HeldBase<'a> {
 }
 
 /// Largest stiffness on the diagonal, N/m; one for a zero matrix.
-pub fn stiffest(stiffness: &SparseMatrix) -> f64 {
+pub fn max_diagonal_stiffness(stiffness: &SparseMatrix) -> f64 {
     let max_stiffness = largest(&stiffness.diagonal());
     if max_stiffness > 0.0 { max_stiffness } else { 1.0 }
 }

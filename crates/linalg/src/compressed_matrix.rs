@@ -1,4 +1,4 @@
-//! Square matrix whose products use its diagonal, its sparse entries or Fourier transforms, if these are cheaper.
+//! Square matrix whose products use its diagonal, its nonzero entries or Fourier transforms, if these are cheaper.
 
 use std::ops::Deref;
 
@@ -14,8 +14,8 @@ const MIN_ENTRIES_PER_NONZERO: usize = 8;
 
 /// Square matrix, stored as all entries row by row, or as a diagonal.
 ///
-/// If most entries are zero, products use a sparse copy of the nonzero entries. For three components of many elements on
-/// a lattice, products use Fourier transforms along the surface.
+/// If most entries are zero, products use a sparse copy of the nonzero entries. For three components of many elements
+/// on a lattice, products use Fourier transforms along the surface.
 ///
 /// The matrix dereferences to a slice of all entries, or of the diagonal of a diagonal matrix.
 #[derive(Debug)]
@@ -83,8 +83,8 @@ impl CompressedMatrix {
 
     /// Matrix of three components of elements on a lattice, component by component.
     ///
-    /// `areas`: areas of the elements; `cells`: columns and rows of the elements. Products use Fourier transforms only if
-    /// blocks divided by the area of their source depend only on the offset.
+    /// `areas`: areas of the elements; `cells`: columns and rows of the elements. Products use Fourier transforms only
+    /// if blocks divided by the area of their source depend only on the offset.
     pub fn on_lattice(values: Vec<f64>, cells: &[[usize; 2]], areas: &[f64]) -> Self {
         let count = areas.len();
         let mut matrix = Self::new(values, 3 * count);
