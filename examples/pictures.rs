@@ -6,10 +6,11 @@
 //!
 //! A flexible tower on soil is shaken by El Centro, with a bonded base and with a base that may uplift and slide.
 
+use std::any::Any;
 use std::path::Path;
 
 use basemat::bem::Grading;
-use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::fem::{Direction, Iwan, Layer, Material, Mesh};
 use basemat::io::paraview;
 use basemat::plot::{self, Svg};
 use basemat::prelude::*;
@@ -50,6 +51,31 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<PictureData> {
     let mut series = Recorder::new().contact(6).motion(6).start(&simulation)?;
     let run = simulation.run(STEP_COUNT, |state| series.record(state))?;
     Ok(PictureData { run, series, shape })
+}
+
+/// Runs a bonded block of clay, and writes its plastic strains for ParaView while it runs.
+fn shake_clay(folder: &Path) -> Result<()> {
+    let clay = Iwan::hyperbolic(20.0e6, 40.0e3, 0.4, 0.45, 1800.0)?;
+    let x_lines = [-3.0, -1.5, 0.0, 1.5, 3.0];
+    let block = Mesh::quad8_block(&x_lines, &[0.0, 1.0, 2.0, 3.0], |_, _| clay.clone())?;
+    let model = FemModel::on_base(block)?;
+    let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
+    let mut simulation = Simulation::builder(5.0e-3)
+        .ground(ElasticGround::under(soil, &model, 8)?)
+        .structure(model)
+        .interface(Bonded)
+        .motion(el_centro_1940())
+        .build()?;
+    let mut series = paraview::SolidSeries::new(folder, "clay")?;
+    for step in 1..=600 {
+        simulation.step()?;
+        if step % 60 == 0 {
+            let structure: &dyn Any = simulation.structure();
+            let model: &FemModel = structure.downcast_ref().expect("the structure is a FemModel");
+            series.write(simulation.state().time, model, simulation.state().displacement())?;
+        }
+    }
+    Ok(())
 }
 
 /// Saves a picture as SVG, and as PNG with twice the resolution for programs that do not read SVG.
@@ -106,6 +132,8 @@ fn main() -> Result<()> {
         .save(folder.join("tower_moving.svg"))?;
     let grids =
         paraview::write_series(folder.join("vtk"), "tower", &contact.shape, &contact.series)?;
+
+    shake_clay(&folder.join("vtk"))?;
 
     println!("{}", contact.run);
     let mut comparison = Comparison::default();

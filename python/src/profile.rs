@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use basemat::Soil;
 use basemat::soil::{
     Bedrock, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation,
     SoilLayer, SoilProfile,
@@ -70,8 +71,19 @@ impl PyDampingLaw {
     }
 }
 
+/// Soil of a layer: linear elastic.
+struct FarFieldSoil(Soil);
+
+extracts!(FarFieldSoil, object => match object.cast::<PySoil>() {
+    Ok(soil) => Ok(Self(soil.get().0)),
+    Err(_) => {
+        let requirement = "a Soil: the far field is linear, and soil that yields is a material of a Mesh";
+        Err(type_error(&object, requirement))
+    }
+});
+
 /// A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none
-/// unless given).
+/// unless given). It is linear: soil that yields is a material of a `Mesh`.
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
@@ -79,7 +91,7 @@ pub(crate) struct PySoilLayer(SoilLayer);
 impl PySoilLayer {
     #[pyo3(signature = (soil, thickness, damping=None))]
     #[new]
-    fn new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
+    fn new(soil: FarFieldSoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
         Self(SoilLayer { soil: soil.0, thickness, damping: law_or_elastic(damping) })
     }
 

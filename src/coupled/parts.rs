@@ -169,10 +169,8 @@ fn add_joint_laws(
     if builder.joints.is_empty() {
         return Ok(Vec::new());
     }
-    if elements.is_plan() {
-        let needed = "only on a ground in the plane: a base in plan has no joints";
-        return Err(Error::Scene { quantity: "joint", needed });
-    }
+    let needed = "only on a ground in the plane: a base in plan has no joints";
+    require_part("joint", !elements.is_plan(), needed)?;
     let mut laws = SharedLaw::for_each(std::mem::take(&mut builder.laws), elements.len());
     for joint in std::mem::take(&mut builder.joints) {
         laws.extend(joint.element_laws(scene)?);

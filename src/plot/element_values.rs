@@ -5,7 +5,7 @@ use super::classes::Classes;
 use super::drawing::is_drawable;
 use super::key::KeySample;
 use super::svg::Svg;
-use crate::error::{Error, Result, at_least, in_bounds, require, require_part};
+use crate::error::{Error, Result, at_least, in_bounds, require};
 use crate::fem::{Element, Mesh};
 use crate::geometry::span;
 
@@ -43,11 +43,7 @@ pub fn shell_plan(
     mesh: &Mesh,
     values: &[(usize, f64)],
 ) -> Result<Svg> {
-    require_part(
-        "plan of shells",
-        mesh.has_depth(),
-        "must be in a mesh in space, but this one is in the plane",
-    )?;
+    mesh.require_space("plan of shells")?;
     let classes = Classes::between(value_ends(values)?);
     let cells = value_cells(mesh, values, &classes, "shell")?;
     cell_picture(title, &cells, &value_key(quantity, &classes))
@@ -84,11 +80,7 @@ pub fn solid_section(
     mesh: &Mesh,
     values: &[(usize, f64)],
 ) -> Result<Svg> {
-    require_part(
-        "section of solids",
-        !mesh.has_depth(),
-        "must be in a mesh in the plane, but this one is in space",
-    )?;
+    mesh.require_plane("section of solids")?;
     let classes = Classes::with_count(value_ends(values)?, SECTION_CLASSES);
     let mut cells = value_cells(mesh, values, &classes, "solid")?;
     let mut has_value = vec![false; mesh.elements().len()];

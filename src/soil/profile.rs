@@ -42,6 +42,9 @@ pub enum Bedrock {
 
 /// Horizontal layers, from the surface down, on a half-plane or rigid bedrock.
 ///
+/// Layers are linear: the far field of a ground does not yield. Soil that yields near a foundation is a mesh with a
+/// [`SharedMaterial`](crate::fem::SharedMaterial).
+///
 /// With the feature `serde`, profiles with the crate's damping laws can be serialized and deserialized. Serializing a
 /// user's damping law returns an error.
 ///

@@ -23,7 +23,7 @@ const STEPS_PER_SAMPLE: [usize; 4] = [1, 2, 4, 8];
 #[derive(Default)]
 struct SampledRun {
     /// Displacements to the right and up, and rotation of the base, at the samples.
-    history: Vec<[f64; 3]>,
+    samples: Vec<[f64; 3]>,
     /// Steps in which all elements changed their mode.
     simultaneous_changes: usize,
     was_fully_open: bool,
@@ -35,7 +35,7 @@ impl SampledRun {
     fn record(&mut self, state: &State, steps_per_sample: usize) {
         if state.step.is_multiple_of(steps_per_sample) {
             let u = state.absolute_displacement();
-            self.history.push([u[0], u[1], u[2]]);
+            self.samples.push([u[0], u[1], u[2]]);
         }
         self.transitions.extend_from_slice(&state.transitions);
         self.simultaneous_changes += usize::from(state.transitions.len() == state.modes.len());
@@ -50,7 +50,7 @@ impl SampledRun {
 
     /// Displacements of the base at all samples, with rotations as displacements of its ends.
     fn displacements(&self) -> Vec<f64> {
-        self.history
+        self.samples
             .iter()
             .flat_map(|motion| [motion[0], motion[1], 2.0 * motion[2]])
             .collect()
@@ -224,8 +224,8 @@ fn impacts_that_accumulate_end_at_rest() {
     let refined = refined_runs("stiff springs", 5.0, rocking_block);
     assert_converging("stiff springs", &refined.differences, 0.1);
     for run in &refined.sampled {
-        let peak = largest_absolute(run.history.iter().map(|motion| motion[2]));
-        let last_samples = &run.history[run.history.len() - 100..];
+        let peak = largest_absolute(run.samples.iter().map(|motion| motion[2]));
+        let last_samples = &run.samples[run.samples.len() - 100..];
         let end = largest_absolute(last_samples.iter().map(|motion| motion[2]));
         println!("largest rotation {peak:e}, {end:e} at the end");
         assert!(end < 0.02 * peak);

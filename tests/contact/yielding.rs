@@ -156,7 +156,7 @@ fn slender_block(elements: usize, factor: f64, law: impl InterfaceLaw + 'static)
 
 /// A rocking block settles and rounds the ground, whose largest indentation is at the edges.
 #[test]
-fn rocking_rounds_the_ground() {
+fn rocking_indents_the_ground_most_at_the_edges() {
     let mut simulation = slender_block(12, 1.3, Yielding::new(6.0e5, 0.6).unwrap());
     let static_depths = yielded_depths(&simulation);
     assert!(static_depths.iter().all(|depth| *depth < 1e-3), "{static_depths:?}");

@@ -119,7 +119,7 @@ fn modes_that_are_not_found_are_an_error_with_residual_and_modes() {
 }
 
 #[test]
-fn errors_are_ordinary_errors() {
+fn errors_implement_the_standard_traits() {
     fn is_error<T: std::error::Error + Send + Sync + Clone + Debug + 'static>() {}
     is_error::<Error>();
     is_error::<StepError>();

@@ -113,7 +113,7 @@ fn bounded_grounds_are_prepared_and_decay() {
 
 /// GOAL: the builder of a simulation refuses growth.
 #[test]
-fn a_simulation_is_refused_unless_allowed() {
+fn a_simulation_with_growth_is_refused_unless_allowed() {
     fn build(ground: impl Ground, time_step: f64) -> Result<Simulation> {
         Simulation::builder(time_step)
             .structure(RigidBlock::new(4.0, 2.0, 1.0).unwrap())

@@ -261,7 +261,7 @@ impl BoundaryKernel for OneElementKernel {
 
 /// GOAL: exact figures: growth a − 1, number of modes, passivity of a spring (0) and of its negative.
 #[test]
-fn figures_of_a_kernel_with_known_zeros() {
+fn growth_and_passivity_of_a_kernel_with_known_zeros_are_exact() {
     let free = [BoundaryCondition::TractionFree];
     let fixed = [BoundaryCondition::PrescribedDisplacement];
     let kernel = OneElementKernel::new([1.1, 1.05], 1.0);

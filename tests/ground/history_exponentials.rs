@@ -105,7 +105,7 @@ fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> ComparedMarch 
 
 /// GOAL: differences of displacements, of their increments and of work stay within tolerance and bounds.
 #[test]
-fn stays_within_its_tolerance_of_the_direct_sum() {
+fn exponentials_are_within_their_tolerance_of_the_direct_sum() {
     for (name, elements) in [
         ("one element", strip(1, Grading::Uniform)),
         ("uniform", strip(6, Grading::Uniform)),

@@ -99,7 +99,7 @@ fn strips_with_gap(gap: f64) -> Vec<ContactElement> {
 /// SCENE: time steps so short that the coupling reaches over several blocks, and so long that it
 /// hardly leaves the first step; gaps of whole elements and others.
 #[test]
-fn equals_the_direct_sum() {
+fn transforms_equal_the_direct_sum() {
     for (name, elements, time_step, steps, reserved) in [
         ("one element", strip(-1.0..1.0, 1, Grading::Uniform), 2e-3, 500, 500),
         ("uniform", strip(-5.0..5.0, 10, Grading::Uniform), 2e-3, 1500, 1500),

@@ -27,7 +27,7 @@ fn weights_of_class(
 /// GOAL: weights of a damped layer on rock, of two stages and at lags 1 to 64, agree with a table.
 /// REFERENCE: `G_r2_P1_gmb_Q3_dt0.2.csv` by another program.
 #[test]
-fn agrees_with_the_table_of_a_damped_layer_on_rock() {
+fn coefficients_agree_with_the_table_of_a_damped_layer_on_rock() {
     let strip = Strip::uniform(-1.0..1.0, 3).unwrap();
     let kernel = two_stages(p1(gmb(5), gmb(1)), &strip).weights(0.2).unwrap();
     let count = kernel.classes().count();

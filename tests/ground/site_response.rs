@@ -218,7 +218,7 @@ fn deconvolved(column: &SoilColumn, record: &Record) -> SiteMotion {
 /// GOAL: deconvolution warns of the frequency above which it amplifies noise; a low-pass filter or firm soil avoids it.
 /// SCENE: El Centro at the surface of 100 m of soft, damped soil.
 #[test]
-fn deconvolution_warns_of_what_it_amplifies() {
+fn amplification_by_deconvolution_causes_a_warning() {
     let record = el_centro_1940().padded(10.0, 40.0).unwrap();
     let soft = damped_layer(100.0, 100.0, 0.15);
     let noisy = deconvolved(&soft, &record);

@@ -2,8 +2,8 @@
 
 use basemat::Result;
 use basemat::fem::{
-    Beam, BeamSection, Dashpot, Direction, Element, Hex8, LumpedMass, Material, Mesh, Quad4, Quad8,
-    QuadFormulation, Shell, SpaceBeam, Spring, Truss,
+    Beam, BeamSection, Dashpot, Direction, DruckerPrager, Element, Hex8, Iwan, LumpedMass,
+    Material, Mesh, Quad4, Quad8, QuadFormulation, SharedMaterial, Shell, SpaceBeam, Spring, Truss,
 };
 use basemat::structure::{DofCombination, FemModel, RayleighDamping};
 
@@ -30,6 +30,16 @@ pub(crate) enum Piece {
     Dashpot([usize; 2], f64),
 }
 
+/// Law of the quadrilaterals of a [`Blueprint`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum QuadLaw {
+    Elastic,
+    /// Clay of this strength, Pa.
+    Clay(f64),
+    /// Sand of this cohesion, Pa.
+    Sand(f64),
+}
+
 /// A model in SI units.
 #[derive(Debug, Clone)]
 pub(crate) struct Blueprint {
@@ -39,16 +49,24 @@ pub(crate) struct Blueprint {
     pub(crate) in_space: bool,
     pub(crate) young: f64,
     pub(crate) density: f64,
+    pub(crate) quad_law: QuadLaw,
     /// Point whose displacements are compared.
     pub(crate) top: usize,
     /// Leader and followers of a rigid link.
     pub(crate) link: Option<(usize, Vec<usize>)>,
+    /// Leaders and followers of ties.
+    pub(crate) ties: Vec<[usize; 2]>,
     /// Damping ratio of Rayleigh damping at 1 and 20 Hz; zero without.
     pub(crate) damping: f64,
     pub(crate) p_delta: bool,
 }
 
 pub(crate) const POISSON_RATIO: f64 = 0.2;
+/// Strain at the strength of clay, relative to the strength over the shear modulus.
+const LIMIT_STRAIN_RATIO: f64 = 100.0;
+/// Friction and dilation angle of sand, rad.
+const FRICTION_ANGLE: f64 = 0.6;
+const DILATION_ANGLE: f64 = 0.2;
 
 impl Blueprint {
     /// A model without points; forces in the plane are per metre.
@@ -59,8 +77,10 @@ impl Blueprint {
             in_space,
             young,
             density,
+            quad_law: QuadLaw::Elastic,
             top: 0,
             link: None,
+            ties: Vec::new(),
             damping: 0.0,
             p_delta: false,
         }
@@ -128,6 +148,10 @@ impl Blueprint {
                 followers.iter().map(|point| self.node(*point, view)).collect();
             model = model.with_rigid_link(self.node(*leader, view), &view.ordered(followers))?;
         }
+        for tie in &self.ties {
+            let nodes = tie.map(|point| self.node(point, view));
+            model = model.with_tied_nodes(nodes[0], &nodes[1..])?;
+        }
         if self.damping > 0.0 {
             let frequencies = [1.0 / frame.time, 20.0 / frame.time];
             let damping = RayleighDamping::from_ratios(frequencies, [self.damping; 2])?;
@@ -138,6 +162,29 @@ impl Blueprint {
                 .with_p_delta(basemat_problems::scenes::SCENE_GRAVITY * frame.acceleration())?;
         }
         Ok(model)
+    }
+
+    /// Material of the quadrilaterals as a view writes it.
+    pub(crate) fn quad_material(&self, view: &View) -> Result<SharedMaterial> {
+        let pressure = view.frame.pressure();
+        let density = self.density * view.frame.density();
+        let elastic = Material::new(self.young * pressure, POISSON_RATIO, density)?;
+        let material: SharedMaterial = match self.quad_law {
+            QuadLaw::Elastic => return Ok(elastic.into()),
+            QuadLaw::Clay(strength) => {
+                let shear_modulus = 0.5 * self.young / (1.0 + POISSON_RATIO);
+                let limit_strain = LIMIT_STRAIN_RATIO * strength / shear_modulus;
+                let shear_modulus = shear_modulus * pressure;
+                let strength = strength * pressure;
+                Iwan::hyperbolic(shear_modulus, strength, limit_strain, POISSON_RATIO, density)?
+                    .into()
+            }
+            QuadLaw::Sand(cohesion) => {
+                DruckerPrager::new(elastic, cohesion * pressure, FRICTION_ANGLE, DILATION_ANGLE)?
+                    .into()
+            }
+        };
+        Ok(if view.by_user { user::UserMaterial(material).into() } else { material })
     }
 
     /// Section of a beam in space of this side.
@@ -164,7 +211,9 @@ impl Blueprint {
             Piece::Quad(corners) => {
                 let corners = if mirrored { reversed(corners) } else { corners };
                 let nodes = fixed(nodes_of(&corners));
-                add(mesh, Quad4::new(nodes, material, QuadFormulation::default()), view)
+                let material = self.quad_material(view)?;
+                let formulation = QuadFormulation::for_material(&material);
+                add(mesh, Quad4::new(nodes, material, formulation), view)
             }
             Piece::Quad8([a, b, c, d, ab, bc, cd, da]) => {
                 let points = if mirrored {
@@ -172,6 +221,7 @@ impl Blueprint {
                 } else {
                     [a, b, c, d, ab, bc, cd, da]
                 };
+                let material = self.quad_material(view)?;
                 add(mesh, Quad8::new(fixed(nodes_of(&points)), material), view)
             }
             Piece::Brick([a, b, c, d, e, f, g, h]) => {

@@ -1,7 +1,9 @@
 //! Comparison of two variants of a scene.
 
+use basemat::Result;
+
 use super::parts::Choice;
-use super::scene::{SceneResponse, SceneVariant, error_kind, run};
+use super::scene::{RESPONSE_GROUPS, SceneResponse, SceneVariant, error_kind, run};
 use super::tally::IdentityTally;
 use super::view::{PLAIN_VIEW, View};
 
@@ -39,11 +41,37 @@ pub(crate) fn compare_variant(
     tally: &mut IdentityTally,
 ) {
     let place = format!("{}: {}", named.name, choice.name());
-    match run(choice, named.view, named.variant) {
+    let response = run(choice, named.view, named.variant);
+    compare_response(choice, usual, &ComparedGroups::all(&place), response, limit, tally);
+}
+
+/// Groups of numbers to compare, and the place for the report.
+pub(crate) struct ComparedGroups<'a> {
+    pub(crate) place: &'a str,
+    pub(crate) groups: &'a [&'a str],
+}
+
+impl<'a> ComparedGroups<'a> {
+    pub(crate) fn all(place: &'a str) -> Self {
+        Self { place, groups: &RESPONSE_GROUPS }
+    }
+}
+
+/// As [`compare_variant`], of a response that was computed.
+pub(crate) fn compare_response(
+    choice: &Choice,
+    usual: &SceneResponse,
+    compared: &ComparedGroups,
+    response: Result<SceneResponse>,
+    limit: f64,
+    tally: &mut IdentityTally,
+) {
+    let ComparedGroups { place, groups } = compared;
+    match response {
         Ok(response) => {
-            let difference = usual.difference(&response);
+            let difference = usual.difference_in(&response, groups);
             let limit = if difference.value > limit {
-                limit.max(amplified_perturbation(choice, usual))
+                limit.max(amplified_perturbation(choice, usual, groups))
             } else {
                 limit
             };
@@ -54,11 +82,11 @@ pub(crate) fn compare_variant(
 }
 
 /// Largest difference of scenes that differ by 1e-10 in shaking, soil and friction, amplified.
-fn amplified_perturbation(choice: &Choice, usual: &SceneResponse) -> f64 {
+fn amplified_perturbation(choice: &Choice, usual: &SceneResponse, groups: &[&str]) -> f64 {
     let mut largest = 0.0_f64;
     for factors in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
         if let Ok(perturbed) = run(choice, &PLAIN_VIEW, SceneVariant::Perturbed(factors)) {
-            largest = usual.difference(&perturbed).value.max(largest);
+            largest = usual.difference_in(&perturbed, groups).value.max(largest);
         }
     }
     largest * AMPLIFICATION_FACTOR

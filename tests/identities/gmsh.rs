@@ -93,7 +93,8 @@ fn mesh_from_file(plan: &Blueprint) -> Result<Mesh> {
         let parts: Vec<_> = names.zip(parts).collect();
         GmshSpaceMesh::from_reader("blueprint.msh", text.as_bytes())?.mesh(&parts)
     } else {
-        let materials: Vec<_> = names.map(|name| (name, material)).collect();
+        let material = plan.quad_material(&PLAIN_VIEW)?;
+        let materials: Vec<_> = names.map(|name| (name, material.clone())).collect();
         GmshMesh::from_reader("blueprint.msh", text.as_bytes())?.mesh(&materials)
     }
 }

@@ -1,6 +1,6 @@
 //! Finite-element models of scenes.
 
-use super::blueprint::{Blueprint, Piece};
+use super::blueprint::{Blueprint, Piece, QuadLaw};
 use super::numbers::Numbers;
 
 /// Young's modulus of a model with about this frequency (Hz) as a cantilever of the numbers' size, Pa.
@@ -51,6 +51,16 @@ pub(crate) fn quads(numbers: &Numbers, has_eight_nodes: bool) -> Blueprint {
     plan.damping = 0.03;
     plan.top = nodes[parts * QUAD_ROWS][parts * QUAD_COLUMNS];
     plan
+}
+
+/// Quadrilaterals of clay that yields under its weight and the shaking, and carries both.
+pub(crate) fn clay(numbers: &Numbers) -> Blueprint {
+    Blueprint { quad_law: QuadLaw::Clay(1.5 * numbers.pressure()), ..quads(numbers, true) }
+}
+
+/// Quadrilaterals of sand with cohesion that yields under its weight and the shaking, and carries both.
+pub(crate) fn sand(numbers: &Numbers) -> Blueprint {
+    Blueprint { quad_law: QuadLaw::Sand(0.8 * numbers.pressure()), ..quads(numbers, false) }
 }
 
 /// A plane frame of two bays on a stiff base, with masses that are not symmetric.

@@ -65,7 +65,10 @@ parts! {
         Matrices, "matrices", [Plane, Plan], ["MatrixModel"];
         Frame, "plane frame", [Plane], ["FemModel", "Beam", "LumpedMass", "Dashpot"];
         Quads, "quadrilaterals", [Plane], ["FemModel", "Quad4"];
-        Quads8, "eight-node quadrilaterals", [Plane], ["FemModel", "Quad8"];
+        Quads8, "eight-node quadrilaterals", [Plane], ["FemModel", "Quad8", "Material"];
+        Clay, "clay that yields", [Plane], ["FemModel", "Quad8", "Iwan"];
+        Sand, "sand that yields", [Plane], ["FemModel", "Quad4", "DruckerPrager"];
+        ClayPair, "clay beside storeys", [Plane], ["StructureGroup", "FemModel", "Quad8", "Iwan"];
         Reduced, "reduced model", [Plane, Plan], ["ReducedModel"];
         Rigid, "rigid body", [Plan], ["RigidBody"];
         Floors, "floors", [Plan], ["StoreyBuilding"];
@@ -130,9 +133,14 @@ parts! {
 }
 
 impl BodyPart {
+    /// Whether its solids yield.
+    pub(crate) fn yields(self) -> bool {
+        matches!(self, Self::Clay | Self::Sand | Self::ClayPair)
+    }
+
     /// Whether a structure needs its physical degrees of freedom.
     pub(crate) fn is_nonlinear(self) -> bool {
-        matches!(self, Self::Hysteretic | Self::Sprung)
+        self.yields() || matches!(self, Self::Hysteretic | Self::Sprung)
     }
 
     /// Whether it has finite elements that Gmsh meshes.
@@ -141,6 +149,8 @@ impl BodyPart {
             self,
             Self::Quads
                 | Self::Quads8
+                | Self::Clay
+                | Self::Sand
                 | Self::Shells
                 | Self::SlenderFrame
                 | Self::Bricks
@@ -184,8 +194,14 @@ macro_rules! any {
 }
 
 impl Choice {
-    fn draw(random: &mut Random, space: Space) -> Self {
-        let body = any!(random, space, BodyPart);
+    /// Random parts; `yields` says whether the body is one of solids that yield.
+    fn draw(random: &mut Random, space: Space, yields: bool) -> Self {
+        let bodies: Vec<BodyPart> = BodyPart::ALL_PARTS
+            .iter()
+            .copied()
+            .filter(|body| body.fits(space) && body.yields() == yields)
+            .collect();
+        let body = random.pick(&bodies);
         let coordinate = if body.couples_modes() {
             CoordinatePart::Physical
         } else {
@@ -232,13 +248,22 @@ impl Choice {
 /// Random candidates for each scene; the one with the most new pairs is chosen.
 const CANDIDATE_COUNT: usize = 60;
 
-/// `count` scenes in a space that cover as many pairs of parts as they can.
+/// `count` scenes in a space that cover as many pairs of parts as they can, but those with solids that yield.
 pub(crate) fn covering(space: Space, seed: u64, count: usize) -> Vec<Choice> {
+    covering_bodies(space, false, seed, count)
+}
+
+/// As [`covering`], of bodies in the plane whose solids yield.
+pub(crate) fn covering_yielding(seed: u64, count: usize) -> Vec<Choice> {
+    covering_bodies(Space::Plane, true, seed, count)
+}
+
+fn covering_bodies(space: Space, yields: bool, seed: u64, count: usize) -> Vec<Choice> {
     let mut random = Random(seed);
     let mut covered: Vec<[&'static str; 2]> = Vec::new();
     let mut chosen = Vec::new();
     for _ in 0..count {
-        let candidates = (0..CANDIDATE_COUNT).map(|_| Choice::draw(&mut random, space));
+        let candidates = (0..CANDIDATE_COUNT).map(|_| Choice::draw(&mut random, space, yields));
         let best = candidates.max_by_key(|choice| {
             choice.pairs().iter().filter(|pair| !covered.contains(pair)).count()
         });

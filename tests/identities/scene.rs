@@ -146,7 +146,7 @@ fn loads(
 }
 
 /// Groups of numbers of a step: forces, moments, rotations, displacements of the top, energies.
-const RESPONSE_GROUPS: [&str; 5] = ["forces", "moments", "rotations", "top", "energies"];
+pub(crate) const RESPONSE_GROUPS: [&str; 5] = ["forces", "moments", "rotations", "top", "energies"];
 
 /// Largest difference of two responses, relative to the largest number of its group.
 pub(crate) struct GroupDifference {

@@ -120,25 +120,31 @@ fn in_the_plane(body: BodyPart, numbers: &Numbers, view: &View) -> Result<Probed
                 WithSprings::new(building).spring(drift, yielding_spring(numbers, view)?)?;
             ProbedStructure::new(sprung, top(ROOF_DOF, 1))
         }
-        BodyPart::Pair => pair(numbers, view)?,
+        BodyPart::Pair | BodyPart::ClayPair => pair(body == BodyPart::ClayPair, numbers, view)?,
         BodyPart::Matrices => matrices(numbers, view)?,
         BodyPart::Frame => of_blueprint(&models::frame(numbers), view)?,
         BodyPart::Quads | BodyPart::Quads8 => {
             of_blueprint(&models::quads(numbers, body == BodyPart::Quads8), view)?
         }
+        BodyPart::Clay => of_blueprint(&models::clay(numbers), view)?,
+        BodyPart::Sand => of_blueprint(&models::sand(numbers), view)?,
         BodyPart::Reduced => reduced(&models::quads(numbers, false), view)?,
         _ => unreachable!("{} is no structure in the plane", body.word()),
     })
 }
 
 /// A block and storeys side by side, in the order from the left.
-fn pair(numbers: &Numbers, view: &View) -> Result<ProbedStructure> {
+fn pair(has_clay_block: bool, numbers: &Numbers, view: &View) -> Result<ProbedStructure> {
     let half_size = Numbers { sides: numbers.sides.map(|side| 0.5 * side), ..*numbers };
     let unmoved = View { shift: [0.0; 2], ..*view };
     let distance = 0.5 * numbers.sides[0];
     let block_center = view.surface_point([-distance, 0.0])[0];
     let building_center = view.surface_point([distance, 0.0])[0];
-    let block = block(&half_size, &unmoved)?;
+    let block: Box<dyn Structure> = if has_clay_block {
+        of_blueprint(&models::clay(&half_size), &unmoved)?.structure
+    } else {
+        Box::new(block(&half_size, &unmoved)?)
+    };
     let building = building(&half_size, &unmoved)?;
     let is_mirrored = view.frame.mirrored;
     let group = if is_mirrored {

@@ -81,6 +81,7 @@ fn all_parts_of_the_library_have_rows() {
         assert_all("Structure", folder, types!(BodyPart));
     }
     assert_all("Element", "../crates/structures/src/fem", types!(BodyPart));
+    assert_all("SolidMaterial", "../crates/structures/src/fem/solid", types!(BodyPart));
     assert_all("InterfaceLaw", "interface", types!(LawPart));
     assert_all("FreeField", "motion", types!(MotionPart));
     assert_all("FreeField", "site", types!(MotionPart));
@@ -96,6 +97,7 @@ fn rows_name_parts_of_the_library() {
         ("Ground", "bem"),
         ("Structure", "../crates/structures/src/structure"),
         ("Element", "../crates/structures/src/fem"),
+        ("SolidMaterial", "../crates/structures/src/fem/solid"),
         ("InterfaceLaw", "interface"),
         ("FreeField", "motion"),
         ("FreeField", "site"),

@@ -2,9 +2,11 @@
 
 use basemat::Result;
 use basemat::bem::{self, GroundDescription};
-use basemat::fem::{self, Direction, ElementFace, MassKind};
+use basemat::fem::{
+    self, Direction, ElementFace, InelasticForce, MassKind, SharedMaterial, SolidMaterial,
+};
 use basemat::interface::{ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact};
-use basemat::structure::{self, NonlinearForce, Triplets};
+use basemat::structure::{self, InternalEnergy, NonlinearForce, Triplets};
 use basemat_problems::{ground_from, law_from, needed_from};
 
 /// A structure with the matrices of another one.
@@ -135,5 +137,51 @@ impl fem::Element for UserElement {
 
     fn is_plane(&self) -> bool {
         self.0.is_plane()
+    }
+
+    fn inelastic(&self) -> Option<&dyn InelasticForce> {
+        self.0.inelastic()
+    }
+}
+
+/// A material with the stresses of another one, and the remainder by its definition.
+#[derive(Debug)]
+pub(crate) struct UserMaterial(pub(crate) SharedMaterial);
+
+impl SolidMaterial for UserMaterial {
+    fn density(&self) -> f64 {
+        self.0.law().density()
+    }
+
+    fn elasticity(&self) -> [[f64; 4]; 4] {
+        self.0.law().elasticity()
+    }
+
+    fn variable_count(&self) -> usize {
+        self.0.law().variable_count()
+    }
+
+    fn initialize(&self, initial_stress: [f64; 4], variables: &mut [f64]) -> Result<()> {
+        self.0.law().initialize(initial_stress, variables)
+    }
+
+    fn stress(&self, strain: [f64; 4], variables: &[f64]) -> Result<[f64; 4]> {
+        self.0.law().stress(strain, variables)
+    }
+
+    fn tangent(&self, strain: [f64; 4], variables: &[f64]) -> Result<[[f64; 4]; 4]> {
+        self.0.law().tangent(strain, variables)
+    }
+
+    fn has_symmetric_tangent(&self) -> bool {
+        self.0.law().has_symmetric_tangent()
+    }
+
+    fn energy(&self, strain: [f64; 4], variables: &[f64]) -> Result<InternalEnergy> {
+        self.0.law().energy(strain, variables)
+    }
+
+    fn commit(&self, strain: [f64; 4], variables: &mut [f64]) {
+        self.0.law().commit(strain, variables);
     }
 }

@@ -6,13 +6,17 @@ use basemat_problems::random::Random;
 use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
 use super::compare::{NamedVariant, compare_variant, usual_response};
-use super::parts::{Choice, CoordinatePart, Space, covering};
+use super::parts::{Choice, CoordinatePart, LawPart, Space, covering, covering_yielding};
 use super::scene::{REDUCED_LIMIT, SceneVariant};
 use super::tally::{IdentityTally, scenes};
 use super::view::{PLAIN_VIEW, View, random_units};
 
 /// Largest relative difference; static states are accurate to 1e-10.
 const DIFFERENCE_LIMIT: f64 = 1e-7;
+/// The same for settling soil under solids that yield, in other units.
+///
+/// The forces of a step of that law differ by up to 5e-9 between units, and contact amplifies the difference.
+const CYCLIC_UNITS_LIMIT: f64 = 1e-6;
 
 /// Views that change one thing each.
 fn views(choice: &Choice) -> Vec<(&'static str, View)> {
@@ -34,18 +38,24 @@ fn views(choice: &Choice) -> Vec<(&'static str, View)> {
     views
 }
 
-fn check(space: Space, row: &'static str, count: usize) {
+fn check(choices: &[Choice], row: &'static str) {
     let mut tally = IdentityTally::new(row);
-    for (number, choice) in covering(space, 61, count).iter().enumerate() {
+    for (number, choice) in choices.iter().enumerate() {
         let Some(response) = usual_response(choice, &mut tally) else { continue };
         let views = views(choice);
         let is_reduced = choice.coordinate == CoordinatePart::Reduced;
         let limit = if is_reduced { REDUCED_LIMIT } else { DIFFERENCE_LIMIT };
         // Some views of each scene, in rotation; all of them at night.
-        let few_views = if space == Space::Trench { 1 } else { 2 };
+        let few_views = if choice.space == Space::Trench { 1 } else { 2 };
         let view_count = if basemat_problems::heavy() { views.len() } else { few_views };
         for k in 0..view_count {
             let (name, view) = &views[(number + 2 * k) % views.len()];
+            let has_cyclic_law = choice.law == LawPart::Cyclic && choice.body.yields();
+            let limit = if has_cyclic_law && *name == "in other units" {
+                CYCLIC_UNITS_LIMIT
+            } else {
+                limit
+            };
             let named = NamedVariant { name, view, variant: SceneVariant::Usual };
             compare_variant(choice, &response, &named, limit, &mut tally);
         }
@@ -56,17 +66,23 @@ fn check(space: Space, row: &'static str, count: usize) {
 /// GOAL: views of scenes in the plane.
 #[test]
 fn scenes_in_the_plane_are_the_same_from_everywhere() {
-    check(Space::Plane, "views in the plane", scenes(70, 1500));
+    check(&covering(Space::Plane, 61, scenes(70, 1500)), "views in the plane");
 }
 
 /// GOAL: views of scenes in plan.
 #[test]
 fn scenes_in_plan_are_the_same_from_everywhere() {
-    check(Space::Plan, "views in plan", scenes(40, 600));
+    check(&covering(Space::Plan, 61, scenes(40, 600)), "views in plan");
 }
 
 /// GOAL: views of scenes around a trench.
 #[test]
 fn scenes_around_a_trench_are_the_same_from_everywhere() {
-    check(Space::Trench, "views around a trench", scenes(1, 40));
+    check(&covering(Space::Trench, 61, scenes(1, 40)), "views around a trench");
+}
+
+/// GOAL: views of scenes with soil that yields.
+#[test]
+fn soil_that_yields_is_the_same_from_everywhere() {
+    check(&covering_yielding(62, scenes(30, 400)), "views of soil that yields");
 }

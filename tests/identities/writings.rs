@@ -3,7 +3,7 @@
 //! REFERENCE: the scene in physical coordinates.
 
 use super::compare::{NamedVariant, compare_variant, usual_response};
-use super::parts::{Choice, CoordinatePart, Space, covering};
+use super::parts::{Choice, CoordinatePart, Space, covering, covering_yielding};
 use super::scene::{REDUCED_LIMIT, SceneVariant};
 use super::tally::{IdentityTally, scenes};
 use super::view::{PLAIN_VIEW, View};
@@ -11,9 +11,9 @@ use super::view::{PLAIN_VIEW, View};
 /// Largest relative difference; static states are accurate to 1e-10.
 const DIFFERENCE_LIMIT: f64 = 1e-7;
 
-fn check(space: Space, row: &'static str, count: usize) {
+fn check(choices: Vec<Choice>, row: &'static str) {
     let mut tally = IdentityTally::new(row);
-    for choice in covering(space, 81, count) {
+    for choice in choices {
         let other = choice.coordinate;
         let physical = Choice { coordinate: CoordinatePart::Physical, ..choice };
         let Some(response) = usual_response(&physical, &mut tally) else { continue };
@@ -47,17 +47,26 @@ fn check(space: Space, row: &'static str, count: usize) {
 /// GOAL: variants of scenes in the plane.
 #[test]
 fn coordinates_and_users_parts_in_the_plane() {
-    check(Space::Plane, "coordinates and users' parts in the plane", scenes(50, 1000));
+    let choices = covering(Space::Plane, 81, scenes(50, 1000));
+    check(choices, "coordinates and users' parts in the plane");
 }
 
 /// GOAL: variants of scenes in plan.
 #[test]
 fn coordinates_and_users_parts_in_plan() {
-    check(Space::Plan, "coordinates and users' parts in plan", scenes(25, 400));
+    let choices = covering(Space::Plan, 81, scenes(25, 400));
+    check(choices, "coordinates and users' parts in plan");
 }
 
 /// GOAL: variants of scenes around a trench.
 #[test]
 fn coordinates_and_users_parts_around_a_trench() {
-    check(Space::Trench, "coordinates and users' parts around a trench", scenes(1, 40));
+    let choices = covering(Space::Trench, 81, scenes(1, 40));
+    check(choices, "coordinates and users' parts around a trench");
+}
+
+/// GOAL: users' elements and materials, and meshes from Gmsh, of soil that yields.
+#[test]
+fn users_parts_of_soil_that_yields() {
+    check(covering_yielding(82, scenes(20, 300)), "users' parts of soil that yields");
 }

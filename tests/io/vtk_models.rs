@@ -6,7 +6,7 @@ use std::path::Path;
 use basemat::bem::SpringGround;
 use basemat::fem::{
     BeamSection, Direction, Element, ElementFace, Hex8, Iwan, LumpedMass, MassKind, Material, Mesh,
-    SharedMaterial, Shell, SpaceBeam,
+    SharedMaterial, Shell, SolidPoint, SpaceBeam,
 };
 use basemat::interface::Bonded;
 use basemat::io::paraview;
@@ -114,6 +114,97 @@ fn states_of_yielding_solids_are_cell_data() {
         Mesh::quad8_block(&[0.0, 1.0], &[0.0, 1.0], |_, _| concrete.clone()).unwrap(),
     );
     let error = paraview::write_solid_state(&path, &linear.unwrap(), &dofs).unwrap_err();
+    assert!(matches!(error, Error::Scene { .. }), "{error}");
+}
+
+/// What a grid must hold.
+struct ExpectedGrid {
+    time: f64,
+    /// Plastic strain and mobilised strength of each cell.
+    strains: [f64; 4],
+    strengths: [f64; 4],
+    largest_displacement: f64,
+}
+
+/// Largest absolute value.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |max: f64, value| max.max(value.abs()))
+}
+
+/// Block of clay beside a column of concrete, whose state a series holds at several times.
+fn grids_of_a_run(folder: &Path) -> Vec<ExpectedGrid> {
+    let clay = SharedMaterial::from(Iwan::hyperbolic(20.0e6, 25.0e3, 0.4, 0.45, 1900.0).unwrap());
+    let concrete = SharedMaterial::from(Material::new(30.0e9, 0.2, 2400.0).unwrap());
+    let mesh = Mesh::quad8_block(&[-1.5, -0.5, 0.5, 1.5], &[0.0, 1.0, 2.0], |column, _| {
+        if column == 1 { concrete.clone() } else { clay.clone() }
+    });
+    let model = FemModel::on_base(mesh.unwrap()).unwrap();
+    let mut simulation = Simulation::builder(0.01)
+        .ground(SpringGround::under(&model, 6, 4e7, 3e7).unwrap())
+        .structure(model)
+        .interface(Bonded)
+        .motion(el_centro_1940())
+        .build()
+        .unwrap();
+    let mut series = paraview::SolidSeries::new(folder, "clay").unwrap();
+    let mut expected = Vec::new();
+    for step in 1..=300 {
+        simulation.step().unwrap();
+        if step % 100 != 0 {
+            continue;
+        }
+        let structure: &dyn std::any::Any = simulation.structure();
+        let model: &FemModel = structure.downcast_ref().unwrap();
+        let state = simulation.state();
+        series.write(state.time, model, state.displacement()).unwrap();
+        // Elements are rectangles with points of equal areas.
+        let mean = |element: usize, value: fn(&SolidPoint) -> f64| {
+            model.solid_points(element).unwrap().iter().map(value).sum::<f64>() / 4.0
+        };
+        let elements = [0, 2, 3, 5];
+        expected.push(ExpectedGrid {
+            time: state.time,
+            strains: elements.map(|element| mean(element, |point| point.state.plastic_strain)),
+            strengths: elements
+                .map(|element| mean(element, |point| point.state.mobilised_strength)),
+            largest_displacement: largest(state.displacement()),
+        });
+        // A time must come after the last one, and nothing is written otherwise.
+        let error = series.write(state.time, model, state.displacement()).unwrap_err();
+        assert!(matches!(error, Error::Input { .. }), "{error}");
+    }
+    assert_eq!(series.grid_count(), 3);
+    expected
+}
+
+/// GOAL: the grids of a run hold the state of every time, and the collection lists them.
+#[test]
+fn states_of_soil_that_yields_are_a_series() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vtk_solid_series");
+    let _ = std::fs::remove_dir_all(&folder);
+    let expected = grids_of_a_run(&folder);
+    let collection = std::fs::read_to_string(folder.join("clay.pvd")).unwrap();
+    assert_eq!(collection.matches("<DataSet").count(), 3);
+    let mut last_strain = 0.0;
+    for (index, grid_of_time) in expected.iter().enumerate() {
+        let ExpectedGrid { time, strains, strengths, largest_displacement } = grid_of_time;
+        let name = format!("clay_{index:04}.vtu");
+        assert!(
+            collection
+                .contains(&format!("timestep=\"{time}\" group=\"\" part=\"0\" file=\"{name}\""))
+        );
+        let grid = grid_of(&folder, &name);
+        assert_eq!(grid["types"].len(), 4);
+        for (cell, (strain, strength)) in strains.iter().zip(strengths).enumerate() {
+            assert!((grid["plastic_strain"][cell] / strain - 1.0).abs() < 1e-9, "{name} {cell}");
+            assert!((grid["mobilised_strength"][cell] / strength - 1.0).abs() < 1e-9, "{name}");
+        }
+        let written = largest(&grid["displacement"]);
+        assert!((written / largest_displacement - 1.0).abs() < 1e-12, "{written}");
+        assert!(strains[0] != last_strain && strains[0] > 1e-5, "{strains:?}");
+        last_strain = strains[0];
+    }
+    let error = paraview::SolidSeries::new(&folder, "a/b").unwrap_err();
     assert!(matches!(error, Error::Scene { .. }), "{error}");
 }
 

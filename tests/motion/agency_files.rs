@@ -211,7 +211,7 @@ fn short_files_of_other_agencies_are_read() {
 
 /// GOAL: times rounded too coarsely for a time step are refused; the error names `time_step`.
 #[test]
-fn times_that_are_rounded_too_coarsely_ask_for_the_step() {
+fn times_that_are_rounded_too_coarsely_are_refused() {
     let columns = ColumnFormat::new(SI_UNIT);
     let error = refusal(&bytes("rounded128.csv"), &columns);
     assert!(error.line == 5 && error.fault.to_string().contains("`time_step`"), "{error}");

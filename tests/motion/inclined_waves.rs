@@ -94,7 +94,7 @@ fn vertical_incidence_doubles_one_component() {
     }
 }
 
-/// Asserts the error of a component that hardly moves.
+/// Asserts the error of a component with little motion.
 #[track_caller]
 fn assert_refused(outcome: Result<TravellingWave>, name: &str) {
     let Err(error @ Error::Input { value, .. }) = outcome else {

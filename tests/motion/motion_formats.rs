@@ -149,7 +149,7 @@ const CSMIP_TEXT: &str = "Corrected accelerogram from Chan  1\n\
 
 /// GOAL: the requested channel of a CSMIP file is read; other numbers of channels are refused.
 #[test]
-fn csmip_files_hold_channels() {
+fn csmip_files_have_channels() {
     let format = CosmosFormat::default();
     assert_record(&read(CSMIP_TEXT, &format).unwrap(), 0.02, &[0.01, -123.45678, 0.03]);
     let second = CosmosFormat { channel: 2, ..format };

@@ -105,7 +105,7 @@ fn sampled_sine(count: f64) -> Record {
 /// GOAL: fewer than ten samples in a period give a warning.
 /// REFERENCE: samples joined by lines keep (sin x/x)² of a sine, x = π/n for n samples in its period.
 #[test]
-fn spectra_of_few_samples_warn() {
+fn spectra_of_few_samples_cause_a_warning() {
     let damping = 0.05;
     for count in [40.0, 20.0, 10.0, 5.0, 2.5] {
         let record = sampled_sine(count);

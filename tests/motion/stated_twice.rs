@@ -135,7 +135,7 @@ fn contradictions_in_esm_files_are_refused() {
     );
 }
 
-/// GOAL: number of samples, peaks, columns and units of an AFAD file agree; the unit may stand in either title.
+/// GOAL: number of samples, peaks, columns and units of an AFAD file agree; the unit may be in either title.
 #[test]
 fn contradictions_in_afad_files_are_refused() {
     assert_refused(

@@ -221,7 +221,7 @@ fn a_run_warns_of_the_form_of_first_order_only() {
     }
 }
 
-/// A fixed base does not stand on its ground, which is then not described.
+/// A fixed base does not rest on its ground, which is then not described.
 #[test]
 fn a_build_describes_a_ground_once() {
     for (is_fixed, count) in [(false, 1), (true, 0)] {

@@ -112,7 +112,7 @@ fn a_source_that_requests_itself_is_refused() {
 }
 
 #[test]
-fn a_kernel_that_another_thread_makes_is_shared() {
+fn a_kernel_that_another_thread_computes_is_shared() {
     let kernels = SharedKernels::default();
     let source = DependentSource::new(&kernels, 1.0);
     let mut tasks: Vec<Box<dyn FnOnce() -> Result<()> + Send>> = Vec::new();

@@ -118,7 +118,7 @@ fn edited_digits_are_refused() {
                     assert_eq!(fault, FileFault::Damaged { quantity: "the table".into() });
                     damaged += 1;
                 }
-                // Another seventeenth digit may stand for the same number.
+                // Another seventeenth digit may give the same number.
                 merged => assert_eq!(merged.unwrap(), table, "byte {at} of case {case}"),
             }
         }
@@ -135,7 +135,7 @@ fn plain_results(case: &SweepCase<'_>) -> [f64; 2] {
     [1.0 / 3.0, case.index as f64]
 }
 
-/// The mark stands in rows with quoted cells, which close it, and in rows without any, which do not.
+/// The mark is in rows with quoted cells, which close it, and in rows without any, which do not.
 #[test]
 fn a_stray_quotation_mark_drops_no_rows() {
     for (name, sweep, compute) in [

@@ -67,7 +67,7 @@ fn is_of_step(warning: &Warning) -> bool {
 
 /// Reference: ω² = ∫ ȧ² dt / ∫ a² dt of the record's acceleration, which is linear between its samples.
 #[test]
-fn a_longer_step_never_warns_less() {
+fn longer_steps_cause_no_fewer_warnings() {
     let record = el_centro_1940();
     let mut rates = 0.0;
     let mut squares = 0.0;

@@ -14,7 +14,7 @@ use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 /// Values stay in SI units in files and are converted to the engineers' units where they are printed; an
 /// unknown label stays.
 #[test]
-fn probes_come_with_their_unit() {
+fn probes_have_their_unit() {
     let mut simulation = scene(SI_UNITS, 0.6)
         .structure(block(SI_UNITS))
         .interface(friction(FRICTION_COEFFICIENT))

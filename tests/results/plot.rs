@@ -237,7 +237,7 @@ fn invalid_requests_are_errors() {
     assert!(plot::deformed_shapes("T", &shape, &time_series, &[f64::NAN], 1.0).is_err());
     let fault = plot::deformed_shapes("T", &shape, &time_series, &[0.4], f64::MAX);
     assert!(matches!(fault, Err(Error::Input { .. })));
-    // A distant time stands for the nearest instant.
+    // A distant time is replaced by the nearest instant.
     assert!(plot::deformed_shapes("T", &shape, &time_series, &[1e9], 1.0).is_ok());
 }
 
@@ -274,7 +274,7 @@ fn building_on(soil: Soil) -> Result<SimulationBuilder> {
 
 /// A page of one run: motion, model, peaks beside the fixed base, first mode and pictures, all inside one file.
 #[test]
-fn a_page_holds_motion_model_peaks_and_pictures() {
+fn a_page_has_motion_model_peaks_and_pictures() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     let found = interaction(3.0, || building_on(soil)).unwrap();
     let mut simulation = building_on(soil).unwrap().build().unwrap();
@@ -313,7 +313,7 @@ fn a_page_holds_motion_model_peaks_and_pictures() {
         assert!((ground / fixed / found.ratio(quantity) - 1.0).abs() < 4e-3, "{line}");
         assert!((ratio - found.ratio(quantity)).abs() < 1e-3, "{line}");
     }
-    // Pictures stand in the page, whole, and nothing is loaded from elsewhere.
+    // Pictures are complete in the page, and nothing is loaded from elsewhere.
     for picture in &pictures {
         assert!(page.contains(picture.as_str()));
     }

@@ -189,17 +189,24 @@ fn rocking_in_space_equals_rocking_in_the_plane() {
     }
 }
 
+/// Rotations (rad) and moments (N m) of a cycle.
+struct MomentLoop {
+    rotation: Vec<f64>,
+    moment: Vec<f64>,
+}
+
 /// An ellipse of `count` points, whose moment leads by `angle`.
-fn ellipse(count: usize, angle: f64) -> [Vec<f64>; 2] {
+fn ellipse(count: usize, angle: f64) -> MomentLoop {
     let phases = (0..=count).map(|k| TAU * k as f64 / count as f64);
     let rotation = phases.clone().map(|phase| 2e-3 * phase.sin()).collect();
-    [rotation, phases.map(|phase| 3e5 + 7e4 * (phase + angle).sin()).collect()]
+    let moment = phases.map(|phase| 3e5 + 7e4 * (phase + angle).sin()).collect();
+    MomentLoop { rotation, moment }
 }
 
 #[test]
 fn ellipses_have_half_the_sine_of_their_angle() {
     for angle in [0.0, 0.1, 0.5, 0.25 * PI, -0.2] {
-        let [rotation, moment] = ellipse(8000, angle);
+        let MomentLoop { rotation, moment } = ellipse(8000, angle);
         let damping = equivalent_damping(&rotation, &moment).unwrap();
         assert!((damping - 0.5 * f64::sin(angle)).abs() < 1e-6, "{damping}");
         // A cycle may begin anywhere, and need not be closed to the last bit.
@@ -232,7 +239,7 @@ fn springs_and_dashpots_have_the_damping_of_their_ratio() {
 
 #[test]
 fn series_that_are_no_cycle_are_refused() {
-    let [rotation, moment] = ellipse(400, 0.3);
+    let MomentLoop { rotation, moment } = ellipse(400, 0.3);
     let refused =
         |rotation: &[f64], moment: &[f64]| equivalent_damping(rotation, moment).unwrap_err();
     assert!(matches!(refused(&rotation[..2], &moment[..2]), Error::Size { found: 2, .. }));

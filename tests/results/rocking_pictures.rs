@@ -102,13 +102,13 @@ fn moments_in_space_are_those_of_the_whole_body() {
 }
 
 #[test]
-fn pictures_of_rocking_refuse_mixed_units_and_nothing() {
+fn pictures_of_rocking_refuse_mixed_units_and_empty_lists() {
     let plane_series = settling_block();
-    let plan_series = body_in_space();
+    let space_series = body_in_space();
     let plane = plane_series.rocking(0).unwrap();
-    let plan = plan_series.rocking(0).unwrap();
+    let space = space_series.rocking(0).unwrap();
     for picture in [plot::moment_rotation, plot::settlement_rotation] {
-        let mixed = picture("T", &[("plane", plane), ("plan", plan)], &[]);
+        let mixed = picture("T", &[("plane", plane), ("space", space)], &[]);
         assert!(matches!(mixed, Err(Error::Scene { quantity: "unit of a moment", .. })));
         let none = picture("T", &[], &[measured("points", &[(0.0, 1.0)])]);
         assert!(matches!(none, Err(Error::Size { found: 0, needed: 1, .. })));

@@ -104,7 +104,7 @@ fn assert_close(computed: &[f64], expected: &[f64]) {
     }
 }
 
-/// Why a body cannot stand under its weight with a law.
+/// The stability error of a body under its weight with a law.
 fn stability_error(law: impl InterfaceLaw + 'static) -> StabilityError {
     match scene(law, 0.0).build().unwrap_err() {
         Error::Stability(cause) => *cause,

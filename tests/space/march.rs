@@ -272,7 +272,7 @@ fn an_eccentric_weight_tilts_the_body_about_both_axes() {
 
 /// A page of a body in space has the results of the whole body, not of one metre of it.
 #[test]
-fn pages_are_of_the_whole_body() {
+fn pages_have_values_of_the_whole_body() {
     let mut simulation = scene(2e-3).unwrap();
     let run = simulation.run(20, |_| {}).unwrap();
     let page = run.to_string();

@@ -180,7 +180,7 @@ fn a_body_moves_above_its_elements() {
 }
 
 #[test]
-fn towers_are_seen_from_two_sides() {
+fn towers_are_drawn_from_two_sides() {
     let shape = DeformedShape::of_storeys(&tower()).unwrap();
     // Four corners of the mat and of each floor; outlines and columns.
     assert_eq!(shape.points().len(), 16);

@@ -125,7 +125,7 @@ impl RunTotals {
         self.scenes += 1;
         let mut simulation = match scene(&mut Random(FIRST_SEED + number as u64)) {
             Ok(simulation) => simulation,
-            // A structure that cannot stand under its load at t = 0.
+            // A structure without a static state under its load at t = 0.
             Err(error @ (Error::Preload { .. } | Error::Stability(_))) => {
                 println!("{number}: {error}");
                 self.unsolved_scenes += 1;
@@ -221,7 +221,7 @@ impl RunTotals {
 }
 
 #[test]
-fn energies_of_random_scenes_close() {
+fn energy_balances_of_random_scenes_close() {
     let first = env_number("SPACE_FIRST", 0);
     let scenes = env_number("SPACE_SCENES", SCENE_COUNT);
     let mut totals = RunTotals::default();
@@ -244,7 +244,7 @@ fn energies_of_random_scenes_close() {
 
 /// Rafts of shells with walls or frames, and bricks: energy balances close (`cargo study elements` runs 200).
 #[test]
-fn energies_of_random_flexible_scenes_close() {
+fn energy_balances_of_random_flexible_scenes_close() {
     let mut outcome = FlexibleSceneTotals::default();
     for number in [10, 17, 18, 32, 43, 69] {
         outcome.run(number);
@@ -304,10 +304,10 @@ fn random_scenes_resume_to_the_last_bit() {
     );
 }
 
-/// Infinite friction beside a bond, on a base whose third cell carries next to nothing.
+/// Infinite friction beside a bond, on a base whose third cell carries almost no load.
 ///
 /// A pull of the fictitious springs of 5e-7 of the load turns its shear from one bound to another and back.
 #[test]
-fn a_scene_with_a_barely_loaded_cell_comes_to_rest() {
+fn a_scene_with_a_barely_loaded_cell_has_a_static_state() {
     scene(&mut Random(FIRST_SEED + 931)).unwrap();
 }

@@ -295,7 +295,7 @@ fn pressures_at(center: [f64; 2], side: f64) -> Vec<f64> {
 
 /// Site coordinates have no effect: the static state and its moments are those at the origin.
 #[test]
-fn mats_stand_anywhere() {
+fn static_states_do_not_depend_on_the_place() {
     for (side, place) in
         [(2.0, [128.0, -64.0]), (6.0, [500.0, 350.0]), (20.0, [4500.0, 3150.0]), (9.0, [5e5, 4e6])]
     {

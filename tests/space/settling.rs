@@ -36,8 +36,15 @@ fn sand_law(reference_settlement: f64, elastic_range: f64, depth_gradient: f64) 
     }
 }
 
-/// The prescribed rotations, one per step, and the ends of packets.
-fn drive(steps_per_leg: usize) -> (Vec<f64>, Vec<usize>) {
+/// Prescribed rotations of the footing.
+struct RotationPath {
+    /// One per step.
+    rotations: Vec<f64>,
+    /// Last step of each packet.
+    ends: Vec<usize>,
+}
+
+fn rotation_path(steps_per_leg: usize) -> RotationPath {
     let mut rotations = vec![0.0];
     let mut ends = Vec::new();
     for amplitude in PACKET_ROTATIONS {
@@ -52,7 +59,7 @@ fn drive(steps_per_leg: usize) -> (Vec<f64>, Vec<usize>) {
         }
         ends.push(rotations.len() - 1);
     }
-    (rotations, ends)
+    RotationPath { rotations, ends }
 }
 
 /// Moment over P L/2, mean of both ways, and settlement over L at the end, of each packet.
@@ -62,16 +69,22 @@ struct PacketRow {
     settlements: [f64; 5],
 }
 
-/// Row of a base that is turned step by step; `turn` returns its moment and settlement.
-fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> [f64; 2]) -> PacketRow {
-    let (rotations, ends) = drive(steps_per_leg);
+/// Moment on the base, N m, and its settlement, m.
+struct BaseState {
+    moment: f64,
+    settlement: f64,
+}
+
+/// Row of a base that `turn` rotates step by step.
+fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> BaseState) -> PacketRow {
+    let RotationPath { rotations, ends } = rotation_path(steps_per_leg);
     let mut row = PacketRow { moments: [0.0; 5], settlements: [0.0; 5] };
-    let [_, static_settlement] = turn(0, 0.0);
+    let static_settlement = turn(0, 0.0).settlement;
     let mut begin = 1;
     for (packet, end) in ends.into_iter().enumerate() {
         let mut range = [0.0_f64; 2];
         for step in begin..=end {
-            let [moment, settlement] = turn(step, rotations[step]);
+            let BaseState { moment, settlement } = turn(step, rotations[step]);
             range = [range[0].min(moment), range[1].max(moment)];
             row.settlements[packet] = (settlement - static_settlement) / FOOTING_BASE.length;
         }
@@ -83,7 +96,10 @@ fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> [f64; 2]) -> Pa
 
 fn strip_row(count: usize, law: SettlingLaw, steps_per_leg: usize) -> PacketRow {
     let mut strips = SettlingStrips::new(FOOTING_BASE, count, SHEAR_MODULUS, POISSON_RATIO, law);
-    row(steps_per_leg, |_, rotation| [strips.turn(rotation), strips.settlement])
+    row(steps_per_leg, |_, rotation| {
+        let moment = strips.turn(rotation);
+        BaseState { moment, settlement: strips.settlement }
+    })
 }
 
 /// A footing whose rotation a stiff spring prescribes.
@@ -156,11 +172,11 @@ fn simulated_row(
     friction: f64,
     steps_per_leg: usize,
 ) -> PacketRow {
-    let (rotations, _) = drive(steps_per_leg);
+    let rotations = rotation_path(steps_per_leg).rotations;
     let mut simulation = scene(cells, law, friction, rotations).unwrap().build().unwrap();
     let elements = simulation.ground().elements().to_vec();
     let mut dissipated = 0.0;
-    let found = row(steps_per_leg, |step, _| {
+    let computed = row(steps_per_leg, |step, _| {
         if step > 0 {
             let energy = simulation.step().unwrap().energy_balance;
             assert!(energy.residual() < 1e-9, "{energy}");
@@ -170,19 +186,27 @@ fn simulated_row(
         let state = simulation.state();
         let moments = state.contact.iter().zip(&elements);
         let moment: f64 = moments.map(|(c, e)| c.pressure * e.area() * e.center()[0]).sum();
-        [moment, -state.displacement()[2]]
+        BaseState { moment, settlement: -state.displacement()[2] }
     });
     assert!(dissipated > 0.0);
-    found
+    computed
 }
 
-/// Largest difference of moments and of settlements from another row, relative to that row.
-fn differences(row: &PacketRow, expected: &PacketRow) -> [f64; 2] {
+/// Largest differences of moments and of settlements from another row, relative to that row.
+struct RowDifferences {
+    moment: f64,
+    settlement: f64,
+}
+
+fn differences(row: &PacketRow, expected: &PacketRow) -> RowDifferences {
     let largest = |values: [f64; 5], expected: [f64; 5]| {
         let ratios = values.iter().zip(expected).map(|(value, expected)| value / expected - 1.0);
         ratios.fold(0.0_f64, |largest, ratio| largest.max(ratio.abs()))
     };
-    [largest(row.moments, expected.moments), largest(row.settlements, expected.settlements)]
+    RowDifferences {
+        moment: largest(row.moments, expected.moments),
+        settlement: largest(row.settlements, expected.settlements),
+    }
 }
 
 fn print_row(name: &str, row: &PacketRow) {
@@ -212,14 +236,14 @@ fn prototype_laws() -> [SettlingLaw; 2] {
 fn a_footing_settles_as_strips_on_loves_half_space() {
     for (law, prototype) in prototype_laws().into_iter().zip(PROTOTYPE_ROWS) {
         let strips = strip_row(16, law, 10);
-        let found = simulated_row([16, 1], law, 0.0, 10);
+        let computed = simulated_row([16, 1], law, 0.0, 10);
         print_row("prototype", &prototype);
         print_row("strips", &strips);
-        print_row("footing", &found);
-        let [moment, settlement] = differences(&found, &strips);
+        print_row("footing", &computed);
+        let RowDifferences { moment, settlement } = differences(&computed, &strips);
         println!("from strips {moment:.4} {settlement:.4}");
         assert!(moment < 0.005 && settlement < 0.01, "{law:?}");
-        let [moment, settlement] = differences(&found, &prototype);
+        let RowDifferences { moment, settlement } = differences(&computed, &prototype);
         println!("from the prototype {moment:.4} {settlement:.4}");
         assert!(moment < 0.03 && settlement < 0.1, "{law:?}");
     }
@@ -233,7 +257,7 @@ fn rocking_converges_with_the_cells() {
     for columns in [8, 16] {
         let coarse = simulated_row([columns, 1], law, 0.5, 10);
         print_row(&columns.to_string(), &coarse);
-        let [moment, settlement] = differences(&coarse, &fine);
+        let RowDifferences { moment, settlement } = differences(&coarse, &fine);
         println!("{moment:.4} {settlement:.4}");
         assert!(moment < 0.03 && settlement < 0.1, "{columns}");
     }

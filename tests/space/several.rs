@@ -275,7 +275,7 @@ fn max_gap(state: &State, number: usize) -> f64 {
 
 /// Limits of service apply to either body, in any direction.
 #[test]
-fn service_is_that_of_either_body() {
+fn limits_of_service_apply_to_either_body() {
     let RockingPair { time_series, run, states } = RockingPair::new(0);
     assert_eq!(run.serviceability.len(), 4);
     for check in &run.serviceability {

@@ -142,7 +142,7 @@ fn shaken_square(x: Option<Record>, y: Option<Record>) -> [f64; 6] {
 
 /// A square bed responds to a motion at 45 degrees as it does to one along x.
 #[test]
-fn a_square_bed_has_no_directions() {
+fn a_square_bed_responds_at_45_degrees_as_along_x() {
     let along_x = shaken_square(Some(el_centro_1940()), None);
     let component = el_centro_1940().scaled(0.5_f64.sqrt()).unwrap();
     let diagonal = shaken_square(Some(component.clone()), Some(component));

@@ -256,7 +256,7 @@ fn run_of_hard_steps(crossed: f64, mass: f64, friction: f64, kernels: &SharedKer
     run
 }
 
-/// Three time steps, three masses, four coefficients of friction: W from well conditioned to hardly so.
+/// Three time steps, three masses, four coefficients of friction: W from well to badly conditioned.
 #[test]
 fn hard_steps_are_solved() {
     let kernels = SharedKernels::default();

@@ -8,10 +8,14 @@ pub(crate) type AnyError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Puts `text` between the markers of this name in a file of `benches/studies/tables`.
 pub(crate) fn splice(file: &str, name: &str, text: &str) -> Result<(), AnyError> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tables").join(file);
+    splice_into(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tables").join(file), name, text)
+}
+
+/// Puts `text` between the markers of this name in a file.
+pub(crate) fn splice_into(path: &Path, name: &str, text: &str) -> Result<(), AnyError> {
     let begin = format!("<!-- {name}: begin -->");
     let end = format!("<!-- {name}: end -->");
-    let old = std::fs::read_to_string(&path)?;
+    let old = std::fs::read_to_string(path)?;
     let parts = old.split_once(&begin).and_then(|(before, rest)| {
         let (_, after) = rest.split_once(&end)?;
         Some([before, after])

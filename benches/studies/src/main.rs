@@ -104,10 +104,7 @@ fn main() -> ExitCode {
         Study::RockingFooting(options) => rocking_footing::run(&options),
         Study::SettlingCost(options) => settling_cost::run(&options),
         Study::TrenchCost(options) => trench_cost::run(&options),
-        Study::Yielding(options) => {
-            yielding::run(&options);
-            Ok(())
-        }
+        Study::Yielding(options) => yielding::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

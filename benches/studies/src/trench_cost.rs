@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Trench of a box of soil below a foundation of 12 m: 24 m wide, 6 m deep, steps of 10 ms. Processor time of all threads,
-//! with the histories' transforms of the weights.
+//! with the transforms of the weights for histories.
 
 use std::path::PathBuf;
 
@@ -20,10 +20,10 @@ use crate::AnyError;
 /// Processor time of the convolution weights of soil around a trench.
 #[derive(Debug, clap::Args)]
 pub(crate) struct TrenchCostOptions {
-    /// Few elements and steps, to see that all works.
+    /// Few elements and steps, as a test.
     #[arg(long)]
     short: bool,
-    /// Folder for files of the convolution weights, to compare them with others.
+    /// Folder for files of the convolution weights, for comparisons.
     #[arg(long)]
     weights: Option<PathBuf>,
     /// Only cases with this number of elements.
@@ -36,8 +36,8 @@ const HALF_WIDTH: f64 = 12.0;
 const TRENCH_DEPTH: f64 = 6.0;
 
 /// Numbers of contact elements and of steps.
-const CASE_SIZES: [[usize; 2]; 3] = [[32, 390], [48, 390], [64, 740]];
-const SHORT_SIZES: [[usize; 2]; 1] = [[8, 100]];
+const RUN_SIZES: [[usize; 2]; 3] = [[32, 390], [48, 390], [64, 740]];
+const SHORT_RUN_SIZES: [[usize; 2]; 1] = [[8, 100]];
 
 fn profiles() -> Result<[(&'static str, SoilProfile); 3]> {
     let clay = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
@@ -58,7 +58,7 @@ fn profiles() -> Result<[(&'static str, SoilProfile); 3]> {
 
 /// Runs the study.
 pub(crate) fn run(options: &TrenchCostOptions) -> std::result::Result<(), AnyError> {
-    let sizes: &[[usize; 2]] = if options.short { &SHORT_SIZES } else { &CASE_SIZES };
+    let sizes: &[[usize; 2]] = if options.short { &SHORT_RUN_SIZES } else { &RUN_SIZES };
     println!("| ground | elements | steps | processor s | elapsed s |");
     println!("|---|---|---|---|---|");
     for (index, (name, profile)) in profiles()?.into_iter().enumerate() {

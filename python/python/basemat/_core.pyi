@@ -1252,7 +1252,7 @@ class DampingLaw:
 @final
 class SoilLayer:
     """A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none
-    unless given).
+    unless given). It is linear: soil that yields is a material of a `Mesh`.
     """
 
     def __new__(cls, soil: Soil, thickness: float, damping: DampingLaw | None = None) -> Self: ...
@@ -2317,18 +2317,22 @@ class Simulation:
 
         As for `checkpoint`, a structure written in Python that has ``commit`` must also have ``save`` and ``restore``.
         """
-    def solid_points(self, element: int) -> SolidPoints:
+    def solid_points(self, element: int, *, member: int | None = None) -> SolidPoints:
         """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
         stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
-        one inside `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, this method raises
-        an `Error`: use a loop over `steps` instead.
+        one inside `WithSprings`, `WithModalDamping` or `WithWalls`, or the structure ``member`` (0: the first; none unless
+        given) of a `StructureGroup`. While `run` calls ``observe``, this method raises an `Error`: use a loop over `steps`
+        instead.
         """
     def solid_values(
         self,
         quantity: Literal["plastic_strain", "mobilised_strength"],
+        *,
+        member: int | None = None,
     ) -> tuple[list[int], NDArray[np.float64]]:
         """One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
-        an array of shape (elements,), for `Mesh.plot_solids`. The structure is as for `solid_points`.
+        an array of shape (elements,), for `Mesh.plot_solids`. Structure and ``member`` (none unless given) are as for
+        `solid_points`.
 
         ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
         ratio of shear stress to shear strength at its points.
@@ -3433,13 +3437,14 @@ class GmshMesh:
         """List of the names of the groups of lines."""
     def mesh(
         self,
-        materials: Mapping[str, Material],
+        materials: Mapping[str, _Solid],
         *,
-        formulation: _Formulation = "incompatible_modes",
+        formulation: _Formulation | None = None,
         hourglass_percent: int = 5,
     ) -> Mesh:
         """The quadrilaterals as a `Mesh`, each with the material of its group: ``materials`` is a dict
-        ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in `Layer`.
+        ``{"wall": material}`` of materials as in `Layer`; ``formulation`` and ``hourglass_percent`` are as there, that of each
+        material unless given.
         """
     def line(self, name: str) -> list[int]:
         """Numbers of the nodes of the group ``name`` of lines in one piece: list, from left to right."""
@@ -3618,33 +3623,33 @@ class WithSprings(Structure):
     def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
 
 @final
-class Material:
-    """Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
-    ``poisson``, ``density`` (kg/m³).
-    """
-
-    def __new__(cls, young_modulus: float, poisson: float, density: float) -> Self: ...
-
-@final
 class Layer:
     """Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
-    ``material`` (`Material`).
+    ``material`` (`Material`, `Iwan`, `DruckerPrager` or `UserMaterial`).
 
-    ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: accurate in bending), "full" (2 × 2
-    points), "one_point" (without stiffness against hourglass modes), "hourglass" (one point, stabilised with
-    ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean dilatation of the element: the
-    only formulation for materials that yield).
+    ``formulation`` of four-node quadrilaterals: "incompatible_modes" (accurate in bending: that of an elastic material
+    unless given), "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one point,
+    stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean dilatation of the
+    element: the only formulation for materials that yield, and theirs unless given).
     """
 
     def __new__(
         cls,
         height: float,
         rows: int,
-        material: Material,
+        material: _Solid,
         *,
-        formulation: _Formulation = "incompatible_modes",
+        formulation: _Formulation | None = None,
         hourglass_percent: int = 5,
     ) -> Self: ...
+
+@final
+class Material:
+    """Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
+    ``poisson``, ``density`` (kg/m³).
+    """
+
+    def __new__(cls, young_modulus: float, poisson: float, density: float) -> Self: ...
 
 @final
 class BeamSection:
@@ -3864,7 +3869,7 @@ class Mesh:
         nodes: ArrayLike,
         material: _Solid | Sequence[_Solid],
         *,
-        formulation: _Formulation = "incompatible_modes",
+        formulation: _Formulation | None = None,
         hourglass_percent: int = 5,
         initial_stress: ArrayLike | None = None,
     ) -> list[int]:
@@ -3872,9 +3877,9 @@ class Mesh:
 
         ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last. ``material``:
         `Material`, `Iwan`, `DruckerPrager` or `UserMaterial`, or a list of one per quadrilateral. Quadrilaterals of four nodes
-        take a ``formulation`` and ``hourglass_percent`` as `Layer` does; those of a material that yields need
-        "mean_dilatation". ``initial_stress``: stress xx, yy, zz and xy of the undeformed quadrilaterals (Pa; tension is
-        positive), four numbers or an array of shape (quads, 4); none unless given. A linear elastic material has none.
+        take a ``formulation`` and ``hourglass_percent`` as `Layer` does. ``initial_stress``: stress xx, yy, zz and xy of the
+        undeformed quadrilaterals (Pa; tension is positive), four numbers or an array of shape (quads, 4); none unless given.
+        A linear elastic material has none.
         """
     @staticmethod
     def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -> Mesh:

@@ -3,22 +3,40 @@
 use std::any::Any;
 
 use basemat::Simulation;
-use basemat::structure::{FemModel, Structure, WithModalDamping, WithSprings, WithWalls};
+use basemat::structure::{
+    FemModel, Structure, StructureGroup, WithModalDamping, WithSprings, WithWalls,
+};
 use pyo3::prelude::*;
 
 use super::PySimulation;
 use crate::array::{Array, Count};
-use crate::error::input_error;
+use crate::error::{OrRaise, input_error};
 use crate::names::choice;
 use crate::structure::PySolidPoints;
 
-/// The model of a simulation whose structure is a `FemModel` with elements that have internal variables.
+/// The model of a simulation whose structure, or a ``member`` of its group, is a `FemModel`.
 ///
-/// Springs, modal damping or walls may be around it.
-fn inelastic_model(simulation: &Simulation) -> PyResult<&FemModel> {
+/// Springs, modal damping or walls may be around the group and around its members.
+fn inelastic_model(simulation: &Simulation, member: Option<Count>) -> PyResult<&FemModel> {
     let mut structure: &dyn Any = simulation.structure();
-    while let Some(inner) = inner_structure(structure) {
-        structure = inner;
+    let mut remaining_member = member.map(|member| member.0);
+    loop {
+        if let Some(group) = structure.downcast_ref::<StructureGroup>() {
+            let Some(index) = remaining_member.take() else {
+                return Err(input_error(
+                    "the structure of the simulation is a StructureGroup: member must be the number of one of its \
+                     structures, 0 for the first",
+                ));
+            };
+            structure = group.structure(index).or_raise()?;
+        } else if let Some(inner) = inner_structure(structure) {
+            structure = inner;
+        } else {
+            break;
+        }
+    }
+    if remaining_member.is_some() {
+        return Err(input_error("member is for a StructureGroup, but the simulation has none"));
     }
     structure.downcast_ref().ok_or_else(|| {
         input_error(
@@ -49,25 +67,29 @@ type ElementValue = fn(&PySolidPoints) -> f64;
 impl PySimulation {
     /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
     /// stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
-    /// one inside `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, this method raises
-    /// an `Error`: use a loop over `steps` instead.
-    fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
-        PySolidPoints::of_element(inelastic_model(&*self.lock()?)?, element.0)
+    /// one inside `WithSprings`, `WithModalDamping` or `WithWalls`, or the structure ``member`` (0: the first; none unless
+    /// given) of a `StructureGroup`. While `run` calls ``observe``, this method raises an `Error`: use a loop over `steps`
+    /// instead.
+    #[pyo3(signature = (element, *, member=None))]
+    fn solid_points(&self, element: Count, member: Option<Count>) -> PyResult<PySolidPoints> {
+        PySolidPoints::of_element(inelastic_model(&*self.lock()?, member)?, element.0)
     }
 
     /// One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
-    /// an array of shape (elements,), for `Mesh.plot_solids`. The structure is as for `solid_points`.
+    /// an array of shape (elements,), for `Mesh.plot_solids`. Structure and ``member`` (none unless given) are as for
+    /// `solid_points`.
     ///
     /// ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
     /// ratio of shear stress to shear strength at its points.
-    fn solid_values(&self, quantity: &str) -> PyResult<(Vec<usize>, Array)> {
+    #[pyo3(signature = (quantity, *, member=None))]
+    fn solid_values(&self, quantity: &str, member: Option<Count>) -> PyResult<(Vec<usize>, Array)> {
         let choices: [(&str, ElementValue); 2] = [
             ("plastic_strain", PySolidPoints::mean_plastic),
             ("mobilised_strength", PySolidPoints::largest_mobilised),
         ];
         let element_value = choice("quantity", quantity, &choices)?;
         let simulation = self.lock()?;
-        let model = inelastic_model(&simulation)?;
+        let model = inelastic_model(&simulation, member)?;
         let elements: Vec<usize> = model.inelastic_elements().collect();
         let values = elements
             .iter()

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use basemat::fem::Material;
+use basemat::fem::SharedMaterial;
 use basemat::io::GmshMesh;
 use basemat::structure::FemModel;
 use pyo3::prelude::*;
@@ -12,8 +12,9 @@ use pyo3::types::PyTuple;
 
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
-use super::material::{PyMaterial, formulation};
+use super::layer::formulation;
 use super::mesh::{PyMesh, direction};
+use super::solid_material::SolidLike;
 use crate::array::{Array, Count, whole_numbers};
 use crate::error::{OrRaise, WithOption, input_error};
 use crate::recipe::SharedStructure;
@@ -224,18 +225,24 @@ impl PyGmshMesh {
     }
 
     /// The quadrilaterals as a `Mesh`, each with the material of its group: ``materials`` is a dict
-    /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in `Layer`.
-    #[pyo3(signature = (materials, *, formulation="incompatible_modes", hourglass_percent=5))]
+    /// ``{"wall": material}`` of materials as in `Layer`; ``formulation`` and ``hourglass_percent`` are as there, that of each
+    /// material unless given.
+    #[pyo3(signature = (materials, *, formulation=None, hourglass_percent=5))]
     fn mesh(
         &self,
-        materials: BTreeMap<String, Bound<'_, PyMaterial>>,
-        formulation: &str,
+        materials: BTreeMap<String, SolidLike>,
+        formulation: Option<&str>,
         #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
     ) -> PyResult<PyMesh> {
-        let materials: Vec<(&str, Material)> =
-            materials.iter().map(|(name, material)| (name.as_str(), material.get().0)).collect();
-        let formulation = self::formulation(formulation, hourglass_percent)?;
-        Ok(PyMesh(self.0.mesh_of(&materials, formulation).or_raise()?))
+        let materials: Vec<(&str, SharedMaterial)> = materials
+            .iter()
+            .map(|(name, material)| (name.as_str(), material.0.clone()))
+            .collect();
+        let mesh = match formulation {
+            Some(name) => self.0.mesh_of(&materials, self::formulation(name, hourglass_percent)?),
+            None => self.0.mesh(&materials),
+        };
+        mesh.or_raise().map(PyMesh)
     }
 
     /// Numbers of the nodes of the group ``name`` of lines in one piece: list, from left to right.

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use super::material::{PyBeamSection, PyMaterial};
 use super::mesh::PyMesh;
+use super::solid_material::ElasticMaterial;
 use crate::array::{Count, Rows, real_number};
 use crate::error::OrRaise;
 use crate::list_arguments::type_error;
@@ -33,16 +34,17 @@ extracts!(GroupPart, object => {
     let entries = object.try_iter().and_then(Iterator::collect::<PyResult<Vec<_>>>);
     let part = match entries.unwrap_or_default().as_slice() {
         [material, thickness] => {
-            let material = cast_entry::<PyMaterial>(material)?;
-            GmshPart::Shell(material.get().0, real_number("thickness", thickness)?)
+            let material: ElasticMaterial = material.extract()?;
+            GmshPart::Shell(material.0, real_number("thickness", thickness)?)
         }
         [material, section, orientation] => {
-            let material = cast_entry::<PyMaterial>(material)?;
+            let material: ElasticMaterial = material.extract()?;
             let section = cast_entry::<PyBeamSection>(section)?;
-            GmshPart::Beam(material.get().0, section.get().0, orientation.extract()?)
+            GmshPart::Beam(material.0, section.get().0, orientation.extract()?)
         }
         _ => {
-            let requirement = "a Material, (material, thickness), (material, section, orientation) or None";
+            let requirement = "a Material, (material, thickness), (material, section, orientation) or None; materials \
+                               that yield are for quadrilaterals in the plane";
             return Err(type_error(&object, requirement));
         }
     };

@@ -4,11 +4,11 @@ use basemat::fem::{Hex8, Mesh, Shell, SpaceBeam};
 use pyo3::prelude::*;
 
 use super::connectivity::{Cells, Connectivity, PerElement, Vectors, one_of};
-use super::material::{PyBeamSection, PyMaterial};
+use super::material::PyBeamSection;
 use super::mesh::{PyMesh, direction};
+use super::solid_material::{ElasticList, ElasticMaterial};
 use crate::array::Points;
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::list_arguments::ListOf;
 
 #[pymethods]
 impl PyMesh {
@@ -32,13 +32,13 @@ impl PyMesh {
     fn add_shells(
         &mut self,
         nodes: Cells,
-        material: ListOf<'_, PyMaterial>,
+        material: ElasticList,
         thickness: PerElement,
     ) -> PyResult<Vec<usize>> {
         let shell_count = nodes.0.len();
         let mut shells = Vec::with_capacity(shell_count);
         for (shell, shell_nodes) in nodes.0.iter().enumerate() {
-            let shell_material = one_of(&material, "material", shell, shell_count)?.get().0;
+            let shell_material = *one_of(&material.0, "material", shell, shell_count)?;
             let shell_thickness = thickness.at("thickness", shell, shell_count)?;
             shells.push(Shell::new(shell_nodes, shell_material, shell_thickness).or_raise()?);
         }
@@ -48,7 +48,11 @@ impl PyMesh {
 
     /// Adds bricks of a ``material`` (`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
     /// counter-clockwise seen from above, then the nodes above these.
-    fn add_bricks(&mut self, nodes: Connectivity, material: &PyMaterial) -> PyResult<Vec<usize>> {
+    fn add_bricks(
+        &mut self,
+        nodes: Connectivity,
+        material: ElasticMaterial,
+    ) -> PyResult<Vec<usize>> {
         let bricks = nodes.rows::<8>()?.into_iter();
         self.add_all(bricks.map(|nodes| Ok(Hex8::new(nodes, material.0))))
     }
@@ -66,7 +70,7 @@ impl PyMesh {
     fn add_space_beams(
         &mut self,
         nodes: Connectivity,
-        material: &PyMaterial,
+        material: ElasticMaterial,
         section: &PyBeamSection,
         orientation: Vectors,
         offsets: Option<Points>,

@@ -1,10 +1,12 @@
 //! Meshes from arrays.
 
-use basemat::fem::{Beam, Dashpot, Direction, Element, Layer, LumpedMass, Mesh, Spring, Truss};
+use basemat::fem::{
+    Beam, Dashpot, Direction, Element, Layer, LumpedMass, Mesh, SharedMaterial, Spring, Truss,
+};
 use pyo3::prelude::*;
 
 use super::connectivity::{Connectivity, PerElement};
-use super::material::PyLayer;
+use super::layer::PyLayer;
 use crate::array::{Count, Numbers, Pairs, Points, Rows};
 use crate::error::{OrRaise, WithOption, input_error};
 use crate::list_arguments::ListOf;
@@ -101,8 +103,8 @@ extracts!(RotaryInertia, object => match object.extract() {
 });
 
 /// The layers of a block.
-fn layers(layers: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
-    layers.iter().map(|layer| layer.get().0).collect()
+fn layers(layers: &[Bound<'_, PyLayer>]) -> Vec<Layer<SharedMaterial>> {
+    layers.iter().map(|layer| layer.get().0.clone()).collect()
 }
 
 #[pymethods]

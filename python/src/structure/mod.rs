@@ -11,6 +11,7 @@ mod gmsh_space;
 mod grid;
 mod hysteresis;
 mod in_space;
+mod layer;
 mod material;
 mod matrices;
 mod mesh;
@@ -33,7 +34,8 @@ pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyPendulumBearing,
     PyWithSprings,
 };
-pub(crate) use material::{PyBeamSection, PyLayer, PyMaterial};
+pub(crate) use layer::PyLayer;
+pub(crate) use material::{PyBeamSection, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::PyMesh;
 pub(crate) use shells::{PyShellResultants, PyShellRows};

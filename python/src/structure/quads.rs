@@ -4,7 +4,7 @@ use basemat::fem::{Material, Mesh, Quad4, Quad8};
 use pyo3::prelude::*;
 
 use super::connectivity::Connectivity;
-use super::material::formulation;
+use super::layer::formulation_of;
 use super::mesh::PyMesh;
 use super::solid_material::{BlockMaterials, PlaneTensors, SolidList};
 use crate::array::{Numbers, whole_numbers};
@@ -58,19 +58,18 @@ impl PyMesh {
     ///
     /// ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last. ``material``:
     /// `Material`, `Iwan`, `DruckerPrager` or `UserMaterial`, or a list of one per quadrilateral. Quadrilaterals of four nodes
-    /// take a ``formulation`` and ``hourglass_percent`` as `Layer` does; those of a material that yields need
-    /// "mean_dilatation". ``initial_stress``: stress xx, yy, zz and xy of the undeformed quadrilaterals (Pa; tension is
-    /// positive), four numbers or an array of shape (quads, 4); none unless given. A linear elastic material has none.
-    #[pyo3(signature = (nodes, material, *, formulation="incompatible_modes", hourglass_percent=5, initial_stress=None))]
+    /// take a ``formulation`` and ``hourglass_percent`` as `Layer` does. ``initial_stress``: stress xx, yy, zz and xy of the
+    /// undeformed quadrilaterals (Pa; tension is positive), four numbers or an array of shape (quads, 4); none unless given.
+    /// A linear elastic material has none.
+    #[pyo3(signature = (nodes, material, *, formulation=None, hourglass_percent=5, initial_stress=None))]
     fn add_quads(
         &mut self,
         nodes: Connectivity,
         material: SolidList,
-        formulation: &str,
+        formulation: Option<&str>,
         #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
         initial_stress: Option<PlaneTensors>,
     ) -> PyResult<Vec<usize>> {
-        let formulation = self::formulation(formulation, hourglass_percent)?;
         let zero_stress = PlaneTensors(vec![[0.0; 4]]);
         let stresses = initial_stress.as_ref().unwrap_or(&zero_stress);
         if nodes.nodes_each == 8 {
@@ -84,7 +83,9 @@ impl PyMesh {
         let quads = nodes.rows::<4>()?;
         let quad_count = quads.len();
         self.add_all(quads.into_iter().enumerate().map(|(index, quad_nodes)| {
-            let quad = Quad4::new(quad_nodes, material.at(index, quad_count)?, formulation);
+            let material = material.at(index, quad_count)?;
+            let formulation = formulation_of(&material, formulation, hourglass_percent)?;
+            let quad = Quad4::new(quad_nodes, material, formulation);
             Ok(quad.with_initial_stress(stresses.at(index, quad_count)?))
         }))
     }

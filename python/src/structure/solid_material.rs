@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use basemat::fem::{DruckerPrager, Iwan, SharedMaterial};
+use basemat::fem::{DruckerPrager, Iwan, Material, SharedMaterial};
 use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
@@ -11,6 +11,7 @@ use super::connectivity::one_of;
 use super::material::PyMaterial;
 use crate::array::{Pairs, Rows, Table};
 use crate::error::{OrRaise, input_error, raise_user_exceptions};
+use crate::list_arguments::type_error;
 use crate::user;
 
 /// Undrained clay, a material of solids in plane strain. It yields in shear only, along any concave backbone.
@@ -128,7 +129,7 @@ impl PyDruckerPrager {
 }
 
 /// A material of solids: linear elastic, one that yields, or one written in Python.
-pub(crate) struct SolidLike(SharedMaterial);
+pub(crate) struct SolidLike(pub(super) SharedMaterial);
 
 extracts!(SolidLike, object => {
     if let Ok(material) = object.cast::<PyMaterial>() {
@@ -141,6 +142,29 @@ extracts!(SolidLike, object => {
         return Ok(Self(Arc::clone(&soil.get().0).into()));
     }
     user::solid_material(&object).map(Self)
+});
+
+/// What elements other than quadrilaterals in plane strain need as material.
+const ELASTIC_REQUIREMENT: &str =
+    "a Material: bricks, shells and beams do not yield, quadrilaterals in the plane do";
+
+/// Material of bricks, shells and beams: linear elastic.
+pub(super) struct ElasticMaterial(pub(super) Material);
+
+extracts!(ElasticMaterial, object => match object.cast::<PyMaterial>() {
+    Ok(material) => Ok(Self(material.get().0)),
+    Err(_) => Err(type_error(&object, ELASTIC_REQUIREMENT)),
+});
+
+/// One elastic material for all elements, or a list of one for each.
+pub(super) struct ElasticList(pub(super) Vec<Material>);
+
+extracts!(ElasticList, object => {
+    if !is_list(&object) {
+        return Ok(Self(vec![object.extract::<ElasticMaterial>()?.0]));
+    }
+    let materials = object.try_iter()?.map(|entry| Ok(entry?.extract::<ElasticMaterial>()?.0));
+    materials.collect::<PyResult<_>>().map(Self)
 });
 
 /// Whether an object is a list of materials: a list, a tuple or an array.

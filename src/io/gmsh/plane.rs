@@ -10,7 +10,7 @@ use super::merge::NodeMerge;
 use super::parse;
 use super::raw::duplicate_fault;
 use crate::error::{Error, FileFault, Result};
-use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
+use crate::fem::{Mesh, Quad4, Quad8, QuadFormulation, SharedMaterial};
 use crate::text::file::open_file;
 
 /// Mesh of quadrilaterals from a file of Gmsh, format 4.1 or 2.2, text or binary (`gmsh -2 -format msh41`).
@@ -51,6 +51,13 @@ pub struct GmshMesh {
     nodes: Vec<[f64; 2]>,
     quads: Vec<MeshCell>,
     lines: Vec<MeshCell>,
+}
+
+/// Materials of groups, each in memory once.
+fn shared_materials<'a, M: Clone + Into<SharedMaterial>>(
+    materials: &[(&'a str, M)],
+) -> Vec<(&'a str, SharedMaterial)> {
+    materials.iter().map(|(name, material)| (*name, material.clone().into())).collect()
 }
 
 /// Largest distance from the plane z = 0 that counts as rounding, relative to the largest coordinate.
@@ -141,23 +148,35 @@ impl GmshMesh {
 
     /// Mesh of the quadrilaterals, each with the material of its group; you can add elements.
     ///
-    /// Nodes keep their indices.
+    /// Nodes keep their indices. A material is a [`Material`](crate::fem::Material), or a law of a solid that yields, such
+    /// as [`Iwan`](crate::fem::Iwan). Groups of different types of materials take [`SharedMaterial`]s. Quadrilaterals of
+    /// four nodes have incompatible modes, or the mean dilatation if they yield.
     ///
     /// # Errors
     /// [`Error::File`] for a quadrilateral without a material or with two materials, a material without a
     /// group, and quadrilaterals without area or with a reflex corner, with their line.
-    pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
-        self.mesh_of(materials, QuadFormulation::default())
+    pub fn mesh<M: Clone + Into<SharedMaterial>>(&self, materials: &[(&str, M)]) -> Result<Mesh> {
+        self.mesh_with(&shared_materials(materials), QuadFormulation::for_material)
     }
 
-    /// [`GmshMesh::mesh`] with another formulation of the quadrilaterals of four nodes.
+    /// [`GmshMesh::mesh`] with one formulation of all quadrilaterals of four nodes.
     ///
     /// # Errors
-    /// As for [`GmshMesh::mesh`].
-    pub fn mesh_of(
+    /// As for [`GmshMesh::mesh`]; also [`Error::File`] for a material that yields with a formulation other than
+    /// [`QuadFormulation::MeanDilatation`].
+    pub fn mesh_of<M: Clone + Into<SharedMaterial>>(
         &self,
-        materials: &[(&str, Material)],
+        materials: &[(&str, M)],
         formulation: QuadFormulation,
+    ) -> Result<Mesh> {
+        self.mesh_with(&shared_materials(materials), |_| formulation)
+    }
+
+    /// Mesh of the quadrilaterals; `formulation` returns that of four nodes for a material.
+    fn mesh_with(
+        &self,
+        materials: &[(&str, SharedMaterial)],
+        formulation: impl Fn(&SharedMaterial) -> QuadFormulation,
     ) -> Result<Mesh> {
         let surfaces = self.surfaces();
         if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
@@ -177,9 +196,11 @@ impl GmshMesh {
         for quad in &self.quads {
             let material = self.material(quad, materials)?;
             let result = match *quad.nodes {
-                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], material, formulation)),
+                [a, b, c, d] => {
+                    mesh.add(Quad4::new([a, b, c, d], material.clone(), formulation(material)))
+                }
                 [a, b, c, d, ab, bc, cd, da] => {
-                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], material))
+                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], material.clone()))
                 }
                 _ => continue,
             };
@@ -189,10 +210,14 @@ impl GmshMesh {
     }
 
     /// The material of a quadrilateral; an error for none or two.
-    fn material(&self, quad: &MeshCell, materials: &[(&str, Material)]) -> Result<Material> {
+    fn material<'a>(
+        &self,
+        quad: &MeshCell,
+        materials: &'a [(&str, SharedMaterial)],
+    ) -> Result<&'a SharedMaterial> {
         let mut matches = materials.iter().filter(|(name, _)| quad.is_in(name));
         match (matches.next(), matches.next()) {
-            (Some((_, material)), None) => Ok(*material),
+            (Some((_, material)), None) => Ok(material),
             (Some((name, _)), Some((other_name, _))) => {
                 let item = format!(
                     "material of element {}, which is in the surfaces '{name}' and '{other_name}',",

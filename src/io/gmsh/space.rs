@@ -14,6 +14,8 @@ use crate::fem::{BeamSection, Hex8, Material, Mesh, Shell, SpaceBeam};
 use crate::text::file::open_file;
 
 /// Kind of the finite elements that a physical group of a [`GmshSpaceMesh`] becomes.
+///
+/// Materials are linear elastic: laws of solids that yield are for plane strain ([`GmshMesh`](super::GmshMesh)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum GmshPart {

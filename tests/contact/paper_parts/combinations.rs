@@ -70,7 +70,7 @@ const SCHEME_COUNT: usize = 5;
 
 /// Every combination closes its energy balance; only the flow chart may fail.
 #[test]
-fn every_combination_runs() {
+fn energy_balances_of_all_combinations_close() {
     let mut completed_runs = 0;
     let mut failed_charts = 0;
     for on_half_plane in [true, false] {

@@ -18,7 +18,7 @@ pub const DISTORTED_BRICK: [[f64; 3]; 8] = [
     [-0.024, 1.072, 1.392],
 ];
 
-/// Bricks whose nodes stand in a grid.
+/// Bricks on a grid of nodes.
 #[derive(Debug)]
 pub struct BrickGrid {
     pub scene: SupportedMesh,

@@ -66,7 +66,7 @@ pub fn profile(
     Ok(profile.with_damping(damping))
 }
 
-/// A mesh that stands on its lowest faces.
+/// A mesh whose base is its lowest faces.
 #[derive(Debug)]
 struct RandomBuilding {
     mesh: Mesh,

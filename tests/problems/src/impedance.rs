@@ -25,7 +25,7 @@ fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [(a * c + b * d) / square, (b * c - a * d) / square]
 }
 
-/// Time at which a ground's traction of a step stands for the force.
+/// Time at which a ground's traction of a step represents the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceSampling {
     /// The traction is the mean over the step.

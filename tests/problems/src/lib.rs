@@ -45,7 +45,10 @@ pub mod tower;
 pub mod truncation;
 pub mod welded_block;
 pub mod wrapped;
+pub mod yielding_blocks;
 pub mod yielding_column;
+pub mod yielding_convergence;
+pub mod yielding_paths;
 pub mod yielding_springs;
 pub mod yielding_strip;
 

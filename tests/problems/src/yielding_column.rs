@@ -11,6 +11,8 @@ use basemat::motion::Record;
 use basemat::structure::FemModel;
 use basemat::{Result, Simulation};
 
+use crate::table;
+
 /// Height and width of the column, m.
 const COLUMN_HEIGHT: f64 = 20.0;
 const COLUMN_WIDTH: f64 = 1.0;
@@ -111,4 +113,43 @@ pub fn response(
         response.stress_path.push([points[0].strain[3], points[0].stress[3]]);
     }
     Ok(response)
+}
+
+/// Corner frequency, Hz, of the filter on both sides: kinks of the law excite frequencies that the meshes do not resolve.
+const CORNER_FREQUENCY: f64 = 10.0;
+/// Time step of the table, s.
+const TABLE_TIME_STEP: f64 = 0.01;
+
+/// A series that has passed the filter.
+fn filtered(time_step: f64, values: &[f64]) -> Result<Vec<f64>> {
+    let low = Record::new(time_step, values.to_vec())?.low_pass(CORNER_FREQUENCY, 4)?;
+    let pad_length = (low.len() - values.len()) / 2;
+    Ok(low.accelerations()[pad_length..pad_length + values.len()].to_vec())
+}
+
+/// Largest difference of a filtered series from a filtered column of the table, relative to its largest value.
+fn table_difference(column: &str, time_step: f64, values: &[f64]) -> Result<f64> {
+    let reference = table("yielding/column_iwan.csv").column(column);
+    let reference = filtered(TABLE_TIME_STEP, &reference)?;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small ratio")]
+    let stride = (TABLE_TIME_STEP / time_step).round() as usize;
+    let values = filtered(time_step, values)?;
+    let sampled: Vec<f64> = values.into_iter().skip(stride - 1).step_by(stride).collect();
+    assert_eq!(sampled.len(), reference.len(), "steps of the run and of the table");
+    let largest = reference.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+    let pairs = sampled.iter().zip(&reference);
+    Ok(pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / largest)
+}
+
+impl ColumnResponse {
+    /// Largest differences of the displacement of the top and of the stress at the base from the table, below 10 Hz.
+    ///
+    /// They are relative to the largest value of the table. The time step of the run is one of the table's over a whole
+    /// number.
+    pub fn table_differences(&self, time_step: f64) -> Result<[f64; 2]> {
+        Ok([
+            table_difference("top_relative_displacement", time_step, &self.top_displacement)?,
+            table_difference("base_shear_stress", time_step, &self.base_stress)?,
+        ])
+    }
 }

@@ -114,7 +114,7 @@ impl<S> WithYieldingSprings<S> {
 
     /// Largest plastic deformation of a component, m.
     pub fn largest_plastic_deformation(&self) -> f64 {
-        let (_, plastic) = self.variables.split_last().unwrap();
+        let plastic = self.variables.split_last().unwrap().1;
         plastic.iter().fold(0.0_f64, |largest, p| largest.max(p.abs()))
     }
 }
@@ -248,7 +248,8 @@ impl Structure for Masses {
 
 /// Column of soil on a block 4 m wide: cells of 0.5 m, G = 45.6 MPa, strength 40 kPa, 1900 kg/m³.
 pub fn spring_column(count: usize) -> WithYieldingSprings<Masses> {
-    let [width, height] = [4.0, 0.5];
+    let width = 4.0;
+    let height = 0.5;
     let block = RigidBlock::new(width, 1.0, 1900.0).unwrap();
     let first_dof = block.dofs();
     let masses = Masses { block, count, mass: 1900.0 * width * height };

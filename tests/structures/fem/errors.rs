@@ -185,7 +185,7 @@ fn blocks_refuse_bad_grids_and_layers() {
     let empty = [Layer::new(1.0, 0, material())];
     for block in [
         Mesh::layered_block(0.0..1.0, 0, &good),
-        Mesh::layered_block(0.0..1.0, 1, &[]),
+        Mesh::layered_block::<Material>(0.0..1.0, 1, &[]),
         Mesh::layered_block(0.0..1.0, 1, &empty),
     ] {
         assert!(matches!(block, Err(Error::Size { .. })));

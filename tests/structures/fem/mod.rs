@@ -28,4 +28,5 @@ mod shear_building;
 mod shells;
 mod space_section;
 mod user_element;
+mod yielding_layers;
 mod yielding_strip;

@@ -150,7 +150,7 @@ fn run_of(builder: SimulationBuilder) -> Run {
 }
 
 #[test]
-fn other_time_schemes_dissipate_as_much() {
+fn other_time_schemes_dissipate_about_as_much() {
     let schemes = [
         run_of(on_soil(bilinear_storeys(), 0.005)),
         run_of(on_soil(bilinear_storeys(), 0.005).scheme(Newmark::default())),

@@ -102,7 +102,7 @@ fn laws_have_no_effect_on_the_damping_matrix() {
     let isolated = linear_building(0.05).isolated(level, stiff).unwrap();
     let matrix = damping(&strong(isolated, 1));
     let n = STOREY_COUNT + 4;
-    // The slab is degree of freedom 3: the bearings' dampers and the columns above meet in it.
+    // The slab is degree of freedom 3: the bearings' dampers and the columns above act on it.
     assert_eq!(matrix[3], -level.damping);
     let column = -expected[3 * (STOREY_COUNT + 3) + 4];
     assert!(((matrix[3 * n + 3] - level.damping) / column - 1.0).abs() < 1e-14);

@@ -132,7 +132,7 @@ fn columns_that_would_buckle_are_refused() {
     assert!(matches!(yielding_under_weight(6666.0), Err(Error::Input { value: 3.0, .. })));
 }
 
-/// Columns that yield and do not harden buckle under what they carry: the end of the building, and of
+/// Columns that yield and hardly harden buckle under the weight above: an error at the end of
 /// the run, not a drift of 10⁸⁰ m with a closed energy balance.
 #[test]
 fn a_collapse_ends_the_run() {

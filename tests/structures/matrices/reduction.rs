@@ -273,7 +273,7 @@ fn tall_tower() -> FemModel {
 /// The sums over a large stiffness matrix are not zero to the last bit, which must have no effect on the
 /// static state.
 #[test]
-fn tall_meshes_stand() {
+fn static_forces_of_tall_meshes_are_their_weight() {
     let weight = 6.0 * 100.0 * 600.0 * basemat::motion::STANDARD_GRAVITY;
     let reduced = on_soil(CraigBampton::new(4).reduce(tall_tower()).unwrap()).build().unwrap();
     let full = on_soil(tall_tower()).coordinates(Coordinates::Physical).build().unwrap();

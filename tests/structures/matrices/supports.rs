@@ -1,7 +1,7 @@
 //! GOAL: elastic supports are refused and rounding is not: a structure must keep its rigid-body
 //! modes.
 //! SCENE: a slender wall by its matrices, with weak springs and with few digits.
-//! REFERENCE: the force that a rigid translation meets.
+//! REFERENCE: the force against a rigid translation.
 
 use super::model::{on_soil, tower};
 use basemat::Error;

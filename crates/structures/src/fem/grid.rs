@@ -196,9 +196,7 @@ impl Mesh {
         at_least("rows of the meridian", meridian.len(), 2)?;
         at_least("sectors of the surface", sectors, 3)?;
         let quantity = "surface of revolution";
-        if !self.has_depth() {
-            return Err(Error::Scene { quantity, needed: "needs a mesh in space" });
-        }
+        self.require_space(quantity)?;
         if meridian.windows(2).any(|pair| pair[0][0] == 0.0 && pair[1][0] == 0.0) {
             return Err(Error::Scene { quantity, needed: "must not run along its axis" });
         }

@@ -139,12 +139,9 @@ impl Mesh {
             "x, y or rotation in the plane"
         };
         require_part("direction of the element", has_mesh_directions, needed)?;
-        let is_in_matching_space = !(self.has_depth && element.is_plane());
-        require_part(
-            "element of the plane",
-            is_in_matching_space,
-            "must be in a mesh in the plane, but this one is in space",
-        )?;
+        if element.is_plane() {
+            self.require_plane("element of the plane")?;
+        }
         for &node in nodes {
             in_bounds("node of the element", node, self.nodes.len())?;
         }
@@ -275,6 +272,26 @@ impl Mesh {
     #[doc(hidden)]
     pub fn has_depth(&self) -> bool {
         self.has_depth
+    }
+
+    /// Returns an error that names `item` unless the mesh lies in space.
+    ///
+    /// # Errors
+    /// [`Error::Scene`].
+    #[doc(hidden)]
+    pub fn require_space(&self, item: &'static str) -> Result<()> {
+        let needed = "must be in a mesh in space, but this one is in the plane";
+        require_part(item, self.has_depth, needed)
+    }
+
+    /// Returns an error that names `item` unless the mesh lies in the plane.
+    ///
+    /// # Errors
+    /// [`Error::Scene`].
+    #[doc(hidden)]
+    pub fn require_plane(&self, item: &'static str) -> Result<()> {
+        let needed = "must be in a mesh in the plane, but this one is in space";
+        require_part(item, !self.has_depth, needed)
     }
 
     /// Direction of upward displacements: Y in the plane, Z in space.

@@ -45,6 +45,13 @@ pub enum QuadFormulation {
     MeanDilatation,
 }
 
+impl QuadFormulation {
+    /// Usual formulation of a material: the mean dilatation for an inelastic one, otherwise the default.
+    pub fn for_material(material: &SharedMaterial) -> Self {
+        if material.elastic().is_some() { Self::default() } else { Self::MeanDilatation }
+    }
+}
+
 /// Plane-strain quadrilateral with nodes counter-clockwise, 1 m thick.
 ///
 /// The material is a [`Material`](super::Material), or any [`SolidMaterial`](super::SolidMaterial) with the formulation

@@ -8,7 +8,7 @@
 //!
 //! The actuator is a mass that a stiff spring joins to the wall. The mass is so large that only the force on it moves it.
 //! Before each step this force is set so that u_a = h θ + u at the end of the step, by the midpoint rule. A support in
-//! place of the mass is not possible, since a structure of this crate stands on the soil alone. Steps are so long that
+//! place of the mass is not possible, since a structure of this crate rests on the soil alone. Steps are so long that
 //! inertia and waves have no effect. P–Δ is left out: at a prescribed rotation it changes the shear, and the moment on
 //! the soil only through the shear.
 

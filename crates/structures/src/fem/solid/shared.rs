@@ -7,8 +7,8 @@ use crate::fem::material::Material;
 
 /// Material of an element: linear elastic, or any [`SolidMaterial`].
 ///
-/// Elements take it by `impl Into<SharedMaterial>`, so that they accept a [`Material`] or a law directly. Clones share
-/// the law, which never changes.
+/// Quadrilaterals in plane strain take it by `impl Into<SharedMaterial>`, so that they accept a [`Material`] or a law
+/// directly. Bricks, shells and beams are linear elastic. Clones share the law, which never changes.
 #[derive(Debug, Clone)]
 pub struct SharedMaterial {
     kind: LawKind,

@@ -26,11 +26,7 @@ pub(super) struct Foot {
 /// nodes, [`Error::Index`](crate::Error::Index) for a node that does not exist, [`Error::Input`](crate::Error::Input)
 /// unless the nodes of all lines are listed from left to right and lie at one height.
 pub(super) fn line_feet(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>> {
-    require_part(
-        "line of contact nodes",
-        !mesh.has_depth(),
-        "must be in a mesh in the plane, but this one is in space",
-    )?;
+    mesh.require_plane("line of contact nodes")?;
     let contact_nodes = lines.concat();
     at_least("contact nodes", contact_nodes.len(), 2)?;
     for line in lines {
@@ -62,11 +58,7 @@ fn feet_at(nodes: &[usize], depth: f64) -> Vec<Foot> {
 /// [`Error::Index`](crate::Error::Index) for a node that does not exist, [`Error::Input`](crate::Error::Input) for
 /// corners at different heights.
 pub(super) fn face_feet(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot>>> {
-    require_part(
-        "faces of a base",
-        mesh.has_depth(),
-        "must be in a mesh in space, but this one is in the plane",
-    )?;
+    mesh.require_space("faces of a base")?;
     at_least("faces of the base", faces.len(), 1)?;
     let shells = faces_by_corners(mesh, |face| !face.is_side());
     let mut common_height = None;

@@ -43,7 +43,7 @@ impl FemModel {
 
 /// Feet at the nodes of an outline.
 fn outline_feet(mesh: &Mesh, outline: &[usize]) -> Result<Vec<Foot>> {
-    require_part("outline in a trench", !mesh.has_depth(), "nodes of a mesh in the plane")?;
+    mesh.require_plane("outline in a trench")?;
     at_least("contact nodes", outline.len(), 2)?;
     let mut feet = Vec::with_capacity(outline.len());
     for &node in outline {

@@ -47,11 +47,7 @@ impl FemModel {
     /// [`Error::Scene`](crate::Error::Scene) for a mesh in space, where pressures act on faces:
     /// [`Shell::pressure_forces`](crate::fem::Shell::pressure_forces) times the rows of the nodes.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
-        require_part(
-            "pressure along a line",
-            !self.mesh().has_depth(),
-            "must be in a mesh in the plane, but this one is in space",
-        )?;
+        self.mesh().require_plane("pressure along a line")?;
         let mut row = DofCombination::default();
         for WeightedNode { node, segment: [x, y, _] } in self.weighted_nodes(nodes)? {
             // The normal to the left, times the length.

@@ -1,7 +1,7 @@
 //! Finite-element models with rigid links, diaphragms and ties.
 
 use super::rigid_links::{RigidLinkKind, RigidLinks};
-use crate::error::{Result, require_part};
+use crate::error::Result;
 use crate::structure::FemModel;
 
 impl FemModel {
@@ -50,11 +50,7 @@ impl FemModel {
     /// As for [`FemModel::with_rigid_link`], except that the leader needs three degrees of freedom only;
     /// [`Error::Scene`](crate::Error::Scene) for a mesh in the plane or for nodes at different heights.
     pub fn with_rigid_diaphragm(self, leader: usize, followers: &[usize]) -> Result<Self> {
-        require_part(
-            "rigid diaphragm",
-            self.mesh.has_depth(),
-            "must be in a mesh in space, but this one is in the plane",
-        )?;
+        self.mesh.require_space("rigid diaphragm")?;
         self.with_link(RigidLinkKind::Diaphragm, leader, followers)
     }
 

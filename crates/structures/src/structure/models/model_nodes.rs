@@ -1,6 +1,6 @@
 //! Nodes of a finite-element model as contact nodes, for joints.
 
-use crate::error::{Error, Result, in_bounds, require_part};
+use crate::error::{Error, Result, in_bounds};
 use crate::fem::Direction;
 use crate::structure::{BaseNode, FemModel};
 
@@ -25,11 +25,7 @@ impl FemModel {
     /// [`Error::Index`] for a node that does not exist; [`Error::Scene`] for a mesh in space, or a node without
     /// horizontal and vertical degrees of freedom.
     pub fn contact_nodes(&self, nodes: &[usize]) -> Result<Vec<BaseNode>> {
-        require_part(
-            "line of contact nodes",
-            !self.mesh.has_depth(),
-            "must be in a mesh in the plane, but this one is in space",
-        )?;
+        self.mesh.require_plane("line of contact nodes")?;
         let surface_height = self.surface_height();
         let mut contact_nodes = Vec::with_capacity(nodes.len());
         for &node in nodes {

@@ -1,7 +1,7 @@
 //! Forces at a horizontal section of a finite-element model: three in the plane, six in space.
 
 use super::cut::SectionCut;
-use crate::error::{Result, require_part};
+use crate::error::Result;
 use crate::fem::Direction;
 use crate::structure::{FemModel, SectionRows};
 
@@ -55,11 +55,7 @@ impl FemModel {
     /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in space, which needs
     /// [`section_in_space`](FemModel::section_in_space).
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
-        require_part(
-            "section of three resultants",
-            !self.mesh.has_depth(),
-            "must be in a mesh in the plane, but this one is in space",
-        )?;
+        self.mesh.require_plane("section of three resultants")?;
         let cut = SectionCut::new(self, height, [reference, 0.0])?;
         Ok(Section {
             height,
@@ -107,11 +103,7 @@ impl FemModel {
     /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in the plane, which needs
     /// [`section`](FemModel::section).
     pub fn section_in_space(&self, height: f64, reference: [f64; 2]) -> Result<SpaceSection> {
-        require_part(
-            "section of six resultants",
-            self.mesh.has_depth(),
-            "must be in a mesh in space, but this one is in the plane",
-        )?;
+        self.mesh.require_space("section of six resultants")?;
         let cut = SectionCut::new(self, height, reference)?;
         let rows = |direction| cut.rows(direction, 1.0);
         Ok(SpaceSection {

@@ -1,9 +1,5 @@
 //! Soil that yields under a rigid rough strip: pressures beside those of another program, and the capacities.
 //!
-//! ```text
-//! cargo study yielding
-//! ```
-//!
 //! The source of the reference pressures is `tests/data/yielding/strip_capacity.md`.
 
 use std::f64::consts::PI;
@@ -15,15 +11,13 @@ use basemat_problems::yielding_strip::{
     sand,
 };
 
-/// Rigid rough strip on clay and on sand that yield: pressures and capacities.
-///
-/// Prints a table.
-#[derive(Debug, clap::Args)]
-pub(crate) struct YieldingOptions {
-    /// Without the fine mesh.
-    #[arg(long)]
-    short: bool,
-}
+use super::check::{Check, Limit};
+
+const CLAY_LIMIT: f64 = 1e-4;
+const SAND_LIMIT: f64 = 1e-3;
+/// Limit of a pressure above the capacity of the theory, relative to it.
+const EXCESS_LIMIT: f64 = 0.08;
+const STRIP_REFERENCE: &str = "an independent program, same mesh and steps";
 
 /// A strip on a soil, and reference pressures.
 struct StripCase {
@@ -35,12 +29,13 @@ struct StripCase {
     steps: usize,
     /// Pressures at the reference settlements, Pa; NaN where the reference has none.
     reference: [f64; 6],
+    limit: f64,
     /// Capacity of the theory of plasticity, Pa.
     capacity: f64,
 }
 
-/// Runs the study.
-pub(crate) fn run(options: &YieldingOptions) {
+/// Checks of all strips; prints their pressures.
+pub(super) fn checks(is_short: bool) -> Vec<Check> {
     let friction_angle = PI / 6.0;
     let factor_q =
         (PI * friction_angle.tan()).exp() * (PI / 4.0 + 0.5 * friction_angle).tan().powi(2);
@@ -53,20 +48,22 @@ pub(crate) fn run(options: &YieldingOptions) {
         settlement_step: 0.0025,
         steps: 120,
         reference: CLAY_PRESSURES,
+        limit: CLAY_LIMIT,
         capacity: 2.0 + PI,
     };
     let sand_case = StripCase {
-        name: "sand",
+        name: "sand, φ = ψ = 30°",
         mesh: StripSoil::SAND_BOX,
         soil: sand().into(),
         strip_elements: 6,
         settlement_step: 0.005,
         steps: 60,
         reference: SAND_PRESSURES,
+        limit: SAND_LIMIT,
         capacity: StripSoil::SAND_BOX.surcharge * factor_q + factor_c,
     };
     let mut cases = vec![clay_case, sand_case];
-    if !options.short {
+    if !is_short {
         let mut reference = [f64::NAN; 6];
         reference[5] = FINE_CLAY_PRESSURE;
         cases.push(StripCase { soil: clay().into(), strip_elements: 16, reference, ..cases[0] });
@@ -75,13 +72,11 @@ pub(crate) fn run(options: &YieldingOptions) {
         "| soil | elements | settlement | pressure | reference | difference | over capacity |\n\
          |---|---|---|---|---|---|---|"
     );
-    for case in &cases {
-        print_case(case);
-    }
+    cases.iter().flat_map(case_checks).collect()
 }
 
-/// Prints the rows of a case.
-fn print_case(case: &StripCase) {
+/// Checks of a case; prints its rows.
+fn case_checks(case: &StripCase) -> Vec<Check> {
     let start = Instant::now();
     let run = case.mesh.push_down(
         case.soil.clone(),
@@ -89,16 +84,41 @@ fn print_case(case: &StripCase) {
         case.settlement_step,
         case.steps,
     );
-    let rows = REFERENCE_SETTLEMENTS.iter().zip(run.reference_pressures()).zip(case.reference);
-    for ((settlement, pressure), reference) in rows {
+    let pressures = run.reference_pressures();
+    let mut largest_difference = 0.0_f64;
+    let mut compared_count = 0;
+    for ((settlement, pressure), reference) in
+        REFERENCE_SETTLEMENTS.iter().zip(pressures).zip(case.reference)
+    {
+        let difference = pressure / reference - 1.0;
+        if !reference.is_nan() {
+            largest_difference = largest_difference.max(difference.abs());
+            compared_count += 1;
+        }
         println!(
-            "| {} | {} | {settlement} | {pressure:.4} | {reference} | {:.1e} | {:.4} |",
+            "| {} | {} | {settlement} | {pressure:.4} | {reference} | {difference:.1e} | {:.4} |",
             case.name,
             case.strip_elements,
-            pressure / reference - 1.0,
             pressure / case.capacity,
         );
     }
     let seconds = start.elapsed().as_secs_f64();
     println!("{} steps, {} iterations, {seconds:.1} s", case.steps, run.iterations);
+    let name = format!(
+        "rigid rough strip on {}, {} elements under its half",
+        case.name, case.strip_elements
+    );
+    let last_pressure = pressures[pressures.len() - 1];
+    let difference = if last_pressure.is_nan() { f64::NAN } else { largest_difference };
+    let remark = format!("{compared_count} pressures, {last_pressure:.4} at the last settlement");
+    let mut checks = vec![
+        Check::new(&name, STRIP_REFERENCE, difference, Limit::AtMost(case.limit))
+            .with_remark(remark),
+    ];
+    if case.limit == SAND_LIMIT {
+        let reference = "capacity of Prandtl and Reissner: excess";
+        let excess = last_pressure / case.capacity - 1.0;
+        checks.push(Check::new(name, reference, excess, Limit::AtMost(EXCESS_LIMIT)));
+    }
+    checks
 }
