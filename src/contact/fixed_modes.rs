@@ -174,7 +174,8 @@ impl ContactModeSolver {
                 layout.places(row.element).map(|place| &input.delassus[place * size..][..size]);
             let row_start = matrix.len();
             // Most conditions contain a gap or a slip alone.
-            let Condition { gap, slip, .. } = *condition;
+            let gap = condition.gap;
+            let slip = condition.slip;
             if slip == 0.0 {
                 matrix.extend(dofs.iter().map(|&j| gap * gaps[j]));
             } else if gap == 0.0 {
@@ -269,15 +270,15 @@ impl ContactModeSolver {
 
     /// Tolerance of comparisons, from the rounding of the last solution.
     pub(super) fn tolerance(&self, input: &ContactInput<'_>) -> Tolerance {
-        let ContactResponse { states, jump, .. } = &self.response;
+        let response = &self.response;
         let mut max_pressure = 0.0_f64;
         let mut max_shear = largest(input.static_traction);
-        for state in states {
+        for state in &response.states {
             max_pressure = max_pressure.max(state.pressure.abs());
             max_shear = max_shear.max(state.shear.abs());
         }
         let max_traction = max_pressure.max(max_shear);
-        let max_jump = input.length_scale.max(largest(jump));
+        let max_jump = input.length_scale.max(largest(&response.jump));
         Tolerance {
             length: JUMP_ROUNDING_FACTOR * max_jump,
             traction: TRACTION_ROUNDING_FACTOR * max_traction,
