@@ -28,7 +28,11 @@ pub(crate) struct Parts {
     /// The ground, prepared for time stepping.
     pub(crate) ground: Box<dyn Ground>,
     /// Description of the ground, from before its preparation.
+    ///
+    /// Around soil at rest it has no pressures at rest.
     pub(crate) description: GroundDescription,
+    /// Mass of soil at rest on each degree of freedom, whose weight does not act, kg; `None` without such soil.
+    pub(crate) mass_at_rest: Option<Vec<f64>>,
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) builder: SimulationBuilder,
     pub(crate) elements: Patch,
@@ -94,6 +98,12 @@ impl Parts {
             element_count,
         )?;
         let dofs = structure.dofs();
+        let mass_at_rest = structure.mass_at_rest()?;
+        if let Some(masses) = &mass_at_rest {
+            same_length("mass at rest", masses.len(), dofs)?;
+            all_finite("mass at rest", masses)?;
+            check_soil_at_rest(&builder)?;
+        }
         check_response_memory(dofs, layout.len())?;
         check_probes(&builder.probes, dofs)?;
         check_loads_and_initial_motion(&builder, dofs)?;
@@ -103,7 +113,13 @@ impl Parts {
         let moment_x = finite("moment center", builder.moment_center.unwrap_or(center[0]))?;
         let moment_center = [moment_x, center[1]];
         // These checks precede the preparation of the ground, which can take long.
-        let description = ground.description();
+        let mut description = ground.description();
+        if mass_at_rest.is_some() {
+            // Tractions on soil at rest are changes from the pressures at rest.
+            description.pressure_at_rest.clear();
+            description.depth_of_pressure_at_rest.clear();
+            description.mass_above.clear();
+        }
         let motion = builder.motion.as_ref();
         let initial_free_field =
             free_field_at_start(ground.as_ref(), &description, motion, &elements)?;
@@ -117,6 +133,7 @@ impl Parts {
             structure,
             ground,
             description,
+            mass_at_rest,
             builder,
             elements,
             coefficients,
@@ -126,6 +143,20 @@ impl Parts {
             moment_center,
         })
     }
+}
+
+/// Returns an error for a stage or a law with which the start of soil at rest would be wrong.
+fn check_soil_at_rest(builder: &SimulationBuilder) -> Result<()> {
+    require_part(
+        "gravity stage of soil at rest",
+        !builder.starts_unloaded(),
+        "one with a static state, from which the soil starts",
+    )?;
+    require_part(
+        "interface law of soil at rest",
+        builder.laws.iter().all(|law| law.modes() == [Mode::Stick]),
+        "one that sticks always, such as `Bonded`: tractions are changes from the state at rest",
+    )
 }
 
 /// Free-field displacement at t = 0.

@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 use std::ops::Range;
 
-use crate::error::{Error, Result, finite, in_bounds, require};
+use crate::error::{Error, Result, finite, in_bounds, require, same_length};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::dof_list_text;
 use crate::structure::nonlinear::check_nonlinear_force;
@@ -260,6 +260,18 @@ impl Structure for StructureGroup {
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_matrices(matrix, Structure::mass)
+    }
+
+    fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        let mut masses = None;
+        for member in &self.members {
+            if let Some(member_masses) = member.structure.mass_at_rest()? {
+                let masses = masses.get_or_insert_with(|| vec![0.0; self.dofs()]);
+                same_length("mass at rest", member_masses.len(), member.dof_count)?;
+                masses[member.dof_range()].copy_from_slice(&member_masses);
+            }
+        }
+        Ok(masses)
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
