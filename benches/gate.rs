@@ -1,9 +1,9 @@
-//! Wall times of what users wait for, as lines of seconds and name.
+//! Wall times of the calls that take a user's time, as lines of seconds and name.
 //!
 //! A time is the smallest of a few repetitions.
 //!
 //! `.ci/bench_gate` runs this program of two commits in turns and compares them. Arguments are the
-//! names to time; all without any. Statistics of single kernels are in the other benches.
+//! names to time, by default all. Statistics of single kernels are in the other benches.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ const REPETITION_COUNT: usize = 3;
 /// A timed call, with all data that it needs.
 type TimedCall = Box<dyn FnOnce() -> Result<()>>;
 
-/// Prepares what is not timed.
+/// Function that prepares a timed call.
 type PrepareCall = fn() -> Result<TimedCall>;
 
 const TIMED_JOBS: [(&str, PrepareCall); 8] = [

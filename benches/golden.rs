@@ -4,8 +4,8 @@
 //! cargo bench --bench golden -- target/golden.csv
 //! ```
 //!
-//! A row is a scene, its coordinates, a step and the numbers of its state, printed so that they read back as
-//! the same bits. `.ci/golden REVISION` runs the program of two commits and compares: physical
+//! A row is a scene, its coordinates, a step and the numbers of its state, printed with all digits, so that
+//! they can be read back exactly. `.ci/golden REVISION` runs the program of two commits and compares: physical
 //! coordinates must agree to the last bit, modal and reduced ones to 1e-12 of the largest value of a column.
 
 use std::fmt::Write as _;
@@ -136,8 +136,8 @@ fn body() -> Result<RigidBody> {
     RigidBody::cuboid([4.0, 3.0, 6.0], 1500.0)
 }
 
-/// A structure in plan, shaken in all directions.
-fn in_plan(
+/// A structure in space, shaken in all directions.
+fn in_space(
     structure: impl Structure + 'static,
     ground: impl Ground + 'static,
 ) -> SimulationBuilder {
@@ -150,10 +150,10 @@ fn body_with_law(
     law: impl basemat::interface::InterfaceLaw + 'static,
 ) -> Result<SimulationBuilder> {
     let ground = ElasticGround::under(soil()?, &body()?, 4)?;
-    Ok(in_plan(body()?, ground).interface(law))
+    Ok(in_space(body()?, ground).interface(law))
 }
 
-fn building_in_plan() -> Result<StoreyBuilding> {
+fn building_in_space() -> Result<StoreyBuilding> {
     let storey = PlanStorey::new(3.0, 18.0e3, [4.0, 3.0], [18.0e6, 12.0e6, 40.0e6]);
     StoreyBuilding::new(RigidBody::cuboid([4.0, 3.0, 1.0], 2400.0)?, &[storey; 3])
 }
@@ -256,24 +256,24 @@ const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
     ("plan, disc", || {
         let disc = Plan::disc([0.0; 2], 2.0, 6)?;
         let cylinder = RigidBody::cylinder(2.0, 5.0, 1500.0)?;
-        Ok(in_plan(cylinder, ElasticGround::in_plan(soil()?, disc)?).interface(Coulomb::new(0.5)?))
+        Ok(in_space(cylinder, ElasticGround::in_plan(soil()?, disc)?).interface(Coulomb::new(0.5)?))
     }),
     ("plan, springs", || {
         let bed = SpringGround::under(&body()?, 4, 2.0e7, 1.0e7)?.with_dashpots(4.0e5, 2.0e5)?;
-        Ok(in_plan(body()?, bed).interface(Coulomb::new(0.4)?))
+        Ok(in_space(body()?, bed).interface(Coulomb::new(0.4)?))
     }),
     ("plan, layers on a half-space", || {
         let ground = ElasticGround::under(layer_on_rock()?, &body()?, 3)?;
-        Ok(in_plan(body()?, ground).interface(Coulomb::new(0.4)?))
+        Ok(in_space(body()?, ground).interface(Coulomb::new(0.4)?))
     }),
     ("plan, storeys", || {
-        let ground = ElasticGround::under(soil()?, &building_in_plan()?, 4)?;
-        Ok(in_plan(building_in_plan()?, ground).interface(Coulomb::new(0.4)?))
+        let ground = ElasticGround::under(soil()?, &building_in_space()?, 4)?;
+        Ok(in_space(building_in_space()?, ground).interface(Coulomb::new(0.4)?))
     }),
     ("group in plan", || {
-        let pair = StructureGroup::new().with(body()?, -4.0)?.with(building_in_plan()?, 4.0)?;
+        let pair = StructureGroup::new().with(body()?, -4.0)?.with(building_in_space()?, 4.0)?;
         let ground = ElasticGround::under(soil()?, &pair, 3)?;
-        Ok(in_plan(pair, ground).interface(Coulomb::new(0.4)?))
+        Ok(in_space(pair, ground).interface(Coulomb::new(0.4)?))
     }),
 ];
 
@@ -315,9 +315,9 @@ fn write_rows(name: &str, build_scene: BuildScene, out: &mut String) -> Result<(
         let energy = &state.energy_balance;
         values.extend([energy.kinetic, energy.strain, energy.hysteresis, energy.damping]);
         values.extend([energy.soil, energy.contact, energy.input]);
-        write!(out, "{name}\t{}\t{step}", scene_coordinates(name)).expect("strings take all");
+        write!(out, "{name}\t{}\t{step}", scene_coordinates(name)).expect("writing to a string");
         for value in values {
-            write!(out, "\t{value:?}").expect("strings take all");
+            write!(out, "\t{value:?}").expect("writing to a string");
         }
         out.push('\n');
     }
@@ -330,7 +330,7 @@ fn main() {
     for (name, build_scene) in GOLDEN_SCENES {
         if let Err(error) = write_rows(name, build_scene, &mut out) {
             writeln!(out, "{name}\t{}\tfailed\t{error}", scene_coordinates(name))
-                .expect("strings take all");
+                .expect("writing to a string");
         }
     }
     match path {

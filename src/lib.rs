@@ -32,7 +32,7 @@
 //!     .probe(Probe::displacement("roof", roof))
 //!     .build()?;
 //!
-//! // Before it shakes, the ground carries the weight and nothing else.
+//! // Before the shaking, the ground carries the weight and nothing else.
 //! let start = simulation.state();
 //! assert!((start.normal_force / weight - 1.0).abs() < 1e-9);
 //! assert!(start.base_shear.abs() < 1e-9 * weight && start.base_moment.abs() < 1e-9 * weight);
@@ -47,7 +47,7 @@
 //! })?;
 //! assert_eq!(run.steps, 300);
 //! assert!(run.whole.base_shear.magnitude() > 0.0);
-//! // Every joule is accounted for.
+//! // The energy balance closes.
 //! assert!(run.energy_error < 1e-9);
 //! println!("{run}");
 //! # Ok::<(), basemat::Error>(())
@@ -75,7 +75,7 @@
 //!
 //! ```math
 //! g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
-//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w ,
+//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w .
 //! ```
 //!
 //! Another [`interface::InterfaceLaw`] has other conditions. The discrete equations satisfy an energy balance exactly,
@@ -87,8 +87,9 @@
 //! ```
 //!
 //! The soil's term is the work of the tractions on a passive ground, so it is never negative. Contact without tensile
-//! strength can only dissipate energy. So a run cannot become unstable. [`coupled::EnergyBalance`] computes each term
-//! from its own definition, and its residual comes with every run. The [theory] has derivations and sources.
+//! strength can only dissipate energy. With the midpoint rule a run therefore cannot become unstable.
+//! [`coupled::EnergyBalance`] computes each term from its own definition, and its residual comes with every run. The
+//! [theory] has derivations and sources.
 //!
 //! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
 //!
@@ -113,11 +114,11 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
-//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
+//! | [`coupled`] | [`Simulation`], its builder, joints between bodies, time schemes, results, energy balance |
 //! | [`analyses`] | errors of mesh and step, digits of peaks, comparison with a fixed base, static push-over |
 //! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
-//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, given matrices, reduction, hysteretic springs, and the trait for your own |
+//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, matrices of other programs, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
@@ -163,6 +164,7 @@
 //! | structure | [`structure::Structure`] | 4 |
 //! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with internal variables |
 //! | finite element | [`fem::Element`] | 4 |
+//! | material of solids that yield | [`fem::SolidMaterial`] | 7 |
 //! | spring with internal variables | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
@@ -182,7 +184,7 @@
 //! # Examples
 //!
 //! `containment` is the problem of Patel & Spyrakos; `shear_building`, `square_block` (in three dimensions) and some
-//! 25 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
+//! 30 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
 //! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) states what each prints.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -21,7 +21,7 @@ use basemat::{Simulation, unobserved};
 
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, tower};
-use basemat_problems::yielding_springs::yielding_column;
+use basemat_problems::yielding_springs::spring_column;
 use basemat_problems::{needed_from, own_force};
 
 /// The system's allocator, with a count for each thread.
@@ -225,7 +225,7 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
                 .load(Load::new(3, |t: f64| 3e4 * (40.0 * t).sin())),
         ),
         ("Newton", base().structure(QuadraticSpring(block)).interface(friction(0.3))),
-        ("yielding column", base().structure(yielding_column(8)).interface(friction(0.3))),
+        ("yielding column", base().structure(spring_column(8)).interface(friction(0.3))),
         ("yielding block", base().structure(yielding_block(2, 3)).interface(friction(0.3))),
         ("large yielding block", base().structure(yielding_block(6, 10)).interface(friction(0.3))),
     ]

@@ -10,25 +10,25 @@ use basemat::structure::{RigidBlock, RigidBody};
 
 use basemat_problems::profiles::{gmb, p1, p3};
 use basemat_problems::sampled_block::{
-    PulsedBlock, SAMPLING_INTERVAL, SampledHistory, distance, sample, under_pulse,
+    PulsedBlock, SAMPLING_INTERVAL, SampledSeries, distance, sample, under_pulse,
 };
 use basemat_problems::series::{nearest_integer, print_errors};
 
 const QUANTITY_NAMES: [&str; 3] = ["u_base", "theta", "V"];
 
-fn history(scene: PulsedBlock, mesh: (Grading, usize), time_step: f64) -> SampledHistory {
-    let (history, run) = scene.history(mesh, time_step).unwrap();
+fn block_series(scene: PulsedBlock, mesh: (Grading, usize), time_step: f64) -> SampledSeries {
+    let (series, run) = scene.run(mesh, time_step).unwrap();
     assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
     println!(
         "{scene:?} {mesh:?}, step {time_step}: uplift {:.2}, slip {:.2}",
         run.whole.uplifted_fraction.largest().value,
         run.whole.largest_slip.largest().value
     );
-    history
+    series
 }
 
 /// Distances of each run from the next.
-fn successive_distances(runs: &[SampledHistory]) -> Vec<[f64; 3]> {
+fn successive_distances(runs: &[SampledSeries]) -> Vec<[f64; 3]> {
     runs.windows(2).map(|pair| distance(&pair[0], &pair[1])).collect()
 }
 
@@ -58,7 +58,7 @@ fn assert_orders(scene: &str, orders: [f64; 3], expected: std::ops::Range<f64>) 
 #[test]
 fn a_bonded_block_converges_with_the_square_of_the_time_step() {
     let runs = [0.2, 0.1, 0.05, 0.025]
-        .map(|step| history(PulsedBlock::BONDED_BLOCK, (Grading::Cosine, 8), step));
+        .map(|step| block_series(PulsedBlock::BONDED_BLOCK, (Grading::Cosine, 8), step));
     let errors = successive_distances(&runs);
     assert_orders("time step", orders("time step", &errors, 1), 1.8..2.2);
 }
@@ -68,29 +68,29 @@ fn a_bonded_block_converges_with_the_square_of_the_time_step() {
 /// REFERENCE: each run against the next finer one.
 #[test]
 fn a_bonded_cylinder_converges_with_the_square_of_the_time_step() {
-    let runs = [0.2, 0.1, 0.05, 0.025].map(cylinder_history);
+    let runs = [0.2, 0.1, 0.05, 0.025].map(cylinder_series);
     assert_orders("disc", orders("disc", &successive_distances(&runs), 1), 1.8..2.2);
 }
 
 /// Base displacement, rotation and mean base shear of the cylinder.
-fn cylinder_history(time_step: f64) -> SampledHistory {
+fn cylinder_series(time_step: f64) -> SampledSeries {
     let cylinder = RigidBody::cylinder(1.0, 2.0, 1.0).unwrap();
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
     let ground = ElasticGround::under(soil, &cylinder, 6).unwrap();
     let mut simulation = under_pulse(cylinder, ground, time_step);
     let interval = nearest_integer(SAMPLING_INTERVAL / time_step);
-    let mut history = [const { Vec::new() }; 3];
+    let mut samples = [const { Vec::new() }; 3];
     let mut mean_shear = 0.0;
     let run = simulation.run(nearest_integer(20.0 / time_step), |state| {
         mean_shear += state.base_shear / interval as f64;
         if state.step % interval == 0 {
             let displacement = state.absolute_displacement();
             let values = [displacement[0], displacement[4], std::mem::take(&mut mean_shear)];
-            history.iter_mut().zip(values).for_each(|(series, value)| series.push(value));
+            samples.iter_mut().zip(values).for_each(|(series, value)| series.push(value));
         }
     });
     assert!(run.unwrap().energy_error < 1e-9);
-    history
+    samples
 }
 
 /// GOAL: the order that contact leaves, at least one. It is not smooth: events fall on steps.
@@ -105,9 +105,9 @@ fn blocks_in_contact_converge_at_least_with_the_time_step() {
         ("rocking and sliding", PulsedBlock::SLIDING_BLOCK),
     ] {
         let mesh = (Grading::Cosine, 8);
-        let reference = history(scene, mesh, 0.003_125);
+        let reference = block_series(scene, mesh, 0.003_125);
         let errors = [0.1, 0.05, 0.025, 0.0125]
-            .map(|step| distance(&history(scene, mesh, step), &reference));
+            .map(|step| distance(&block_series(scene, mesh, step), &reference));
         assert_orders(name, orders(name, &errors, 3), 1.0..3.0);
     }
 }
@@ -117,10 +117,10 @@ fn blocks_in_contact_converge_at_least_with_the_time_step() {
 /// REFERENCE: each run against the next finer one, and the frequency-domain table.
 #[test]
 fn elements_converge_with_their_size_and_graded_ones_with_its_square() {
-    let exact = PulsedBlock::exact();
+    let exact = PulsedBlock::table_series();
     for (grading, expected) in [(Grading::Uniform, 0.8..1.2), (Grading::Cosine, 1.7..2.3)] {
-        let runs =
-            [4, 8, 16, 32].map(|count| history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025));
+        let runs = [4, 8, 16, 32]
+            .map(|count| block_series(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025));
         let scene = format!("{grading:?}, next finer");
         assert_orders(&scene, orders(&scene, &successive_distances(&runs), 1), expected.clone());
         let scene = format!("{grading:?}, table");

@@ -4,5 +4,6 @@ mod convergence;
 mod coupled;
 mod identities;
 mod invariants;
+mod joints;
 mod published;
 mod space;

@@ -59,8 +59,8 @@ impl PyProbe {
         with_unit(Probe::acceleration(name, row.0), row.1, unit)
     }
 
-    /// Resultant of a ``section`` (`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
-    /// series ``name``; ``unit``: its label; unless given, the section's.
+    /// Resultant of a ``section`` (`SectionRows`), a force (N/m, in plan N) or a moment (N·m/m, in plan N·m), as the
+    /// time series ``name``; ``unit``: its label; unless given, the section's.
     #[pyo3(signature = (name, section, *, unit=None))]
     #[staticmethod]
     fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {

@@ -99,9 +99,9 @@ def test_the_basement_has_the_numbers_of_the_example_in_rust(ran: dict[str, tupl
         )
     )
     thrusts = [f"{1e-3 * own:.0f}" for own in (wall["thrust"].max(), wall["thrust"][0])]
-    assert f"turns by {rotations[0]} mrad instead of {rotations[1]} and" in text
-    assert f"drifts by {drifts[0]} mm instead of {drifts[1]};" in text
-    assert f"reaches {thrusts[0]} kN/m from {thrusts[1]} at rest" in text and wall["open_fraction"].max() == 1.0
+    assert f"rotates by {rotations[0]} mrad instead of {rotations[1]} on the surface" in text
+    assert f"drifts by {drifts[0]} mm instead of {drifts[1]}." in text
+    assert f"increases from {thrusts[1]} kN/m at rest to {thrusts[0]}, and" in text and wall["open_fraction"].max() == 1.0
     assert max(below.energy_error, above.energy_error) < 1e-9
     page = (pages.DOCS / "gallery" / "basement.md").read_text("utf-8")
     assert all(f"{own} " in page for own in (*rotations, *drifts, *thrusts))

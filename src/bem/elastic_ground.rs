@@ -25,9 +25,9 @@ use crate::structure::Structure;
 /// (Radau IIA), with the same tractions. [`Stages::for_profile`] chooses the number of stages, and
 /// [`Ground::description`] reports it.
 ///
-/// Both kinds of weights are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The free field is the
-/// motion of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion at depth in the same
-/// profile.
+/// Both kinds of weights are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
+/// free field is the motion of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion at
+/// depth in the same profile.
 ///
 /// ```
 /// use basemat::Soil;
@@ -243,7 +243,7 @@ impl ElasticGround {
         Ok(Self { ground: self.ground.with_history(options)?, ..self })
     }
 
-    /// Sets a history of your own: see [`WeightsGround::with_own_history`].
+    /// Sets a user's history: see [`WeightsGround::with_own_history`].
     #[must_use]
     pub fn with_own_history(
         self,

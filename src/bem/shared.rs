@@ -9,17 +9,17 @@ use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 
-/// Largest number of stored kernels: more would fill the memory in long sweeps.
+/// Largest number of stored kernels, because more would fill the memory in long sweeps.
 const MAX_STORED_KERNELS: usize = 8;
 
 /// Store of weights and spectra for grounds of one soil, mesh and time step.
 ///
 /// Grounds with clones of one store ([`ElasticGround::with_shared_kernels`],
 /// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and store them once. The
-/// store holds the eight combinations of soil, mesh and step used last. Results are bitwise identical.
-/// [`WeightsSource::identity`] decides whether two soils are the same. A thread waits for weights that another thread
-/// is computing. A source may request the weights of other sources from the same store during its computation. Sources
-/// on several threads that request each other's weights end in a deadlock.
+/// store keeps the eight combinations of soil, mesh and step used last. Results with and without it are bitwise
+/// identical. [`WeightsSource::identity`] decides whether two soils are the same. A thread waits for weights that another
+/// thread is computing. A source may request the weights of other sources from the same store during its computation.
+/// Sources on several threads that request each other's weights end in a deadlock.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
@@ -49,9 +49,7 @@ pub struct SharedKernels {
 #[derive(Debug, Default)]
 struct Store {
     table: Mutex<WeightsTable>,
-    /// Signals waiting threads that a computation has ended.
-    ///
-    /// The computation may have ended in an error.
+    /// Signals waiting threads that a computation has ended, with a kernel or with an error.
     computation_ended: Condvar,
 }
 
@@ -73,6 +71,7 @@ struct WeightsKey {
     elements: Vec<ContactElement>,
 }
 
+/// A stored kernel.
 struct StoredWeights {
     key: Arc<WeightsKey>,
     kernel: Arc<dyn ConvolutionWeights>,
@@ -90,7 +89,7 @@ impl WeightsTable {
     }
 }
 
-/// Kernel in computation; its drop ends the wait of other threads.
+/// Kernel in computation; when the value is dropped, other threads no longer wait for the kernel.
 struct KernelInProgress<'a> {
     shared_kernels: &'a SharedKernels,
     key: &'a Arc<WeightsKey>,
@@ -116,7 +115,7 @@ impl SharedKernels {
         self.store.table.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the stored or newly computed kernel of these elements.
+    /// Stored kernel of these elements, or else a new one, which is then stored.
     ///
     /// A kernel of a `source` without identity is not stored.
     pub(super) fn kernel(
@@ -138,7 +137,7 @@ impl SharedKernels {
         if let Some(kernel) = self.stored_kernel_or_reserve(&key)? {
             return Ok(kernel);
         }
-        // The store is not locked while the kernel is computed: the kernel may need other kernels.
+        // The store is not locked while the kernel is computed, because the source may request other kernels.
         let in_progress = KernelInProgress { shared_kernels: self, key: &key };
         let kernel = source.kernel(elements, time_step)?;
         let mut table = self.lock_table();
@@ -155,8 +154,8 @@ impl SharedKernels {
 
     /// Returns the stored kernel, or reserves its computation.
     ///
-    /// `None` means that the caller has to compute the kernel of `key`. The function waits while
-    /// another thread computes the kernel.
+    /// `None` means that the caller has to compute the kernel of `key`. While another thread is computing the kernel, the
+    /// function waits.
     fn stored_kernel_or_reserve(
         &self,
         key: &Arc<WeightsKey>,

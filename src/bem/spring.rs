@@ -10,11 +10,11 @@ use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction, stepped by a θ rule: θ = ½ (the
-/// default, the [mid-step form](Ground#elastic-parts-in-the-mid-step-form)) conserves the springs' energy, θ = 1 damps the
-/// oscillations of a released bed without dashpots. A base with a sideways speed may land on stiff tangential springs
-/// without dashpots: this speed then alternates from step to step. A ground of your own can contain a bed as one of its
-/// parts: [`SpringGround::of_elements`].
+/// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction, integrated in time by a θ rule. θ = ½
+/// (the default, the [mid-step form](Ground#elastic-parts-in-the-mid-step-form)) conserves the springs' energy, and θ = 1
+/// damps the oscillations of a released bed without dashpots. If a base with a sideways speed lands on stiff tangential
+/// springs without dashpots, the sign of this speed then alternates from step to step. A user's ground can contain a
+/// bed as one of its parts: [`SpringGround::of_elements`].
 ///
 /// In plan under a base of up to ten rigid bodies, memory and time per step grow in proportion to the number of elements,
 /// from 64 elements on: a bed of 64 × 64 cells is usual. Under a flexible base, and in the plane, they grow as on elastic
@@ -36,6 +36,7 @@ pub struct SpringGround {
     stiffness: Vec<f64>,
     /// Dashpot coefficient of each component of a contact vector, Pa·s/m.
     dashpot: Vec<f64>,
+    /// Weight θ of the end of a step in the time integration, from ½ to 1.
     theta: f64,
     /// Time step, s; zero before `prepare`.
     time_step: f64,
@@ -116,8 +117,8 @@ impl SpringGround {
 
     /// Bed of any elements, with a spring and a dashpot for each component of a [contact vector](crate::bem).
     ///
-    /// `stiffness` in Pa/m and `dashpot` in Pa·s/m have 2Q components for Q elements, in plan 3Q. A ground of your own
-    /// with such a bed as a part calls the bed's methods in its methods of the same name, and adds its other parts.
+    /// `stiffness` (Pa/m) and `dashpot` (Pa·s/m) have 2Q components for Q elements, in plan 3Q. A user's ground with
+    /// such a bed as a part calls the bed's methods in its methods of the same name, and adds its other parts.
     ///
     /// ```
     /// use basemat::bem::{Ground, SpringGround, Strip};
@@ -195,7 +196,7 @@ impl SpringGround {
         Ok(self)
     }
 
-    /// Error before `prepare`: without a time step the impedance is undefined.
+    /// Error before `prepare`, because the impedance depends on the time step.
     fn check_prepared(&self) -> Result<()> {
         if self.time_step > 0.0 { Ok(()) } else { Err(NOT_PREPARED) }
     }

@@ -8,7 +8,7 @@ use crate::history::PairClasses;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
-/// Reference length in spans of the elements: far enough for a positive definite static matrix.
+/// Reference length in spans of the elements, large enough for a positive definite static matrix.
 const REFERENCE_SPANS: f64 = 10.0;
 
 /// Element means of the static surface displacement (Flamant).
@@ -21,12 +21,12 @@ pub(crate) struct StaticKernel {
     logarithm_factor: f64,
     /// Factor of sgn x, 1/Pa.
     sign_factor: f64,
-    /// L₀, m.
+    /// Distance L₀ at which displacements vanish, m.
     reference_length: f64,
 }
 
 impl StaticKernel {
-    /// Kernel of a soil whose displacements vanish at the distance `reference_length` (L₀, m).
+    /// Kernel of `soil`, with displacements that vanish at the distance `reference_length` (L₀, m) from a load.
     ///
     /// The distance can be chosen freely because a half-plane has no static datum.
     ///
@@ -132,15 +132,16 @@ mod tests {
     }
 
     #[test]
-    fn bad_input_is_an_error() {
+    fn invalid_input_is_an_error() {
         let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
         for reference_length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(StaticKernel::new(soil, reference_length).is_err());
         }
         let kernel = StaticKernel::new(soil, 1.0).unwrap();
-        for bad_element in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)]
+        for invalid_element in
+            [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)]
         {
-            assert!(kernel.coefficients(bad_element, element(0.0, 1.0)).is_err());
+            assert!(kernel.coefficients(invalid_element, element(0.0, 1.0)).is_err());
         }
     }
 

@@ -13,7 +13,7 @@ use crate::structure::{Base, BaseNode, Structure, check_left_to_right, check_lin
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Grading {
-    /// Equal lengths: fastest history, convergence of first order.
+    /// Equal lengths, which lead to the fastest history. Convergence of first order.
     Uniform,
     /// x = −cos(πk/Q): short elements at the ends, where tractions are singular. Convergence of second order.
     #[default]
@@ -63,7 +63,7 @@ impl Strip {
         let mut nodes = vec![range.start];
         for k in 1..count {
             let fraction = k as f64 / count as f64;
-            // The sine of the angle from the middle makes both halves mirror images to rounding.
+            // With the sine of the angle from the middle, both halves are mirror images up to rounding.
             let relative_position = match grading {
                 Grading::Uniform => 2.0 * fraction - 1.0,
                 Grading::Cosine => (std::f64::consts::PI * (fraction - 0.5)).sin(),
@@ -160,7 +160,7 @@ impl Strip {
     }
 }
 
-/// Lets a single strip be passed where several are accepted.
+/// A single strip is accepted where several strips are.
 impl AsRef<[Strip]> for Strip {
     fn as_ref(&self) -> &[Strip] {
         std::slice::from_ref(self)
@@ -177,9 +177,9 @@ const OFFSET_ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub(crate) struct Overlap {
     /// Offsets, ascending, m.
     pub(crate) nodes: Vec<f64>,
-    /// w(x) + w(−x) at the nodes, m.
+    /// Even overlap w(x) + w(−x) at the nodes, m.
     pub(crate) even_overlaps: Vec<f64>,
-    /// w(x) − w(−x) at the nodes, m.
+    /// Odd overlap w(x) − w(−x) at the nodes, m.
     pub(crate) odd_overlaps: Vec<f64>,
     /// Length of the receiver, m.
     pub(crate) receiver_length: f64,
@@ -196,6 +196,7 @@ fn check_ends(element: ContactElement) -> Result<()> {
 }
 
 impl Overlap {
+    /// Overlap of two elements; an error if the ends of one are not finite or not in order.
     pub(crate) fn new(receiver: ContactElement, source: ContactElement) -> Result<Self> {
         check_ends(receiver)?;
         check_ends(source)?;
@@ -250,9 +251,10 @@ impl Overlap {
         }
     }
 
-    /// The polynomial A(u) of a step from t₀ to t₁ on the piece that contains `speed`.
+    /// The polynomial A(u) of a step from t₀ to t₁ on the interval of u that contains `speed`.
     ///
-    /// `step_ends`: t₀ and t₁ (m); `travel_per_step`: t₁ − t₀ (m), rounded once; `is_odd`: odd instead of even overlap.
+    /// `step_ends`: t₀ and t₁ (m); `travel_per_step`: t₁ − t₀ (m), with the rounding error of one operation only; `is_odd`:
+    /// odd instead of even overlap.
     pub(crate) fn passed_overlap(
         &self,
         step_ends: [f64; 2],
@@ -325,21 +327,22 @@ struct LinearOverlap {
     x: f64,
     /// Overlap at the point, m.
     w: f64,
+    /// Derivative of the overlap with respect to the offset.
     slope: f64,
 }
 
 /// Overlap that a wave of speed u passes during a step, a polynomial in u.
 ///
-/// A(u) = ∫ w(x) dx over u·t₀ < x < u·t₁, valid while both limits stay in their segments of w.
+/// A(u) = ∫ w(x) dx over u·t₀ < x < u·t₁, valid for the u at which both limits lie in the same segments of w.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PassedOverlap {
     /// Whether both limits lie in the same segment.
     has_one_segment: bool,
-    /// t₁ − t₀, m.
+    /// Difference t₁ − t₀, m.
     travel_per_step: f64,
-    /// t₀, m.
+    /// Start t₀ of the step, m.
     start: f64,
-    /// t₁, m.
+    /// End t₁ of the step, m.
     end: f64,
     /// Integral over the whole segments between the limits, m².
     whole_segments: f64,
@@ -350,7 +353,7 @@ pub(crate) struct PassedOverlap {
 }
 
 impl KernelWeight for PassedOverlap {
-    /// A(u), m².
+    /// The passed overlap A(u), m².
     fn value(&self, u: f64) -> f64 {
         if self.has_one_segment {
             return u * self.value_over_speed(u);
@@ -362,7 +365,7 @@ impl KernelWeight for PassedOverlap {
             + upper_length * (self.upper_line.w + 0.5 * self.upper_line.slope * upper_length)
     }
 
-    /// A(u)/u, m².
+    /// The ratio A(u)/u, m².
     fn value_over_speed(&self, u: f64) -> f64 {
         if self.has_one_segment {
             let middle = 0.5 * (self.start + self.end);

@@ -8,10 +8,10 @@ use crate::geometry::ContactLayout;
 impl ElasticGround {
     /// Dynamic stiffness of all strips as one rigid body, at each of `frequencies` (Hz).
     ///
-    /// The error on cosine-graded strips is of second order in the element length. The observer counts points of the
-    /// Laplace plane, eight per frequency.
+    /// The error on cosine-graded strips is of second order in the element length. The observer's progress is the
+    /// number of Laplace variables, eight per frequency.
     ///
-    /// Frequency 0 is the static stiffness on rigid bedrock. Layers may have any damping, including hysteretic
+    /// The result at frequency 0 on rigid bedrock is the static stiffness. Layers may have any damping, also hysteretic
     /// damping.
     ///
     /// ```

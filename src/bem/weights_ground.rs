@@ -1,4 +1,4 @@
-//! Grounds made of convolution weights.
+//! Grounds that are determined by convolution weights.
 
 use std::sync::Arc;
 
@@ -10,11 +10,11 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 
 /// Ground for any soil that has convolution weights and a static compliance.
 ///
-/// [`ElasticGround`](super::ElasticGround) uses it. For a soil of your own, write a [`WeightsSource`] and its
+/// [`ElasticGround`](super::ElasticGround) is based on it. A user's soil is a [`WeightsSource`] with its
 /// [`ConvolutionWeights`]. All methods of history, their choice, shared kernels and checkpoints then need no more code.
 ///
-/// The example is a bed of independent Kelvin–Voigt springs, exactly integrated. A unit pressure during one step
-/// causes the settlement (1 − z)/k with z = exp(−k Δt/c). In each later step this settlement is multiplied by z.
+/// The example is a bed of independent Kelvin–Voigt springs, integrated exactly. A unit pressure during one step
+/// causes the settlement (1 − z)/k with z = exp(−k Δt/c). In each later step this settlement decreases by the factor z.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -105,7 +105,7 @@ pub struct WeightsGround {
     /// Relation of contact elements in plan to cells; `None` if each cell is one element.
     unions: Option<Unions>,
     options: HistoryOptions,
-    /// Makes the caller's history; `None` for a history according to `options`.
+    /// Function that creates the user's history; `None` for a history according to `options`.
     custom_history: Option<Box<MakeHistory>>,
     shared_kernels: SharedKernels,
     prepared: Option<PreparedHistory>,
@@ -119,14 +119,14 @@ short_debug! {
     prepared: self.prepared.is_some(),
 }
 
-/// Weights and history for a length of the time step.
+/// Weights and history for one time step.
 struct PreparedHistory {
     time_step: f64,
     weights: Arc<dyn ConvolutionWeights>,
     chosen_history: ChosenHistory,
 }
 
-/// Makes the history of convolution weights.
+/// Function that creates the history of convolution weights.
 type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
 impl WeightsGround {
@@ -167,9 +167,9 @@ impl WeightsGround {
         Ok(self)
     }
 
-    /// Sets a history of your own.
+    /// Sets a user's history.
     ///
-    /// `make_history` is called with the convolution weights once the time step is known.
+    /// `make_history` is called with the convolution weights in each preparation, when the time step is known.
     #[must_use]
     pub fn with_own_history(
         mut self,
@@ -195,7 +195,7 @@ impl WeightsGround {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
-    /// Makes an empty history of `weights` for `steps` steps; `None` if their number is unknown.
+    /// Empty history of `weights` for `steps` steps; `steps` is `None` if their number is unknown.
     fn empty_history(
         &self,
         weights: &Arc<dyn ConvolutionWeights>,
@@ -226,7 +226,7 @@ impl Ground for WeightsGround {
         let mut chosen_history = self.empty_history(&weights, steps)?;
         match steps {
             Some(steps) => chosen_history.history.prepare(steps, observer)?,
-            // The step compliance needs the first lag alone.
+            // The step compliance depends on the first lag only.
             None => weights.prepare(1, observer)?,
         }
         self.prepared = Some(PreparedHistory { time_step, weights, chosen_history });
@@ -288,8 +288,10 @@ impl Ground for WeightsGround {
         Ok([&history_values[..], last_traction].concat())
     }
 
-    /// Restores a history of the same kind. One by sums of exponentials that was fitted for another number of steps, its
-    /// horizon, is first fitted again for that number.
+    /// Restores a history of the same kind.
+    ///
+    /// The checkpoint of a history by exponentials may be from a fit for another horizon (number of steps). The
+    /// exponentials are then first fitted again for that horizon.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
         let last_traction =

@@ -6,6 +6,7 @@ use crate::bem::Ground;
 use crate::contact::ContactSearch;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::joint::Joint;
 use crate::coupled::model::load::Load;
 use crate::coupled::scheme::{Midpoint, TimeScheme};
 use crate::coupled::serviceability::Serviceability;
@@ -33,6 +34,7 @@ pub struct SimulationBuilder {
     pub(crate) ground: Option<Box<dyn Ground>>,
     pub(crate) time_step: f64,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(crate) joints: Vec<Joint>,
     pub(crate) motion: Box<dyn FreeField>,
     pub(crate) scheme: Box<dyn TimeScheme>,
     pub(crate) search: ContactSearch,
@@ -79,6 +81,7 @@ impl SimulationBuilder {
             ground: None,
             time_step,
             laws: Vec::new(),
+            joints: Vec::new(),
             motion: Box::new(AtRest),
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
@@ -139,6 +142,15 @@ impl SimulationBuilder {
     #[must_use]
     pub fn interfaces(mut self, laws: Vec<Box<dyn InterfaceLaw>>) -> Self {
         self.laws = laws;
+        self
+    }
+
+    /// Adds a joint: contact between two lines of nodes of the structure.
+    ///
+    /// Only in the plane. [`State::joints`](crate::coupled::State::joints) has its results.
+    #[must_use]
+    pub fn joint(mut self, joint: Joint) -> Self {
+        self.joints.push(joint);
         self
     }
 

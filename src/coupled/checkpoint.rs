@@ -10,6 +10,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
+use crate::coupled::step::joint_losses::JointLosses;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::COMPONENTS_IN_SPACE;
 use crate::interface::{ContactState, LawForm, Mode, PreviousContact};
@@ -232,9 +233,11 @@ impl Simulation {
         state.trials = 0;
         state.method = SearchMethod::ActiveSet;
         state.transitions.clear();
+        state.joints.iter_mut().for_each(|joint| joint.transitions.clear());
         state.kinematics.clear_dof_cache();
         state.energy_balance =
             energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
+        JointLosses::set(energies.as_ref().map(|energies| &energies.joint_losses), &mut state);
         state.update_resultants(scene);
         self.state = state;
         self.energies = energies;
@@ -296,12 +299,21 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
         return Err(corrupt.into());
     }
     let has_limits = LawForm::of(scene.layout()) == LawForm::Limits;
+    let mut restored = Vec::with_capacity(saved.len());
     for (e, &(index, has_opened)) in saved.iter().enumerate() {
         let mode = Mode::ALL.get(index).copied();
         let is_possible = |mode: &Mode| has_limits || scene.law(e).modes().contains(mode);
         let mode = mode.filter(is_possible).ok_or_else(|| corrupt.clone())?;
-        state.modes[e] = mode;
-        state.start.restore(e, state.contact[e], mode, has_opened);
+        restored.push((mode, has_opened));
+    }
+    let elements = state.elements_mut().zip(&restored);
+    let mut contacts = Vec::with_capacity(saved.len());
+    for ((contact, present_mode), (mode, _)) in elements {
+        *present_mode = *mode;
+        contacts.push(*contact);
+    }
+    for (e, (contact, (mode, has_opened))) in contacts.into_iter().zip(restored).enumerate() {
+        state.start.restore(e, contact, mode, has_opened);
     }
     Ok(())
 }
@@ -317,6 +329,7 @@ fn state_numbers<'a>(
     let mut numbers = Vec::new();
     let State { kinematics, contact, start, free_field, free_field_across, foundations, .. } =
         state;
+    let joint_contact = state.joints.iter_mut().flat_map(|joint| &mut joint.contact);
     for values in
         [&mut kinematics.displacement, &mut kinematics.velocity, &mut kinematics.acceleration]
     {
@@ -331,7 +344,9 @@ fn state_numbers<'a>(
         }
     }
     let mut y_components = Vec::new();
-    for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in contact {
+    for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in
+        contact.iter_mut().chain(joint_contact)
+    {
         numbers.extend([gap, slip, pressure, shear]);
         y_components.extend([slip_across, shear_across]);
     }

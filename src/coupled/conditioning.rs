@@ -3,7 +3,7 @@
 use crate::coupled::model::effective_stiffness::EFFECTIVE_STIFFNESS_NAME;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::{Error, Result};
 use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
@@ -84,16 +84,17 @@ impl fmt::Display for Conditioning {
 /// Returns an error if double precision is insufficient.
 pub(crate) fn conditioning(
     scene: &Scene,
-    solver: &mut Solver,
+    solver: &mut StepSolver,
     start: &PreviousContacts,
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.operators_and_contact_mut();
-    let order = scene.layout().len();
     let effective_stiffness = operators.condition_number(&scene.model, &scene.coefficients)?;
-    let ground = match scene.step_compliance.as_diagonal() {
+    let ground = if scene.step_compliance.as_diagonal().is_some() {
         // A diagonal matrix scaled by its diagonal is the identity.
-        Some(_) => 1.0,
-        None => dense_condition(&scene.step_compliance, order),
+        1.0
+    } else {
+        let ground_order = scene.base.elements().layout().len();
+        dense_condition(&scene.base.ground_matrix(&scene.step_compliance), ground_order)
     };
     let delassus = contact.condition_number_at_rest(
         &operators.delassus,

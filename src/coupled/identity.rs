@@ -165,8 +165,14 @@ impl Simulation {
         for row in [c.acceleration, c.velocity, c.displacement] {
             scheme_numbers.extend(row);
         }
-        let elements = scene.base.elements().iter();
-        let elements = elements.flat_map(ContactElement::ends).flatten().collect();
+        let ground_elements = scene.base.elements().iter();
+        let mut elements: Vec<f64> =
+            ground_elements.flat_map(ContactElement::ends).flatten().collect();
+        for joint in scene.base.joints() {
+            let ends = joint.line.elements().iter().flat_map(ContactElement::ends);
+            elements.extend(ends.flatten());
+            elements.push(joint.line.gap);
+        }
         let structure = vec![
             sum_of_magnitudes(model.mass.values()),
             sum_of_magnitudes(model.damping.values()),

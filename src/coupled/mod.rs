@@ -27,6 +27,10 @@
 //! K_eff = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u),             θ = ½ for the midpoint rule
 //! ```
 //!
+//! Elements of a [`Joint`] follow those of the ground. Their rows of B are the means of the upper side minus those of the
+//! lower side, and their rows of G¹ and h are zero. A part without foundations has the translation y of the ground under
+//! what it stands on; a joint between parts of different y begins with their difference.
+//!
 //! [`Simulation::step`] computes in this order:
 //!
 //! 1. forcing: free field, its translation y, convolution history, load (`step/forcing.rs`);
@@ -85,6 +89,7 @@ mod former_paths;
 mod gravity_stage;
 mod ground_order;
 mod identity;
+mod joint;
 pub(crate) mod model;
 pub(crate) mod parts;
 mod preparation;
@@ -110,6 +115,7 @@ pub use coordinates::Coordinates;
 pub use former_paths::*;
 pub use gravity_stage::GravityStage;
 pub use identity::Change;
+pub use joint::Joint;
 pub use model::load::Load;
 pub use run::mistake::Mistake;
 pub use run::warning::Warning;
@@ -121,4 +127,5 @@ pub use state::energy_balance::{EnergyBalance, EnergyTerm};
 #[cfg(feature = "embedded")]
 pub use state::face_forces::{Face, FaceForces};
 pub use state::foundation::Foundation;
+pub use state::joint_state::JointState;
 pub use state::{State, Transition};

@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use crate::bem::{Ground, GroundDescription, fill_free_field};
 use crate::contact::ContactSearch;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::fixed_base::on_fixed_base;
+use crate::coupled::base::joint_line::JointLine;
 use crate::coupled::builder::SimulationBuilder;
 use crate::coupled::ground_order::is_first_order;
+use crate::coupled::joint::Joint;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step_compliance::step_compliance;
 use crate::error::{
@@ -15,7 +18,8 @@ use crate::error::{
 };
 use crate::geometry::{Patch, check_count};
 use crate::interface::{
-    Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
+    Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, SharedLaw,
+    check_list,
 };
 use crate::linalg::CompressedMatrix;
 use crate::linalg::matrix;
@@ -36,6 +40,10 @@ pub(crate) struct Parts {
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) builder: SimulationBuilder,
     pub(crate) elements: Patch,
+    /// Lines of the joints; their laws follow those of the ground's elements.
+    pub(crate) joints: Vec<JointLine>,
+    /// Laws of the elements of floor and joints; empty without joints.
+    pub(crate) bearing_laws: Vec<Box<dyn InterfaceLaw>>,
     pub(crate) coefficients: SchemeCoefficients,
     /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) step_compliance: Arc<CompressedMatrix>,
@@ -72,7 +80,8 @@ impl Parts {
         }
         if builder.has_fixed_base {
             builder.laws = vec![Box::new(Bonded)];
-            (structure, ground) = on_fixed_base(structure, &elements, time_step)?;
+            (structure, ground) =
+                on_fixed_base(structure, &elements, &lines(&builder.joints), time_step)?;
         }
         let needed =
             "one with a static state for a base with walls, on which the soil at rest presses";
@@ -97,14 +106,19 @@ impl Parts {
             builder.safety_friction_coefficients,
             element_count,
         )?;
-        let dofs = structure.dofs();
+        // Before the laws of joints: between bodies any law may act.
         let mass_at_rest = structure.mass_at_rest()?;
         if let Some(masses) = &mass_at_rest {
-            same_length("mass at rest", masses.len(), dofs)?;
+            same_length("mass at rest", masses.len(), structure.dofs())?;
             all_finite("mass at rest", masses)?;
             check_soil_at_rest(&builder)?;
         }
-        check_response_memory(dofs, layout.len())?;
+        let joints = lines(&builder.joints);
+        let contact_scene = ContactScene { gravity: initial_gravity, time_step };
+        let bearing_laws = add_joint_laws(&mut builder, &elements, &contact_scene)?;
+        let joint_element_count: usize = joints.iter().map(|joint| joint.elements().len()).sum();
+        let dofs = structure.dofs();
+        check_response_memory(dofs, layout.len() + layout.components() * joint_element_count)?;
         check_probes(&builder.probes, dofs)?;
         check_loads_and_initial_motion(&builder, dofs)?;
         let coefficients = builder.scheme.coefficients(time_step);
@@ -136,6 +150,8 @@ impl Parts {
             mass_at_rest,
             builder,
             elements,
+            joints,
+            bearing_laws,
             coefficients,
             step_compliance,
             is_first_order_ground,
@@ -143,6 +159,46 @@ impl Parts {
             moment_center,
         })
     }
+
+    /// Adds rows of zeros for the elements of joints to the step compliance.
+    pub(crate) fn spread_over_joints(&mut self, base: &PlacedBase) {
+        if !self.joints.is_empty() {
+            let ground = self.step_compliance.filled(self.elements.layout().len());
+            let order = base.layout().len();
+            let matrix = CompressedMatrix::new(base.spread_ground_matrix(ground), order);
+            self.step_compliance = Arc::new(matrix);
+        }
+    }
+}
+
+/// Lines of joints.
+fn lines(joints: &[Joint]) -> Vec<JointLine> {
+    joints.iter().map(|joint| joint.line().clone()).collect()
+}
+
+/// Appends the laws of the joints to a list with a law for each element of the ground; only in the plane.
+///
+/// Returns the laws of the elements of floor and joints.
+fn add_joint_laws(
+    builder: &mut SimulationBuilder,
+    elements: &Patch,
+    scene: &ContactScene,
+) -> Result<Vec<Box<dyn InterfaceLaw>>> {
+    if builder.joints.is_empty() {
+        return Ok(Vec::new());
+    }
+    if elements.is_plan() {
+        let needed = "only on a ground in the plane: a base in plan has no joints";
+        return Err(Error::Scene { quantity: "joint", needed });
+    }
+    let mut laws = SharedLaw::for_each(std::mem::take(&mut builder.laws), elements.len());
+    for joint in std::mem::take(&mut builder.joints) {
+        laws.extend(joint.element_laws(scene)?);
+    }
+    builder.laws = SharedLaw::boxed(&laws);
+    laws.drain(elements.floor().end..elements.len());
+    laws.drain(..elements.floor().start);
+    Ok(SharedLaw::boxed(&laws))
 }
 
 /// Returns an error for a stage or a law with which the start of soil at rest would be wrong.

@@ -131,7 +131,7 @@ impl Scene {
             weight,
             is_connected_by_force,
             step_compliance: parts.step_compliance.clone(),
-            initial_free_field: std::mem::take(&mut parts.initial_free_field),
+            initial_free_field: base.with_zero_joints(&parts.initial_free_field),
             stepped_probes,
             gravity_stage: builder.gravity_stage as usize as f64,
             initial_motion_sums: [
@@ -145,9 +145,9 @@ impl Scene {
         }
     }
 
-    /// Number of contact elements Q.
+    /// Number of contact elements Q, of the ground and the joints.
     pub(crate) fn element_count(&self) -> usize {
-        self.base.elements().len()
+        self.layout().elements()
     }
 
     /// Order of the numbers of a contact vector.
@@ -168,8 +168,7 @@ impl Scene {
         if let Transformation::Identity = self.model.transformation {
             self.base.means(displacement, means);
             let influence = &self.model.influence;
-            let translations =
-                influence.parts().iter().map(|part| part.mean_translation(&self.base, means));
+            let translations = influence.base_translations(&self.base, means);
             influence.translate(-1.0, translations, displacement);
         }
     }
@@ -187,7 +186,8 @@ impl Scene {
     ) {
         self.base.means(displacement, means);
         let influence = &self.model.influence;
-        let base_translation = |part: &ConnectedPart| part.mean_translation(&self.base, means);
+        let base_translation =
+            |part: &ConnectedPart| influence.base_translation(part, &self.base, means);
         let parts = || influence.parts().iter().zip(&self.is_connected_by_force);
         let first_connected = parts()
             .zip(translations.clone())

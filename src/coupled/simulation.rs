@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::bem::Ground;
-use crate::coupled::base::fixed_base::{is_fixed_base, without_rigid_foundations};
+use crate::coupled::base::fixed_base::{into_structure, is_fixed_base, without_rigid_foundations};
 use crate::coupled::conditioning::Conditioning;
 use crate::coupled::run::Run;
 use crate::coupled::run::resolution::Resolution;
@@ -13,7 +13,8 @@ use crate::coupled::state::State;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::joint_losses::JointLosses;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
 use crate::interface::Mode;
@@ -33,7 +34,7 @@ pub struct Simulation {
     pub(crate) ground: Box<dyn Ground>,
     pub(crate) motion: Box<dyn FreeField>,
     pub(crate) forcing: Forcing,
-    pub(crate) solver: Solver,
+    pub(crate) solver: StepSolver,
     pub(crate) increment: Increment,
     /// The energy balance; `None` if it is omitted.
     pub(crate) energies: Option<EnergyAccumulator>,
@@ -81,11 +82,10 @@ impl Simulation {
             let data = StepData { scene, structure: structure.as_ref(), state, forcing };
             energies.accumulate(data, ground.as_ref(), increment);
             state.energy_balance = energies.energy_balance;
+            JointLosses::set(Some(&energies.joint_losses), state);
         }
         state.advance(scene, forcing, increment);
-        increment.spread_traction.copy_from_slice(&increment.traction);
-        let pairs = increment.spread_traction.iter_mut().zip(&forcing.free_traction);
-        pairs.for_each(|(traction, free_traction)| *traction -= free_traction);
+        increment.set_ground_traction(scene, &forcing.free_traction);
         scene.base.elements().spread_inside(&mut increment.spread_traction);
         ground.commit(&increment.spread_traction);
         if let Some(force) = structure.nonlinear_mut() {
@@ -145,9 +145,9 @@ impl Simulation {
         without_rigid_foundations(self.structure.as_ref())
     }
 
-    /// Returns the structure by value; on a fixed base, inside a wrapper that adds rigid foundations to it.
+    /// Returns the structure of the builder by value, in its present state.
     pub fn into_structure(self) -> Box<dyn Structure> {
-        self.structure
+        into_structure(self.structure)
     }
 
     /// The ground in its present state.

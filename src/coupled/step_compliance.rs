@@ -47,7 +47,7 @@ fn bed_compliance(
         return Ok(None);
     }
     let Some(compliance) = ground.diagonal_compliance()? else { return Ok(None) };
-    let base = PlacedBase::of(structure, elements)?;
+    let base = PlacedBase::of(structure, elements, &[])?;
     let rank = base.dofs().len();
     let has_small_rank = rank <= MAX_STRUCTURE_RANK && 2 * rank <= elements.len();
     let is_elastic = compliance.in_step.iter().all(|entry| *entry != 0.0);

@@ -4,8 +4,7 @@
 //! the Rayleigh polynomial. On each branch a variable s removes the square root, and pieces are halved until the nearest
 //! singularity is distant enough for a Gauss rule. Two poles may be arbitrarily close to the path of integration; they
 //! are subtracted and integrated in closed form. The Rayleigh root is on the path (principal value). For small Poisson's
-//! ratios, the root near the pressure wave is close to the path. Further symbols are those of
-//! [`half_plane`](super::half_plane) and [`rayleigh`](super::rayleigh).
+//! ratios, the root near the pressure wave is close to the path. Further symbols: see `half_plane` and `rayleigh`.
 //!
 //! | symbol | meaning |
 //! |---|---|

@@ -170,9 +170,7 @@ impl HalfPlane {
         Surface { zz: even[0], xx: even[1], zx }
     }
 
-    /// Twice-integrated response J(x, t), m², for `path` = `c_S` t and x in m.
-    ///
-    /// It is even in x for zz and xx, and odd for zx.
+    /// Twice-integrated response J(x, t), m², for `path` = `c_S` t and x in m; even in x for zz and xx, odd for zx.
     pub(crate) fn twice_integrated(&self, x: f64, path: f64) -> Surface {
         let r = x.abs();
         if r == 0.0 || path.is_nan() || path <= 0.0 {

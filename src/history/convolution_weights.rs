@@ -24,10 +24,10 @@ use crate::geometry::COMPLIANCES_PER_OFFSET;
 /// | to the right | pressure | −sign · scale · coupling |
 ///
 /// A history stores tables made from [`ConvolutionWeights::coefficients`], so that a step calls none of these methods
-/// unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the division
-/// of a run into parts does not change the results.
+/// unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the
+/// division of a run into parts does not change the results.
 ///
-/// The example of [`WeightsGround`](crate::bem::WeightsGround) implements this trait in twenty lines.
+/// The example of [`WeightsGround`](crate::bem::WeightsGround) implements this trait in some thirty lines.
 pub trait ConvolutionWeights: Send + Sync {
     /// The elements, and the classes of their pairs.
     fn classes(&self) -> &PairClasses;

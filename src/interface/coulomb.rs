@@ -25,8 +25,8 @@ pub enum UnilateralCondition {
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
 /// Gap and pressure satisfy Signorini's conditions. Shear satisfies |τ| ≤ friction · p, and slip has the direction of
-/// the shear traction. With infinite friction the base uplifts but does not slide; with zero friction it is frictionless. For a
-/// coefficient that changes, use [`VariableFriction`](super::VariableFriction).
+/// the shear traction. With infinite friction the base uplifts but does not slide; with zero friction it is
+/// frictionless. For a coefficient that changes, use [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
 /// use basemat::interface::Coulomb;

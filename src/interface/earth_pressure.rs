@@ -17,11 +17,11 @@ use crate::error::{Error, Result, not_negative, require};
 /// | passive | p = passive, g ≤ −w; w becomes −g |
 /// | active | p = active, g ≥ −w; w becomes −g |
 ///
-/// Pressure falls as the gap g grows, as in plasticity with fixed yield stresses: without friction the contact problem of a
-/// step is convex and has one solution. Soil that has followed the wall does not move back: it resists a returning wall
-/// immediately, and pressures increase from cycle to cycle. With an active pressure of zero the soil stands without the
-/// wall because of its cohesion. A gap then opens between wall and soil as under [`Yielding`](super::Yielding), and
-/// closes again at g = −w.
+/// Pressure falls as the gap g grows, as in plasticity with fixed yield stresses: without friction the contact problem
+/// of a step is convex and has one solution. Soil that has followed the wall does not move back: it resists a returning
+/// wall immediately, and pressures increase from cycle to cycle. With an active pressure of zero the soil stands
+/// without the wall because of its cohesion. A gap then opens between wall and soil as under
+/// [`Yielding`](super::Yielding), and closes again at g = −w.
 ///
 /// In the energy balance, `contact` includes p times the movement of the soil. While soil follows a wall, the weight of
 /// the soil does work on the wall, and `contact` decreases by the active pressure times the movement. Over a cycle of

@@ -166,9 +166,9 @@ impl Limits {
 
     /// Condition τ = ±R of a sliding element, in a form that remains finite for infinite friction.
     ///
-    /// `direction`: 1 to the right, −1 to the left. For infinite friction the condition is p + attraction = 0 with any shear
-    /// traction. Without this mode the incremental problem need not have a solution: an element that is about to open under
-    /// shear could neither stick nor open.
+    /// `direction`: 1 to the right, −1 to the left. For infinite friction the condition is p + attraction = 0 with any
+    /// shear traction. Without this mode the incremental problem need not have a solution: an element that is about to
+    /// open under shear could neither stick nor open.
     fn slip_condition(&self, direction: f64) -> Condition {
         let Self { friction, attraction, shear_strength, .. } = *self;
         // Above a coefficient of one, the condition is divided by the coefficient.

@@ -15,6 +15,7 @@ mod limits;
 mod mode;
 mod plane_law;
 mod previous_contact;
+mod shared_law;
 mod thin_layer;
 mod variable_friction;
 mod yielding;
@@ -31,6 +32,7 @@ pub use mode::Mode;
 pub use plane_law::{InPlane, PlaneLaw};
 pub(crate) use previous_contact::state_variable_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
+pub(crate) use shared_law::SharedLaw;
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
@@ -223,9 +225,9 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 pub trait InterfaceLaw: Send {
     /// Limits of the tractions of an element in the step after `start`.
     ///
-    /// This is the only required method. In plan the slip has the direction of the shear traction, and a run uses the limits
-    /// alone: it calls this method once per attempted step. In the plane, modes and conditions follow from the limits, unless
-    /// the law implements their methods.
+    /// This is the only required method. In plan the slip has the direction of the shear traction, and a run uses the
+    /// limits alone: it calls this method once per attempted step. In the plane, modes and conditions follow from the
+    /// limits, unless the law implements their methods.
     ///
     /// # Errors
     /// If the law has no limits for this element, as [`Error::Scene`](crate::Error::Scene) or
@@ -272,8 +274,8 @@ pub trait InterfaceLaw: Send {
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension, and slip per shear traction.
     ///
     /// Zero (the default) for hard contact. The energy balance includes the energy stored in this compliance,
-    /// ½ compliance · traction² at the end of the step. The dissipated energy is only the work on the inelastic gap and slip,
-    /// and the energy that a changing compliance releases.
+    /// ½ compliance · traction² at the end of the step. The dissipated energy is only the work on the inelastic gap and
+    /// slip, and the energy that a changing compliance releases.
     ///
     /// The simulation calls this method for every mode at the static state, and once per step for the mode at the end of
     /// the step. A law without state variables that is hard in every mode at the static state is treated as hard in the
@@ -310,8 +312,8 @@ pub trait InterfaceLaw: Send {
     ///
     /// The resistance of the base is this coefficient times the pressure
     /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). For friction that varies, return the
-    /// smallest coefficient: with a larger one, the base could slide although the factor of safety is above one. Infinite for
-    /// a law that never slides; `None` (the default) for a law without such a coefficient.
+    /// smallest coefficient: with a larger one, the base could slide although the factor of safety is above one.
+    /// Infinite for a law that never slides; `None` (the default) for a law without such a coefficient.
     fn friction_coefficient(&self) -> Option<f64> {
         None
     }

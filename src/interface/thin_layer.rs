@@ -3,14 +3,13 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | t | thickness of the layer: ratio × height of the adjacent element |
-//! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit length; D₂₂ = λ + 2μ, plane strain |
+//! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit area, Pa/m; D₂₂ = λ + 2μ, plane strain |
 //! | g, s, p, τ | gap, slip, pressure, shear traction; ₀ at the start of the step |
 //!
-//! A four-node element of length L and thickness t, integrated at its centre, has the strains ε_yy = g/t and
-//! γ = s/t, with the means of g and s over its two long sides. Its strain ε_xx is of the order of t/L relative to
-//! these strains. Its nodal forces equal the forces of the tractions D₂₂ g/t and μ s/t on L. The layer is therefore
-//! a law for the means of one contact element, without additional degrees of freedom. [PS] is the paper of Patel &
-//! Spyrakos.
+//! A four-node element of length L and thickness t, integrated at its centre, has the strains ε_yy = g/t and γ = s/t,
+//! where g and s are means over its long sides. Its strain ε_xx is smaller by a factor of the order of t/L. Its nodal
+//! forces equal the forces of the tractions D₂₂ g/t and μ s/t on L. The layer is therefore a law between the mean gap, slip
+//! and tractions of one contact element, without additional degrees of freedom. [PS] is the paper of Patel & Spyrakos.
 
 use super::coulomb::check_friction;
 use super::{
@@ -21,7 +20,7 @@ use crate::soil::Soil;
 
 /// Thickness of the layer over the height of the adjacent element [PS, eq. 13].
 const DEFAULT_THICKNESS_RATIO: f64 = 0.1;
-/// Fraction of the stiffness that remains in debonding, so that the stiffness of a debonded layer is not singular.
+/// Fraction of the stiffness that remains in debonding, so that the stiffness matrix of debonded elements is regular.
 const DEFAULT_DEBONDED_RATIO: f64 = 1e-3;
 
 /// Pressure from which a thin layer computes its friction limit.
@@ -82,20 +81,17 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// | slip | p = −k_n g | τ = ± friction · p |
 /// | debonding | p = −r k_n g | τ = r k_s × slip since it opened |
 ///
-/// with r = 0.001, so that an open element still carries a small tension. The shear traction of a step continues from
-/// the end of the previous step, so that inelastic slip remains. A layer of zero thickness is
+/// with r = 0.001 by default, so that an open element still carries a small tension. A layer a hundred times thinner
+/// carries a hundred times more tension while it is open, so r must be reduced with the thickness. The shear traction in
+/// stick continues from the previous step, so that inelastic slip remains. A layer of zero thickness is
 /// [`Coulomb`](super::Coulomb).
 ///
-/// The ratio r refers to the thickness of the layer. A layer a hundred times thinner carries a hundred times
-/// more tension while it is open, so r must be reduced with the thickness.
-///
-/// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed
-/// element vanishes with its pressure, as the friction limit does. An open element with r > 0 carries some
-/// shear until it lands, and then loses it. A few steps in a hundred thousand then have no solution, closed
-/// or open. Such a step returns a [`StepError::Contact`](crate::coupled::StepError::Contact), which states for up to
-/// eight elements that no solution exists. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no
-/// such steps. With the other options a closed element can carry shear up to its opening, or slide against its
-/// traction, and such steps are more frequent.
+/// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed element vanishes
+/// with its pressure, as the friction limit does. An open element with r > 0 carries some shear until it closes, and then
+/// loses it. A few steps may then have no solution, closed or open. Such a step returns a
+/// [`StepError::Contact`](crate::coupled::StepError::Contact), which states for up to eight elements that no solution
+/// exists. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no such steps. With the other
+/// options a closed element can carry shear until it opens, or slide against its traction: such steps are more frequent.
 ///
 /// ```
 /// use basemat::{Soil, interface::ThinLayer};
@@ -143,15 +139,12 @@ validated! {
 }
 
 impl ThinLayer {
-    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements.
-    ///
-    /// `neighbour_height`: height of the adjacent elements, m.
+    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements of height `neighbour_height` (m).
     ///
     /// The friction coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
     /// # Errors
-    /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient
-    /// that is NaN or negative.
+    /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient that is NaN or negative.
     pub fn new(soil: Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
         positive("height of the element beside the thin layer", neighbour_height)?;
         let shear_modulus = soil.shear_modulus();
@@ -167,16 +160,12 @@ impl ThinLayer {
     ///
     /// # Errors
     /// [`Error::Input`] unless both are finite and above zero, and `friction` is not negative.
-    pub fn from_stiffness(
-        normal_stiffness: f64,
-        shear_stiffness: f64,
-        friction: f64,
-    ) -> Result<Self> {
-        positive("normal stiffness of the thin layer", normal_stiffness)?;
-        positive("shear stiffness of the thin layer", shear_stiffness)?;
+    pub fn from_stiffness(k_n: f64, k_s: f64, friction: f64) -> Result<Self> {
+        positive("normal stiffness of the thin layer", k_n)?;
+        positive("shear stiffness of the thin layer", k_s)?;
         check_friction(friction)?;
         Ok(Self {
-            reference_stiffness: [normal_stiffness, shear_stiffness],
+            reference_stiffness: [k_n, k_s],
             thickness_ratio: 1.0,
             friction,
             debonded_ratio: DEFAULT_DEBONDED_RATIO,
@@ -238,7 +227,7 @@ impl ThinLayer {
         self.reference_stiffness.map(|stiffness| stiffness / self.thickness_ratio)
     }
 
-    /// Friction limit of the shear traction, Pa; `None` if it depends on the pressure in the step.
+    /// Friction limit of the shear traction, Pa; `None` if it is infinite or depends on the pressure in the step.
     fn prescribed_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.friction_limit {
             FrictionLimit::Total => return None,
@@ -250,31 +239,28 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// Condition ±τ = limit + ratio · k_s (±Δs) of a sliding element.
+    /// Condition ±τ = limit + `slip_stiffness_ratio` · k_s (±Δs) of a sliding element.
     ///
-    /// `direction`: 1 to the right, −1 to the left. The condition remains finite for infinite friction: it is then
-    /// p = 0 with any shear traction.
+    /// `direction`: 1 to the right, −1 to the left. For infinite friction the condition is p = 0, with any shear traction.
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
-        let slip_resistance = self.slip_stiffness_ratio * self.stiffness()[1];
-        let initial_resistance = slip_resistance * start.state.slip;
+        let slip_stiffness = self.slip_stiffness_ratio * self.stiffness()[1];
+        let traction_offset = slip_stiffness * start.state.slip;
         if let Some(limit) = self.prescribed_limit(start) {
-            let value = direction * limit - initial_resistance;
-            return Condition { shear: 1.0, slip: -slip_resistance, value, ..Condition::default() };
+            let value = direction * limit - traction_offset;
+            return Condition { shear: 1.0, slip: -slip_stiffness, value, ..Condition::default() };
         }
         let scale = 1.0 / self.friction.max(1.0);
-        let pressure = if self.friction > 1.0 { -1.0 } else { -self.friction };
+        let pressure_coefficient = if self.friction > 1.0 { -1.0 } else { -self.friction };
         Condition {
             shear: direction * scale,
-            slip: -direction * scale * slip_resistance,
-            pressure,
-            value: -direction * scale * initial_resistance,
+            slip: -direction * scale * slip_stiffness,
+            pressure: pressure_coefficient,
+            value: -direction * scale * traction_offset,
             ..Condition::default()
         }
     }
 
-    /// Slip (m) or slip velocity (m/s) whose sign is compared with the direction of slip.
-    ///
-    /// [`SlipSense`] defines which.
+    /// Slip (m) or slip velocity (m/s), as [`SlipSense`] defines, whose sign is compared with the direction of slip.
     fn slip_measure(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
         let slip_increment = trial.slip - start.state.slip;
         match self.slip_sense {
@@ -299,8 +285,8 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let ratio = if mode == Mode::Open { self.debonded_ratio } else { 1.0 };
-        let [normal_stiffness, shear_stiffness] = self.stiffness().map(|k| ratio * k);
+        let stiffness_ratio = if mode == Mode::Open { self.debonded_ratio } else { 1.0 };
+        let [normal_stiffness, shear_stiffness] = self.stiffness().map(|k| stiffness_ratio * k);
         let normal_condition = Condition { gap: normal_stiffness, ..Condition::pressure_is(0.0) };
         let tangential_condition = match mode {
             Mode::SlipRight => self.slip_condition(1.0, start),
@@ -332,16 +318,14 @@ impl InterfaceLaw for ThinLayer {
         }
         let prescribed_limit = self.prescribed_limit(start);
         let shear_limit = prescribed_limit.unwrap_or(self.friction * trial.pressure.max(0.0));
-        let sliding_mode = |direction: f64| {
+        let mode_after_sliding = |direction: f64| {
             let slip_tolerance = tolerance.length + traction_tolerance / self.stiffness()[1];
             let has_slip_stiffness = self.slip_stiffness_ratio > 0.0 && self.friction.is_finite();
-            let is_shear_proportional_to_pressure =
-                prescribed_limit.is_none() && !has_slip_stiffness;
+            // The shear is then ± friction · p: its sign is opposite to `direction` only under tension.
+            let is_shear_from_pressure = prescribed_limit.is_none() && !has_slip_stiffness;
             if self.friction == 0.0 {
                 mode
-            } else if is_shear_proportional_to_pressure
-                && direction * trial.shear < -traction_tolerance
-            {
+            } else if is_shear_from_pressure && direction * trial.shear < -traction_tolerance {
                 Mode::Open
             } else if direction * self.slip_measure(start, trial) < -slip_tolerance {
                 Mode::Stick
@@ -350,8 +334,8 @@ impl InterfaceLaw for ThinLayer {
             }
         };
         match mode {
-            Mode::SlipRight => sliding_mode(1.0),
-            Mode::SlipLeft => sliding_mode(-1.0),
+            Mode::SlipRight => mode_after_sliding(1.0),
+            Mode::SlipLeft => mode_after_sliding(-1.0),
             // The shear limit is NaN for infinite friction without pressure.
             _ if self.friction == f64::INFINITY => Mode::Stick,
             _ if trial.shear.abs() <= shear_limit + traction_tolerance => Mode::Stick,
@@ -374,14 +358,14 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// No error: the constructors have checked the numbers, and a debonded layer with stiffness has no limits.
+    /// No error: the constructors have checked the numbers. The default would reject a layer without limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
     /// Limits in plan.
     ///
-    /// Only a layer without traction in debonding has limits, and only if its slip is inelastic without a stiffness in slip.
+    /// Only a layer without traction in debonding has limits, and only with inelastic [`SlipSense`] and zero slip stiffness.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let quantity = "thin layer in plan";
         if self.debonded_ratio > 0.0 {

@@ -83,7 +83,7 @@ pub fn animation(
             out += &floor.draw(time_series, &screen, frames.len(), &duration);
             screen
         }
-        StructureView::AlongX | StructureView::AlongY => {
+        StructureView::AgainstX | StructureView::AlongY => {
             let trench = trench_outline(time_series.elements());
             let mut surface = vec![[frame_points[0][0][0], 0.0]];
             if let Some([left_edge, .., right_edge]) = trench {

@@ -179,7 +179,7 @@ fn draw_elevation(
 ) -> Drawing<()> {
     let x = &elevation.ranges[0];
     let y = &elevation.ranges[1];
-    let horizontal_label = if elevation.view == StructureView::AlongX { "y, m" } else { "x, m" };
+    let horizontal_label = if elevation.view == StructureView::AgainstX { "y, m" } else { "x, m" };
     let vertical_label = ["x, m", "y, m", "z, m"][time_series.up()];
     let x_axis = ChartAxis::linear(x.clone(), horizontal_label);
     let y_axis = ChartAxis::linear(y.clone(), vertical_label);

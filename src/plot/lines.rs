@@ -128,7 +128,7 @@ fn drawn_demand(factor_of_safety: f64) -> f64 {
     }
 }
 
-/// Chart of a probe of one or more runs over time, in the probe's or the engineer's unit.
+/// Chart of a probe of one or more runs over time, in the unit in which tables print it.
 ///
 /// See [`Probe::in_unit`](crate::coupled::Probe::in_unit).
 ///

@@ -11,7 +11,7 @@ pub(super) enum StructureView {
     /// View along y: x to the right, height up.
     AlongY,
     /// View against x: y to the right, height up.
-    AlongX,
+    AgainstX,
     /// Isometric view from the front, the right and above.
     ///
     /// Towards the right, x falls and y rises by 30 degrees, all at one scale.
@@ -21,7 +21,7 @@ pub(super) enum StructureView {
 impl StructureView {
     /// Elevations of a structure whose axis `up` points up: one for each axis of the surface.
     pub(super) fn elevations(up: usize) -> &'static [Self] {
-        &[Self::AlongY, Self::AlongX][..up]
+        &[Self::AlongY, Self::AgainstX][..up]
     }
 
     /// The single view that shows all axes of a structure whose axis `up` points up.
@@ -33,7 +33,7 @@ impl StructureView {
     pub(super) fn project(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
         match self {
             Self::AlongY => [x, up],
-            Self::AlongX => [y, up],
+            Self::AgainstX => [y, up],
             Self::Slanted => [(x + y) * COS_30_DEGREES, up + (y - x) * SIN_30_DEGREES],
         }
     }
@@ -47,7 +47,7 @@ impl StructureView {
     fn nearness(self, [x, up, y]: [f64; 3]) -> f64 {
         match self {
             Self::AlongY => -y,
-            Self::AlongX => x,
+            Self::AgainstX => x,
             Self::Slanted => x - y + up,
         }
     }

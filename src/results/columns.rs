@@ -65,6 +65,7 @@ impl TimeSeries {
                 }),
             );
         }
+        columns.extend(self.joints.columns());
         let mut used_names = columns.clone();
         used_names.extend(EnergyTerm::ALL_TERMS.into_iter().map(|term| term.column(in_plan)));
         used_names
@@ -81,7 +82,12 @@ impl TimeSeries {
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::recorded(self.in_plan()).map(|quantity| self.series(quantity));
         let foundations = self.foundations.lists().iter().map(Vec::as_slice);
+        let joints = self.joints.lists().iter().map(Vec::as_slice);
         let probes = self.probe_values.iter().map(Vec::as_slice);
-        std::iter::once(self.times()).chain(scalars).chain(foundations).chain(probes)
+        std::iter::once(self.times())
+            .chain(scalars)
+            .chain(foundations)
+            .chain(joints)
+            .chain(probes)
     }
 }

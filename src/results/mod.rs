@@ -73,6 +73,7 @@ mod deformed_shape;
 mod floor;
 mod foundation_series;
 mod frames;
+mod joint_series;
 #[cfg(feature = "npz")]
 mod npz;
 mod recorder;
@@ -94,6 +95,7 @@ pub use csv::spectrum_csv;
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
+pub use joint_series::JointQuantity;
 pub use recorder::Recorder;
 pub use rocking::{Rocking, equivalent_damping};
 pub use time_series::TimeSeries;

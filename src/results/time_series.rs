@@ -4,6 +4,7 @@ use std::collections::TryReserveError;
 
 use super::foundation_series::FoundationSeries;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, reserve};
+use super::joint_series::{JointQuantity, JointSeries};
 use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
@@ -42,6 +43,7 @@ pub struct TimeSeries {
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     scalars: Vec<Vec<f64>>,
     pub(super) foundations: FoundationSeries,
+    pub(super) joints: JointSeries,
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     pub(super) probe_values: Vec<Vec<f64>>,
     energy_balances: Vec<EnergyBalance>,
@@ -65,6 +67,8 @@ validated! {
         scalars: Vec<Vec<f64>>,
         #[serde(default)]
         foundations: FoundationSeries,
+        #[serde(default)]
+        joints: JointSeries,
         #[serde(with = "crate::text::forms::lists")]
         probe_values: Vec<Vec<f64>>,
         energy_balances: Vec<EnergyBalance>,
@@ -77,7 +81,8 @@ validated! {
         crate::error::same_length("list of scalars", scalars.len(), quantity_count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), step_count)?;
-        for values in scalars.iter().chain(&probe_values).chain(foundations.lists()) {
+        let lists = scalars.iter().chain(&probe_values).chain(foundations.lists());
+        for values in lists.chain(joints.lists()) {
             crate::error::same_length("time series", values.len(), step_count)?;
         }
         foundations.check(quantity_count)?;
@@ -88,7 +93,7 @@ validated! {
         let sequence = StateSequence::ended(end);
         Ok(Self {
             recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
-            scalars, foundations, probe_values, energy_balances, contact, motion,
+            scalars, foundations, joints, probe_values, energy_balances, contact, motion,
         })
     }
 }
@@ -131,6 +136,7 @@ impl Recorder {
             times: Vec::new(),
             scalars: vec![Vec::new(); quantity_count],
             foundations: FoundationSeries::new(state, quantity_count, self.foundations),
+            joints: JointSeries::new(state),
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: self.contact.map(ContactFrames::new),
@@ -186,8 +192,9 @@ impl TimeSeries {
 
     /// Memory that `steps` more steps would take, bytes.
     fn needed_bytes(&self, steps: usize) -> f64 {
-        let number_count =
-            1 + self.scalars.len() + self.foundations.lists().len() + self.probe_values.len();
+        let joint_count = self.joints.lists().len();
+        let scalar_count = self.scalars.len() + self.foundations.lists().len() + joint_count;
+        let number_count = 1 + scalar_count + self.probe_values.len();
         let step_bytes = number_count * size_of::<f64>() + size_of::<EnergyBalance>();
         let mut bytes = self.kept_steps(self.recorder.every, steps) as f64 * step_bytes as f64;
         if let Some(frames) = &self.contact {
@@ -232,6 +239,7 @@ impl TimeSeries {
     fn try_reserve_steps(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
         let step_count = self.kept_steps(self.recorder.every, steps);
         let scalars = self.scalars.iter_mut().chain(self.foundations.lists_mut());
+        let scalars = scalars.chain(self.joints.lists_mut());
         for list in scalars.chain(&mut self.probe_values).chain([&mut self.times]) {
             reserve(list, step_count)?;
         }
@@ -255,6 +263,7 @@ impl TimeSeries {
             self.energy_balances.push(state.energy_balance);
             state.append_values(None, &mut self.scalars);
             self.foundations.store(state);
+            self.joints.store(state);
             for (values, &value) in self.probe_values.iter_mut().zip(&state.probes) {
                 values.push(value);
             }
@@ -281,6 +290,14 @@ impl TimeSeries {
     /// It is empty in the plane for quantities that exist only in plan.
     pub fn series(&self, quantity: Quantity) -> &[f64] {
         self.scalars.get(quantity as usize).map_or(&[], Vec::as_slice)
+    }
+
+    /// Time series of a quantity of a joint at [`TimeSeries::times`]; joints count from 0, the builder's first.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a joint that does not exist.
+    pub fn joint_series(&self, joint: usize, quantity: JointQuantity) -> Result<&[f64]> {
+        self.joints.find(joint, quantity)
     }
 
     /// Time series of the probe called `name` at [`TimeSeries::times`].
@@ -349,7 +366,8 @@ impl TimeSeries {
     /// Memory that time series and frames use now, bytes.
     pub fn bytes(&self) -> usize {
         let series = self.scalars.iter().chain(self.foundations.lists()).chain(&self.probe_values);
-        let number_count = series.map(Vec::len).sum::<usize>() + self.times.len();
+        let number_count =
+            series.chain(self.joints.lists()).map(Vec::len).sum::<usize>() + self.times.len();
         size_of::<f64>() * number_count
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)

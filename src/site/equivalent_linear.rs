@@ -73,8 +73,8 @@ impl SoilColumn {
     ///
     /// The strain of a layer is the strain in its middle: with the amplitudes A of the upward and B of the downward wave
     /// at the layer's top, du/dz = κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c. Divide layers in which the strain varies. The
-    /// curves are evaluated at a fraction of the largest strain. The calculation is in the frequency domain, s = iω, with the
-    /// [`ComplexModulus`](super::ComplexModulus) of the options, G(1 + 2iξ) by default.
+    /// curves are evaluated at a fraction of the largest strain. The calculation is in the frequency domain, s = iω,
+    /// with the [`ComplexModulus`](super::ComplexModulus) of the options, G(1 + 2iξ) by default.
     ///
     /// The layers of the resulting profile have [`GeneralizedMaxwell::constant_q`] instead, with the same modulus at its
     /// first frequency. The base has this law if its own law cannot be used in the time domain. With this law waves

@@ -96,8 +96,7 @@ impl ComplexModulus {
 
 /// Defaults: a motion of the rock outcrop, and the complex modulus G(1 + 2iξ).
 ///
-/// The effective strain is 0.65 of the largest one. The tolerance is 1e-3, in at most 50 iterations, and the band is 0.1 to
-/// 30 Hz.
+/// The effective strain is 0.65 of the largest one, the tolerance 1e-3 in at most 50 iterations, the band 0.1 to 30 Hz.
 impl Default for EquivalentLinearOptions {
     fn default() -> Self {
         Self {
@@ -128,8 +127,7 @@ impl EquivalentLinearOptions {
             needed,
         )?;
         let iterations = self.most_iterations;
-        let quantity = "largest number of iterations of a site";
-        require(quantity, iterations as f64, iterations > 0, "at least 1")?;
+        require("largest number of iterations", iterations as f64, iterations > 0, "at least 1")?;
         positive("tolerance of strain-compatible properties", self.tolerance)?;
         GeneralizedMaxwell::constant_q(0.0, self.band, self.band[0]).map(drop)
     }

@@ -183,9 +183,9 @@ mod tests {
             assert!(text.contains(part), "{text}");
         }
         let curves = StrainCurves::SeedIdrissMean;
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(curves.iwan(bad, 1.0e4, 0.3, 0.0).is_err());
-            assert!(curves.iwan(1.0e8, bad, 0.3, 0.0).is_err());
+        for invalid_value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(curves.iwan(invalid_value, 1.0e4, 0.3, 0.0).is_err());
+            assert!(curves.iwan(1.0e8, invalid_value, 0.3, 0.0).is_err());
         }
         assert!(curves.iwan(1.0e8, 1.0e4, 0.5, 0.0).is_err());
         assert!(StrainCurves::Table(vec![]).iwan(1.0e8, 1.0e4, 0.3, 0.0).is_err());

@@ -12,6 +12,9 @@ use basemat::{Error, Result, Simulation, Soil};
 
 use basemat_problems::random::Random;
 
+/// Smallest scale of gaps and slips, m: the rounding of smaller displacements is no violation.
+const MIN_LENGTH_SCALE: f64 = 1e-4;
+
 /// A block with a cohesive bond, and its shaking.
 #[derive(Debug, Clone, Copy)]
 struct CohesiveBlock {
@@ -126,7 +129,7 @@ struct RelativeContact {
     shear: f64,
     gap: f64,
     /// Change of slip in the step.
-    advance: f64,
+    slip_increment: f64,
 }
 
 impl RelativeContact {
@@ -135,7 +138,7 @@ impl RelativeContact {
             pressure: end.pressure / scales.traction,
             shear: end.shear / scales.traction,
             gap: end.gap / scales.length,
-            advance: (end.slip - start.slip) / scales.length,
+            slip_increment: (end.slip - start.slip) / scales.length,
         }
     }
 
@@ -145,13 +148,13 @@ impl RelativeContact {
             bond.cohesion / traction_scale + bond.friction * self.pressure.max(0.0);
         let tension_excess = -self.pressure - bond.tension / traction_scale;
         let strength_excess = tension_excess.max(self.shear.abs() - shear_strength);
-        strength_excess.max(self.gap.abs()).max(self.advance.abs())
+        strength_excess.max(self.gap.abs()).max(self.slip_increment.abs())
     }
 
     /// Violation of the conditions of friction where the bond has broken.
     fn friction_violation(&self, friction: f64) -> f64 {
         let open = self.pressure.abs().max(self.shear.abs()).max(-self.gap);
-        let stick = self.advance.abs().max(self.shear.abs() - friction * self.pressure);
+        let stick = self.slip_increment.abs().max(self.shear.abs() - friction * self.pressure);
         let closed = self.gap.abs().max(-self.pressure);
         let slip = self.slip_violation(1.0, friction).min(self.slip_violation(-1.0, friction));
         open.min(closed.max(stick.min(slip)))
@@ -160,7 +163,7 @@ impl RelativeContact {
     /// Violation of the conditions of slip to the right (1) or to the left (−1).
     fn slip_violation(&self, direction: f64, friction: f64) -> f64 {
         let traction_error = (self.shear - direction * friction * self.pressure).abs();
-        traction_error.max(-direction * self.advance)
+        traction_error.max(-direction * self.slip_increment)
     }
 }
 
@@ -174,9 +177,9 @@ struct ShakingResults {
     steps_with_breaking_bonds: usize,
     max_bonds_in_a_step: usize,
     max_trials: usize,
-    /// Largest violation of the law's conditions, of the largest traction so far or the largest opening.
+    /// Largest violation of the law's conditions, relative to the largest traction or displacement so far.
     violation: f64,
-    /// Largest energy that contact returns in a step, of the largest kinetic energy or input so far.
+    /// Largest energy that contact returns in a step, relative to the largest kinetic or input energy so far.
     returned_energy: f64,
 }
 
@@ -228,7 +231,7 @@ impl<'a> StepChecker<'a> {
         let dissipated = state.energy_balance.contact - self.previous.energy_balance.contact;
         let energy = state.energy_balance.kinetic.max(state.energy_balance.input.abs());
         self.largest_energy = self.largest_energy.max(energy);
-        // Below a joule the tractions of the weight show their rounding.
+        // Below one joule, the rounding of the weight's tractions dominates.
         let returned_energy = -dissipated / self.largest_energy.max(1.0);
         results.returned_energy = results.returned_energy.max(returned_energy);
         self.previous = state;
@@ -236,7 +239,7 @@ impl<'a> StepChecker<'a> {
 
     /// Largest violation of the conditions of all elements at the end of a step.
     fn violation(&self, state: &State) -> f64 {
-        let length = self.scales.length.max(1e-4);
+        let length = self.scales.length.max(MIN_LENGTH_SCALE);
         let scales = ContactScales { length, ..self.scales };
         let mut largest = 0.0_f64;
         for (e, is_intact) in self.is_intact.iter().enumerate() {
@@ -269,7 +272,7 @@ fn shake(scene: &CohesiveBlock, steps: usize, results: &mut ShakingResults) {
     }
 }
 
-/// `CONTACT_SCENES=10000 cargo test --release --test fast ordinary_scenes` shakes more of them.
+/// `CONTACT_SCENES=10000 cargo test --release --test fast ordinary_scenes` runs more scenes.
 #[test]
 fn ordinary_scenes_are_solved() {
     let scenes = std::env::var("CONTACT_SCENES").ok().and_then(|text| text.parse().ok());
@@ -286,9 +289,9 @@ fn ordinary_scenes_are_solved() {
     assert!(results.violation < 1e-11 && results.returned_energy < 1e-11, "{results:?}");
 }
 
-/// Scenes that have no end of the search if bonds heal within a step.
+/// Scenes in which the search would not end if bonds could heal within a step.
 ///
-/// An active set that lets them heal returns to bonds that it has broken, and neither Gauss–Seidel nor a path ends.
+/// An active set that heals bonds returns to bonds that it has broken, and neither Gauss–Seidel nor a path converges.
 fn difficult_scenes() -> [CohesiveBlock; 2] {
     [
         CohesiveBlock {

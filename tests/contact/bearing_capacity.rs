@@ -1,6 +1,6 @@
 //! GOAL: bearing capacities follow EN 1997-1, Annex D, and their moment makes a footing rock.
 //! SCENE: drained and undrained soil under strips, rectangles and circles, with inclined and eccentric loads.
-//! REFERENCE: stress characteristics integrated here, tables, a worked example, statics of a pressed part of the base.
+//! REFERENCE: stress characteristics integrated here, tables, a worked example, statics of a pressed edge.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -75,11 +75,13 @@ fn factors_are_those_of_tables() {
     }
 }
 
-/// The spreadsheet's base of 1 m × 6 m under 200 kN and 60 kN and 30 kN across and along, in 0.75 m of soil of 10 kN/m³.
+/// The spreadsheet's base of 1 m × 6 m, 0.75 m deep in soil of 10 kN/m³.
+///
+/// The load is 200 kN down, 60 kN across and 30 kN along the base.
 ///
 /// It prints s_q = 1.07, s_γ = 0.96, i_q = 0.493631, i_γ = 0.328062, i_c = 0.464531 and a pressure of 95 kPa.
 #[test]
-fn inclined_and_eccentric_load_of_a_worked_example() -> Result<()> {
+fn inclined_and_eccentric_loads_follow_a_worked_example() -> Result<()> {
     let load = FootingLoad { vertical: 200.0e3, horizontal: [60.0e3, -30.0e3] };
     let soil = strength(30.0);
     let base = ShallowFooting::rectangle([1.0, 6.0])?
@@ -104,14 +106,14 @@ fn inclined_and_eccentric_load_of_a_worked_example() -> Result<()> {
     let pressures = [deep, turned].map(|base| base.drained_pressure(&soil, 10.0e3).unwrap());
     assert_close("turned", pressures[1], pressures[0], 0.0, 1e-14);
     // A cohesion so small that it adds nothing to V.
-    let little = base.drained_pressure(&soil.with_cohesion(1e-3)?, 0.0)?;
+    let pressure_by_cohesion = base.drained_pressure(&soil.with_cohesion(1e-3)?, 0.0)?;
     let shape = (18.4011 * (1.0 + 0.7 / 5.12 * 0.5) - 1.0) / 17.4011;
-    assert_close("i_c", little / (1e-3 * 30.1396 * shape), 0.464_531, 0.0, 2e-5);
+    assert_close("i_c", pressure_by_cohesion / (1e-3 * 30.1396 * shape), 0.464_531, 0.0, 2e-5);
     Ok(())
 }
 
 #[test]
-fn shapes_and_tilts_of_annex_d() -> Result<()> {
+fn shape_load_and_tilt_factors_follow_annex_d() -> Result<()> {
     // c_u = 50 kPa under 20 kPa of soil: (π + 2) c_u (1, 1.1, 1.2, 1.2) + q.
     let footings = [
         (ShallowFooting::strip(2.0)?, 1.0),
@@ -143,9 +145,9 @@ fn shapes_and_tilts_of_annex_d() -> Result<()> {
     Ok(())
 }
 
-/// 814 kPa in the data base of the test; growth by γ N_q = 1.39 MPa/m for a strip.
+/// The bearing capacity of the test is 814 kPa; the growth with depth is γ N_q = 1.39 MPa/m for a strip.
 #[test]
-fn the_sand_of_a_centrifuge_test() -> Result<()> {
+fn the_bearing_pressure_of_a_centrifuge_test_is_within_ten_percent() -> Result<()> {
     let sand = strength(42.0);
     let unit_weight = SAND_DENSITY * 9.81;
     let footing = ShallowFooting::rectangle(FOOTING_SIDES)?;
@@ -160,7 +162,7 @@ fn the_sand_of_a_centrifuge_test() -> Result<()> {
     Ok(())
 }
 
-/// Moment of the pressure q on the part of a base beyond x, of which the force is `vertical`, by midpoints.
+/// Moment of a uniform `pressure` on the edge of a base whose force is `vertical`, by the midpoint rule.
 fn moment_of_pressed_edge(
     width_at: impl Fn(f64) -> f64,
     half: f64,
@@ -173,11 +175,11 @@ fn moment_of_pressed_edge(
     let mut moment = 0.0;
     for k in 0..count {
         let x = half - (f64::from(k) + 0.5) * step;
-        let part = pressure * width_at(x) * step;
-        // The last slice is pressed in part.
-        let part = part.min(vertical - force);
-        force += part;
-        moment += part * x;
+        let slice_force = pressure * width_at(x) * step;
+        // Only a part of the last slice is pressed.
+        let slice_force = slice_force.min(vertical - force);
+        force += slice_force;
+        moment += slice_force * x;
         if force >= vertical {
             break;
         }

@@ -47,18 +47,21 @@ fn one_element_follows_the_law_of_the_documents() {
             assert!(error < 1e-7, "{case}, {step}: {pressure} {expected} {law:?} {state:?}");
             solution.commit(&mut start).unwrap();
             let end = law.end(&state, expected, penetration - expected / spring);
-            let found = settling_state(&start);
+            let end_state = settling_state(&start);
             let scale = law.reference_settlement + end.level;
-            assert!((found.level - end.level).abs() < 1e-6 * scale, "{case}: {found:?} {end:?}");
-            let difference = (found.threshold - end.threshold).abs();
-            assert!(difference < 1e-7 * capacity, "{case}: {found:?} {end:?}");
+            assert!(
+                (end_state.level - end.level).abs() < 1e-6 * scale,
+                "{case}: {end_state:?} {end:?}"
+            );
+            let difference = (end_state.threshold - end.threshold).abs();
+            assert!(difference < 1e-7 * capacity, "{case}: {end_state:?} {end:?}");
         }
     }
     println!("{yield_count} yield, {open_count} open, {closed_count} closed");
     assert!(yield_count > 1000 && open_count > 1000 && closed_count > 200);
 }
 
-/// Several elements on one soil, without friction, under random motions.
+/// Several elements on one soil, with and without friction, under random motions.
 #[test]
 fn coupled_elements_satisfy_the_law() {
     let mut random = Random(12);
@@ -103,8 +106,9 @@ fn coupled_elements_satisfy_the_law() {
                 assert!(excess < 1e-9 * law.initial_capacity, "{case}, {step}: {contact:?}");
                 // The jump is that of the tractions.
                 let row = &delassus[e * size..][..size];
-                let moved: f64 = row.iter().zip(solution.traction).map(|(w, t)| w * t).sum();
-                let gap = free_jump[e] + moved;
+                let elastic_displacement: f64 =
+                    row.iter().zip(solution.traction).map(|(w, t)| w * t).sum();
+                let gap = free_jump[e] + elastic_displacement;
                 assert!((contact.gap - gap).abs() < 1e-9 * scale.max(gap.abs()), "{case}");
             }
             solution.commit(&mut start).unwrap();

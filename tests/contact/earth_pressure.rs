@@ -8,11 +8,15 @@ use std::ops::Range;
 use basemat::interface::{EarthPressure, InterfaceLaw};
 use basemat::soil::SoilStrength;
 
-use basemat_problems::enumerated_contact::{ELEMENT_COUNT, EnumeratedContact, Ranges};
+use basemat_problems::enumerated_contact::{ContactRanges, ELEMENT_COUNT, EnumeratedContact};
 use basemat_problems::random::Random;
 
 fn random_problem(random: &mut Random) -> EnumeratedContact {
-    let ranges = Ranges { free_jump: [-3.0, 3.0], pressed: [0.3, 1.0], moved: [-0.5, 0.5] };
+    let ranges = ContactRanges {
+        free_jump: [-3.0, 3.0],
+        static_pressure: [0.3, 1.0],
+        recession: [-0.5, 0.5],
+    };
     EnumeratedContact::random(random, ranges, |random| {
         let mut bounds = Vec::new();
         for _ in 0..ELEMENT_COUNT {
@@ -36,7 +40,7 @@ fn the_search_finds_a_solution_of_brute_force() {
         });
         let boxed = laws.map(|law| -> Box<dyn InterfaceLaw> { Box::new(law) });
         let law_modes = laws.each_ref().map(InterfaceLaw::modes);
-        let (modes, has_others) = problem.assert_found(boxed, law_modes);
+        let (modes, has_others) = problem.assert_search_solves(boxed, law_modes);
         found_modes.extend(modes);
         problems_with_others += usize::from(has_others);
     }

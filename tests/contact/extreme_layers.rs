@@ -23,8 +23,8 @@ enum LayerSettings {
     Default,
     /// Layers without stiffness after debonding.
     WithoutDebondedStiffness,
-    /// Layers with any friction limit and sense of slip.
-    AnyFriction,
+    /// Layers with a random friction limit and sense of slip.
+    RandomFriction,
     /// Default layers and hard contact in turn.
     BesideHardContact,
 }
@@ -32,7 +32,7 @@ enum LayerSettings {
 const ALL_SETTINGS: [LayerSettings; 4] = [
     LayerSettings::Default,
     LayerSettings::WithoutDebondedStiffness,
-    LayerSettings::AnyFriction,
+    LayerSettings::RandomFriction,
     LayerSettings::BesideHardContact,
 ];
 
@@ -65,7 +65,7 @@ fn random_scene(settings: LayerSettings, random: &mut Random) -> Result<Simulati
         laws.push(match settings {
             LayerSettings::Default => Box::new(layer),
             LayerSettings::WithoutDebondedStiffness => Box::new(layer.with_debonded_ratio(0.0)?),
-            LayerSettings::AnyFriction => {
+            LayerSettings::RandomFriction => {
                 Box::new(layer.with_friction_limit(limit).with_slip_sense(sense))
             }
             LayerSettings::BesideHardContact if e.is_multiple_of(2) => Box::new(layer),
@@ -75,10 +75,10 @@ fn random_scene(settings: LayerSettings, random: &mut Random) -> Result<Simulati
     let period = time_step * random.log_within(8.0, 40.0);
     let rate = std::f64::consts::TAU / period;
     let amplitude = 9.81 * random.log_within(0.3, 10.0) / (rate * rate);
-    let upwards = random.within(0.0, 1.0);
+    let vertical_ratio = random.within(0.0, 1.0);
     let motion = FreeFieldFn::new(move |_, time| {
         let along = (rate * time).sin() + 0.3 * (2.37 * rate * time).sin();
-        [amplitude * along, amplitude * upwards * (1.37 * rate * time).sin()]
+        [amplitude * along, amplitude * vertical_ratio * (1.37 * rate * time).sin()]
     });
     Simulation::builder(time_step)
         .structure(block)
@@ -92,7 +92,7 @@ fn random_scene(settings: LayerSettings, random: &mut Random) -> Result<Simulati
 #[derive(Debug, Default)]
 struct LayerSceneCounts {
     scenes: usize,
-    refused: usize,
+    refused_scenes: usize,
     steps: usize,
     unsolved_steps: usize,
     /// Unsolved steps that have no solution.
@@ -107,7 +107,7 @@ fn count_scenes(settings: LayerSettings, scenes: usize) -> LayerSceneCounts {
     let mut counts = LayerSceneCounts { scenes, ..LayerSceneCounts::default() };
     for scene in 0..scenes {
         let Ok(mut simulation) = random_scene(settings, &mut random) else {
-            counts.refused += 1;
+            counts.refused_scenes += 1;
             continue;
         };
         for _ in 0..RUN_STEPS {
@@ -141,6 +141,9 @@ fn layers_in_extreme_scenes_fail_only_without_a_solution() {
         // An open layer with stiffness loses its shear traction when it lands.
         let may_fail = settings != LayerSettings::WithoutDebondedStiffness;
         assert_eq!(counts.unsolved_steps > 0, may_fail, "{counts:?}");
-        assert!(counts.refused == 0 && 4 * counts.unsolved_steps < counts.scenes, "{counts:?}");
+        assert!(
+            counts.refused_scenes == 0 && 4 * counts.unsolved_steps < counts.scenes,
+            "{counts:?}"
+        );
     }
 }

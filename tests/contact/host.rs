@@ -1,4 +1,4 @@
-//! GOAL: another program with its time integration solves the contact problem of a step by the crate.
+//! GOAL: another program can solve the contact problem of its time steps with the crate.
 //! SCENE: a mass on a column on a rigid base, on springs with dashpots, sliding and uplifting under El Centro; central
 //! differences by hand.
 //! REFERENCE: the same structure in a `Simulation`, by the midpoint rule; errors by their type.
@@ -194,7 +194,7 @@ fn element_at_rest() -> PreviousContact<'static> {
 }
 
 #[test]
-fn bad_problems_are_refused() {
+fn invalid_problems_are_refused() {
     for size in [0, 1, 3, 5, 9, 15] {
         let result = problem_with_matrix(vec![1.0; size]);
         assert!(matches!(result, Err(Error::Size { .. })), "{size}");
@@ -210,7 +210,7 @@ fn bad_problems_are_refused() {
 }
 
 #[test]
-fn bad_starts_and_steps_are_refused() {
+fn invalid_starts_and_steps_are_refused() {
     let mut problem = unit_problem();
     let start = problem.start(&[element_at_rest()]).unwrap();
     assert!(matches!(problem.solve(&[0.0], &start), Err(Error::Size { .. })));
@@ -248,17 +248,17 @@ fn compliant_problem(law: impl InterfaceLaw + 'static) -> ContactProblem {
     ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)]).unwrap()
 }
 
-/// GOAL: the bond of a host breaks once.
+/// GOAL: a bond in the contact problem of a host breaks once.
 /// SCENE: one element without static pressure.
 /// REFERENCE: numbers by hand.
 #[test]
-fn the_bond_of_a_host_breaks_once() {
+fn a_bond_in_the_problem_of_a_host_breaks_once() {
     let law = BreakingBond { friction: 0.5, strength: 1e4, breaks_by_sliding: true };
     let mut problem = compliant_problem(law);
     let mut start = problem.start(&[element_at_rest()]).unwrap();
     assert_eq!(start.iter().next().unwrap().state_variables, [1e4, 0.0]);
     assert_eq!(start.iter().count(), 1);
-    // Jump without traction; pressure and shear that follow from it; strength afterwards.
+    // Jump without traction, the pressure and shear that follow from it, and the strength afterwards.
     for (jump, [pressure, shear], strength) in [
         // Lifted by 0.5 mm: the bond carries 5 kPa of tension.
         ([5e-4, 0.0], [-5e3, 0.0], 1e4),

@@ -14,8 +14,8 @@ use basemat_problems::wrapped::LawWithNextMode;
 
 /// A block on Coulomb's law, which accepts no mode in steps longer than `limit` (s).
 fn block_with_step_limit(time_step: f64, limit: f64) -> Result<Simulation> {
-    let next = move |mode: Mode, start: &PreviousContact, next: Mode| match mode {
-        _ if start.time_step <= limit => next,
+    let next = move |mode: Mode, start: &PreviousContact, law_mode: Mode| match mode {
+        _ if start.time_step <= limit => law_mode,
         Mode::Open => Mode::Stick,
         _ => Mode::Open,
     };

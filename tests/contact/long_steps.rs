@@ -1,4 +1,4 @@
-//! GOAL: contact that uplifts and never slides, in steps in which waves cross many elements.
+//! GOAL: contact that uplifts and never slides is solved in steps in which waves cross many elements.
 //! SCENE: random buildings on the half-plane, c₁Δt/l from 13 to 60, shaken strongly.
 //! REFERENCE: Signorini's conditions and sticking, evaluated independently.
 //!
@@ -69,11 +69,11 @@ fn random_motion(duration: f64, random: &mut Random) -> FreeFieldFn {
         let phase = time / duration;
         let mut displacement = [0.0; 2];
         for &[middle, right, up] in pulses.iter().filter(|_| phase > 0.0) {
-            let after = phase - middle;
+            let phase_after = phase - middle;
             let shape = if !has_jumps {
-                let s = 12.0 * after;
+                let s = 12.0 * phase_after;
                 (1.0 - 2.0 * s * s) * (-s * s).exp()
-            } else if after >= 0.0 {
+            } else if phase_after >= 0.0 {
                 0.3
             } else {
                 0.0
@@ -126,11 +126,11 @@ impl RunScales {
         let pressure = end.pressure / self.traction;
         let shear = end.shear / self.traction;
         let gap = end.gap / self.length;
-        let advance = (end.slip - start.slip) / self.length;
+        let slip_increment = (end.slip - start.slip) / self.length;
         let open = pressure.abs().max(shear.abs()).max(-gap);
-        let stuck = gap.abs().max(advance.abs()).max(-pressure);
+        let stuck = gap.abs().max(slip_increment.abs()).max(-pressure);
         // About to open, under a shear traction along the slip.
-        let against_slip = shear.abs().min(-advance * shear.signum());
+        let against_slip = shear.abs().min(-slip_increment * shear.signum());
         let opening = gap.abs().max(pressure.abs()).max(against_slip);
         open.min(stuck).min(opening)
     }
@@ -151,11 +151,11 @@ fn largest_violation(states: &[State]) -> f64 {
 #[test]
 fn bases_that_never_slide_are_solved_in_long_steps() {
     let scenes = std::env::var("LONG_STEPS").ok().and_then(|text| text.parse().ok());
-    let more = (0..scenes.unwrap_or(100)).map(|k| (7_000_021 + k, 16));
+    let more_scenes = (0..scenes.unwrap_or(100)).map(|k| (7_000_021 + k, 16));
     let mut failed = Vec::new();
     let mut violation = 0.0_f64;
     let mut path_steps = 0;
-    for (seed, max_elements) in DIFFICULT_SCENES.into_iter().chain(more) {
+    for (seed, max_elements) in DIFFICULT_SCENES.into_iter().chain(more_scenes) {
         let mut simulation = random_scene(seed, max_elements);
         let mut states = vec![simulation.state().clone()];
         for _ in 0..RUN_STEPS {

@@ -1,4 +1,4 @@
-//! GOAL: Coulomb friction whose coefficient is a function of the start of the step.
+//! GOAL: friction follows a coefficient that is a function of the contact at the start of the step.
 //! SCENE: block on the half-plane that slides and uplifts.
 //! REFERENCE: Coulomb's law itself for a constant coefficient; slips, pressures and shears of the
 //! states.

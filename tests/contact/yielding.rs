@@ -15,11 +15,15 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::{DofCombination, RigidBlock};
 use basemat::{Simulation, Soil};
 
-use basemat_problems::enumerated_contact::{ELEMENT_COUNT, EnumeratedContact, Ranges};
+use basemat_problems::enumerated_contact::{ContactRanges, ELEMENT_COUNT, EnumeratedContact};
 use basemat_problems::random::Random;
 
 fn random_problem(random: &mut Random) -> EnumeratedContact {
-    let ranges = Ranges { free_jump: [-3.0, 2.0], pressed: [0.0, 1.0], moved: [0.0, 0.5] };
+    let ranges = ContactRanges {
+        free_jump: [-3.0, 2.0],
+        static_pressure: [0.0, 1.0],
+        recession: [0.0, 0.5],
+    };
     EnumeratedContact::random(random, ranges, |random| {
         vec![[0.0, random.within(0.8, 2.0)]; ELEMENT_COUNT]
     })
@@ -43,7 +47,8 @@ fn the_search_finds_a_solution_of_brute_force() {
         let bearing_pressure = problem.bounds[0][1];
         let law = Yielding::new(bearing_pressure, problem.friction).unwrap();
         let laws = [law; ELEMENT_COUNT].map(|law| -> Box<dyn InterfaceLaw> { Box::new(law) });
-        let (modes, has_others) = problem.assert_found(laws, [&YIELDING_MODES; ELEMENT_COUNT]);
+        let (modes, has_others) =
+            problem.assert_search_solves(laws, [&YIELDING_MODES; ELEMENT_COUNT]);
         found_modes.extend(modes);
         problems_with_others += usize::from(has_others);
     }
@@ -65,7 +70,7 @@ fn on_springs(elements: usize, law: impl InterfaceLaw + 'static) -> SimulationBu
         .interface(law)
 }
 
-/// Moment at which springs that uplift and yield have turned by `rotation`.
+/// Moment at which a base on springs that uplift and yield has turned by `rotation`.
 ///
 /// The pressure is q over a from the edge, then falls to zero over c = q/(kθ), and N = q (a + c/2).
 fn moment_at(rotation: f64, weight: f64) -> f64 {
@@ -126,7 +131,7 @@ fn indentation_dissipates_the_area_of_the_loop() {
     println!("area {area}, contact {}, stored {stored}", energy_balance.contact);
     assert!(run.energy_error < 1e-9);
     assert!((energy_balance.contact + stored - area).abs() < 1e-6 * area, "{energy_balance}");
-    // Most of it is q times the indentation.
+    // The pressure q times the indentation is most of the dissipation.
     let indentation_work: f64 = yielded_depths(&simulation)
         .iter()
         .map(|depth| depth * BEARING_PRESSURE * 2.0 * BASE_HALF_WIDTH / 40.0)

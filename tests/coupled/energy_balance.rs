@@ -17,7 +17,7 @@ use basemat::structure::{
 };
 
 use basemat_problems::scenes::{Rider, SI_UNITS, block, friction, scene, shake, soil, tower};
-use basemat_problems::yielding_springs::yielding_column;
+use basemat_problems::yielding_springs::spring_column;
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
     builder.build().unwrap().run(steps, |_| {}).unwrap()
@@ -56,7 +56,7 @@ fn on_yielding_building(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
 
 /// A column of springs that yield, with the remainder of their work in a step.
 fn on_yielding_column() -> SimulationBuilder {
-    scene(SI_UNITS, 0.6).structure(yielding_column(8)).interface(friction(0.4))
+    scene(SI_UNITS, 0.6).structure(spring_column(8)).interface(friction(0.4))
 }
 
 fn thin_layer() -> ThinLayer {
@@ -164,16 +164,16 @@ fn remainder_of_yielding_springs_is_that_of_their_work() {
             .interface(Bonded)
     };
     let ratio = |time_step: f64, steps: usize| {
-        let run = run(scene(time_step).structure(yielding_column(8)), steps);
+        let run = run(scene(time_step).structure(spring_column(8)), steps);
         let energies = run.energy_balance;
         assert!(run.energy_error < 1e-11, "{time_step}: {:e}", run.energy_error);
         assert!(energies.algorithmic == 0.0 && energies.midstep_remainder > 0.0, "{energies}");
-        let column = yielding_column(8).without_remainder();
+        let column = spring_column(8).without_remainder();
         let other_run = self::run(scene(time_step).structure(column), steps);
         let difference = other_run.energy_balance.algorithmic - energies.midstep_remainder;
         assert_eq!(other_run.energy_balance.midstep_remainder, 0.0);
         assert!(difference.abs() < 1e-9 * energies.largest, "{difference:e}");
-        let mut column = yielding_column(8);
+        let mut column = spring_column(8);
         column.remainder_factor = 1.01;
         let wrong_run = self::run(scene(time_step).structure(column), steps);
         let error = wrong_run.energy_balance.residual() * energies.largest;

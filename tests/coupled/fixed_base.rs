@@ -2,6 +2,8 @@
 //! SCENE: a shear building with dashpots on the half-plane; a flexible base on springs.
 //! REFERENCE: Runge and Kutta's method on the storeys; displacements of the base.
 
+use std::any::Any;
+
 use basemat::Result;
 use basemat::Simulation;
 use basemat::bem::SpringGround;
@@ -145,4 +147,9 @@ fn a_soft_base_is_fixed_at_every_node() {
         let displacement = run.probe(name).unwrap().magnitude();
         assert!(displacement < 1e-4 * top, "{name} moves by {displacement:e} of {top:e}");
     }
+    // The structure is that of the builder, without what fixes the nodes.
+    let structure: &dyn Any = simulation.structure();
+    assert!(structure.is::<SoftBase>());
+    let structure: Box<dyn Any> = simulation.into_structure();
+    assert!(structure.is::<SoftBase>());
 }

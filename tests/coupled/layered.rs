@@ -14,7 +14,7 @@ use basemat::sweep::Sweep;
 use basemat::{Error, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{constant_q, two_stages};
-use basemat_problems::sampled_block::{SampledHistory, distance, sample, under_pulse};
+use basemat_problems::sampled_block::{SampledSeries, distance, sample, under_pulse};
 use basemat_problems::scenes::{SI_UNITS, TIME_STEP, block, friction, scene, soil, states};
 
 /// The soil of the scenes, 3 m of it on rock, with 5 % damping.
@@ -219,7 +219,7 @@ fn layers_are_half_planes_until_waves_return() {
 }
 
 /// Base displacement, rotation and base shear of a square block under a pulse.
-fn pulse_response(profile: impl Into<SoilProfile>) -> SampledHistory {
+fn pulse_response(profile: impl Into<SoilProfile>) -> SampledSeries {
     let ground = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 6).unwrap()).unwrap();
     let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
     sample(&mut under_pulse(block, ground, 0.1), 300, 1).unwrap().0

@@ -41,4 +41,5 @@ mod trench_springs;
 mod unstable_states;
 mod wave_passage;
 mod yielding_column;
+mod yielding_order;
 mod yielding_soil;

@@ -1,4 +1,4 @@
-//! A block with walls in a trench, on independent springs and dashpots at all trench_elements.
+//! A block with walls in a trench, on independent springs and dashpots at all elements of the trench.
 
 use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
 use basemat::bem::{ContactElement, Ground, GroundDescription};
@@ -8,7 +8,7 @@ use basemat::site::TrenchMotion;
 use basemat::structure::{RigidBlock, WithWalls};
 use basemat::{Observer, Result, Soil, unobserved};
 
-/// Independent springs and dashpots at all trench_elements, Pa/m and Pa s/m.
+/// Independent springs and dashpots at all elements of the trench, Pa/m and Pa s/m.
 #[derive(Clone)]
 pub(super) struct TrenchSprings {
     elements: Vec<ContactElement>,

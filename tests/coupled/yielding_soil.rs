@@ -4,10 +4,10 @@
 //! REFERENCE: the identity of the energies, in which force, energies and remainder come from formulas of their own.
 
 use basemat::coupled::{EnergyBalance, State};
-use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, SharedMaterial};
+use basemat::fem::{Direction, DruckerPrager, Iwan, Material, Mesh, SharedMaterial};
 use basemat::interface::Bonded;
 use basemat::results::Run;
-use basemat::structure::FemModel;
+use basemat::structure::{Bilinear, FemModel, WithSprings};
 
 use basemat_problems::scenes::{SI_UNITS, friction, scene};
 
@@ -74,6 +74,39 @@ fn clay() -> Iwan {
 fn sand(dilation_angle: f64) -> DruckerPrager {
     let elastic = Material::new(80e6, 0.3, 1900.0).unwrap();
     DruckerPrager::new(elastic, 20e3, 0.55, dilation_angle).unwrap()
+}
+
+/// A yielding damper between the top and the base of a block of clay that yields.
+///
+/// The balance then checks the remainder of the wrapped block, and the damper has no algorithmic work.
+#[test]
+fn springs_around_clay_close_the_balance() {
+    let damped_block = || {
+        let x = [-2.0, 0.0, 2.0];
+        let mesh = Mesh::quad8_block(&x, &[0.0, 2.0, 4.0], |_, _| clay()).unwrap();
+        let model = FemModel::on_base(mesh).unwrap();
+        let row_at = |y: f64| {
+            let node = model.mesh().node_at(0.0, y).unwrap();
+            model.row(node, Direction::X).unwrap()
+        };
+        let drift = row_at(4.0) - row_at(0.0);
+        let damper = Bilinear::new(5e6, 3e3, 0.0).unwrap();
+        let sprung = WithSprings::new(model).spring(drift, damper).unwrap();
+        let builder = scene(SI_UNITS, 0.6).structure(sprung).gravity(0.0).interface(Bonded);
+        builder.build().unwrap()
+    };
+    let mut simulation = damped_block();
+    let mut balances = Vec::new();
+    let run = simulation.run(320, |state: &State| balances.push(state.energy_balance)).unwrap();
+    println!("{}", run.energy_balance);
+    assert_energies(&run, &balances, true);
+    // Resumed in the middle, to the last bit.
+    let mut first = damped_block();
+    first.run(150, |_| {}).unwrap();
+    let mut second = damped_block();
+    second.resume(&first.checkpoint().unwrap()).unwrap();
+    second.run(170, |_| {}).unwrap();
+    assert_eq!(second.state().energy_balance, simulation.state().energy_balance);
 }
 
 #[test]

@@ -35,17 +35,17 @@ fn block_on_soil(elements: usize, graded: bool) -> SimulationBuilder {
 fn assert_refused_with(words: &[&str], builder: SimulationBuilder) {
     let Err(error) = builder.build() else { panic!("accepted: {words:?}") };
     let message = error.to_string();
-    for words in words {
-        assert!(message.contains(words), "'{words}' is not in '{message}'");
+    for expected in words {
+        assert!(message.contains(expected), "'{expected}' is not in '{message}'");
     }
 }
 
-/// A horizontal load on the block, in weights, at this height, m.
+/// A horizontal load on the block at this height (m), as a ratio of its weight.
 fn push(height: f64, weight_ratio: f64) -> Load {
     Load::constant(block().horizontal_at(height), weight_ratio * BLOCK_WEIGHT)
 }
 
-/// Constant tractions carry a resultant up to the middle of the outermost element.
+/// Constant tractions can balance a resultant up to the middle of the outermost element.
 #[test]
 fn a_resultant_beyond_the_last_middle_is_named_with_its_place() {
     // The middle of the outermost element is at this ratio of half the width.
@@ -139,22 +139,22 @@ struct NumberedFrame {
     springs: Vec<FrameSpring>,
     masses: Vec<f64>,
     /// The number of each degree of freedom.
-    number: Vec<usize>,
+    dof_numbers: Vec<usize>,
 }
 
 impl NumberedFrame {
     fn new(springs: Vec<FrameSpring>, masses: Vec<f64>) -> Self {
-        Self { springs, number: (0..masses.len()).collect(), masses }
+        Self { springs, dof_numbers: (0..masses.len()).collect(), masses }
     }
 
     /// The same frame in a random numbering.
     fn renumbered(&self, random: &mut Random) -> Self {
-        let mut number = self.number.clone();
-        for last in (1..number.len()).rev() {
+        let mut dof_numbers = self.dof_numbers.clone();
+        for last in (1..dof_numbers.len()).rev() {
             let other = random.pick(&(0..=last).collect::<Vec<_>>());
-            number.swap(last, other);
+            dof_numbers.swap(last, other);
         }
-        Self { number, ..self.clone() }
+        Self { dof_numbers, ..self.clone() }
     }
 
     fn scene(&self) -> SimulationBuilder {
@@ -169,11 +169,11 @@ impl Structure for NumberedFrame {
     }
 
     fn base(&self) -> Base {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2].map(|dof| self.number[dof])).into()
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2].map(|dof| self.dof_numbers[dof])).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        for (mass, number) in self.masses.iter().zip(&self.number) {
+        for (mass, number) in self.masses.iter().zip(&self.dof_numbers) {
             matrix.add(*number, *number, *mass);
         }
         Ok(())
@@ -182,7 +182,7 @@ impl Structure for NumberedFrame {
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         for FrameSpring { elongation, stiffness } in &self.springs {
             let row: Vec<_> =
-                elongation.iter().map(|&(dof, weight)| (self.number[dof], weight)).collect();
+                elongation.iter().map(|&(dof, weight)| (self.dof_numbers[dof], weight)).collect();
             matrix.add_outer(&row, *stiffness);
         }
         Ok(())
@@ -191,7 +191,7 @@ impl Structure for NumberedFrame {
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let mut original_dofs: Vec<usize> = dofs
             .iter()
-            .filter_map(|dof| self.number.iter().position(|number| number == dof))
+            .filter_map(|dof| self.dof_numbers.iter().position(|number| number == dof))
             .collect();
         original_dofs.sort_unstable();
         Some(format!("{original_dofs:?}"))

@@ -32,7 +32,7 @@ fn build_with_time_step(time_step: f64) -> Result<()> {
 }
 
 #[test]
-fn builders_refuse_missing_parts_and_bad_numbers() {
+fn builders_refuse_missing_parts_and_invalid_numbers() {
     assert!(complete_scene().build().is_ok());
     assert_refused("time step", &NOT_POSITIVE_FINITE, build_with_time_step);
     for time_step in [1e300, 1e155, 1e-300] {

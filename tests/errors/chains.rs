@@ -1,6 +1,6 @@
 //! GOAL: an error printed alone is complete; printed with its sources it repeats nothing.
 //! SCENE: a sample of every error that contains another one; files that do not exist.
-//! REFERENCE: the text of the error inside.
+//! REFERENCE: the text of the inner error.
 
 use std::error::Error as StandardError;
 
@@ -13,11 +13,11 @@ use basemat::structure::{RigidBlock, Triplets};
 use basemat::sweep::CaseError;
 use basemat::{Error, FileError, FileFault, MemoryError, Simulation};
 
-/// Checks that `error` prints `inside` once, alone and with its sources.
+/// Checks that `error` prints `inner_text` once, both alone and with its sources.
 #[track_caller]
-fn assert_printed_once(error: &dyn StandardError, inside: &str) {
+fn assert_printed_once(error: &dyn StandardError, inner_text: &str) {
     let alone = error.to_string();
-    assert!(alone.contains(inside), "'{inside}' is not in '{alone}'");
+    assert!(alone.contains(inner_text), "'{inner_text}' is not in '{alone}'");
     let mut texts = vec![alone];
     let mut next = error.source();
     while let Some(source) = next {
@@ -25,7 +25,7 @@ fn assert_printed_once(error: &dyn StandardError, inside: &str) {
         next = source.source();
     }
     let chain = texts.join(": ");
-    assert_eq!(chain.matches(inside).count(), 1, "{chain}");
+    assert_eq!(chain.matches(inner_text).count(), 1, "{chain}");
 }
 
 fn inner_error() -> Error {

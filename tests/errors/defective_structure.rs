@@ -20,7 +20,7 @@ pub(crate) struct DefectiveStructure {
     pub(crate) stiffness: MatrixEntry,
     pub(crate) damping: MatrixEntry,
     pub(crate) tangent: Option<MatrixEntry>,
-    /// Whether it replaces its stiffness matrix by a smaller one.
+    /// Whether it replaces the stiffness matrix by a smaller one.
     pub(crate) shrinks_stiffness: bool,
     /// Time from which its load is NaN, s.
     pub(crate) load_fails_at: f64,

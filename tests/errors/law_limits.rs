@@ -18,20 +18,32 @@ type WrongLimit = (&'static str, &'static [f64], fn(f64) -> Limits);
 const NOT_A_COEFFICIENT: &[f64] = &[-1.0, f64::NEG_INFINITY, f64::NAN];
 const NOT_A_STRENGTH: &[f64] = &[-1e3, -1e-9, f64::NAN, f64::INFINITY];
 
-fn valid() -> Limits {
+fn valid_limits() -> Limits {
     Limits { friction: 0.4, ..Limits::default() }
 }
 
 const WRONG_LIMITS: [WrongLimit; 7] = [
-    ("friction coefficient", NOT_A_COEFFICIENT, |friction| Limits { friction, ..valid() }),
-    ("greatest pressure", NOT_A_COEFFICIENT, |pressure_cap| Limits { pressure_cap, ..valid() }),
-    ("attraction", NOT_A_STRENGTH, |attraction| Limits { attraction, ..valid() }),
-    ("shear strength", NOT_A_STRENGTH, |shear_strength| Limits { shear_strength, ..valid() }),
-    ("tensile strength", NOT_A_STRENGTH, |tension| Limits { tension, ..valid() }),
-    ("hardening of the soil", NOT_A_STRENGTH, |hardening| Limits { hardening, ..valid() }),
+    ("friction coefficient", NOT_A_COEFFICIENT, |friction| Limits {
+        friction,
+        ..valid_limits()
+    }),
+    ("greatest pressure", NOT_A_COEFFICIENT, |pressure_cap| Limits {
+        pressure_cap,
+        ..valid_limits()
+    }),
+    ("attraction", NOT_A_STRENGTH, |attraction| Limits { attraction, ..valid_limits() }),
+    ("shear strength", NOT_A_STRENGTH, |shear_strength| Limits {
+        shear_strength,
+        ..valid_limits()
+    }),
+    ("tensile strength", NOT_A_STRENGTH, |tension| Limits { tension, ..valid_limits() }),
+    ("hardening of the soil", NOT_A_STRENGTH, |hardening| Limits {
+        hardening,
+        ..valid_limits()
+    }),
     ("gap of a closed", &[f64::NAN, f64::INFINITY], |gap_offset| Limits {
         gap_offset,
-        ..valid()
+        ..valid_limits()
     }),
 ];
 
@@ -63,7 +75,11 @@ impl InterfaceLaw for LawWithWrongLimits {
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        Ok(if start.slip_rate.abs() >= self.min_slip_rate { self.limits } else { valid() })
+        Ok(if start.slip_rate.abs() >= self.min_slip_rate {
+            self.limits
+        } else {
+            valid_limits()
+        })
     }
 }
 
@@ -71,7 +87,7 @@ impl InterfaceLaw for LawWithWrongLimits {
 const DEFECTIVE_ELEMENT: usize = 2;
 
 fn with_laws(builder: SimulationBuilder, law: LawWithWrongLimits) -> SimulationBuilder {
-    let valid_law = LawWithWrongLimits { limits: valid(), ..law };
+    let valid_law = LawWithWrongLimits { limits: valid_limits(), ..law };
     let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
     for e in 0..4 {
         laws.push(Box::new(if e == DEFECTIVE_ELEMENT { law } else { valid_law }));

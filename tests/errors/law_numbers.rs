@@ -215,7 +215,7 @@ fn numbers_that_are_wrong_from_the_start_are_named_by_build() {
     assert!(matches!(*error.reason, Error::Input { needed: "finite", .. }), "{error}");
 }
 
-/// A bonded law with so many state variables.
+/// A bonded law with this number of state variables.
 struct LawWithStateVariables(usize);
 
 impl PlaneLaw for LawWithStateVariables {

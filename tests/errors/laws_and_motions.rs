@@ -1,4 +1,4 @@
-//! GOAL: interface laws, time schemes and ground motions refuse bad numbers.
+//! GOAL: interface laws, time schemes, footings and ground motions refuse bad numbers.
 //! SCENE: zero, negative and non-finite parameters.
 //! REFERENCE: the fields of the error.
 
@@ -11,7 +11,7 @@ use basemat::soil::{BearingFactors, FootingLoad, ShallowFooting, SoilStrength};
 use super::{NEGATIVE_OR_NOT_FINITE, NOT_FINITE, NOT_POSITIVE_FINITE, assert_refused, error_with};
 
 #[test]
-fn laws_and_schemes_refuse_bad_numbers() {
+fn laws_and_schemes_refuse_invalid_numbers() {
     assert_refused("friction", &[-0.1, f64::NAN, f64::NEG_INFINITY], Coulomb::new);
     let law = Coulomb::uplift_only();
     assert_refused("tensile strength", &NEGATIVE_OR_NOT_FINITE, |x| law.with_tensile_strength(x));
@@ -38,7 +38,7 @@ fn laws_and_schemes_refuse_bad_numbers() {
 }
 
 #[test]
-fn footings_refuse_bad_numbers() {
+fn footings_refuse_invalid_numbers() {
     assert_refused("side of a footing along x", &NOT_POSITIVE_FINITE, |x| {
         ShallowFooting::rectangle([x, 1.0])
     });
@@ -95,7 +95,7 @@ fn footings_refuse_bad_numbers() {
 }
 
 #[test]
-fn motions_refuse_bad_numbers() {
+fn motions_refuse_invalid_numbers() {
     assert_refused("time step of the record", &NOT_POSITIVE_FINITE, |x| {
         Record::new(x, vec![0.0; 3])
     });

@@ -130,7 +130,7 @@ fn kernels_are_validated() {
     assert!(ElasticGround::new(p1(gmb(5), gmb(1)), []).is_err());
 }
 
-/// Coefficients of a kernel in lists of these lengths.
+/// Requests coefficients of a kernel in lists of these lengths.
 fn coefficients(class: usize, first_lag: usize, lengths: [usize; 3]) -> Result<()> {
     let kernel = two_stages(p1(gmb(5), gmb(1)), &strip()).weights(0.5)?;
     let mut lists = lengths.map(|length| vec![0.0; length]);
@@ -185,10 +185,10 @@ fn long_work_reports_its_progress_and_can_be_stopped() {
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
 }
 
-/// A number of lags that no run has, and that no memory holds.
+/// A number of lags whose weights exceed the memory of any machine.
 const HUGE_LAG_COUNT: usize = 1 << 31;
 
-/// Checks that so many lags are refused for their memory.
+/// Checks that [`HUGE_LAG_COUNT`] lags are refused for their memory.
 #[track_caller]
 fn assert_too_many_lags(result: Result<()>) {
     let Err(Error::Memory(error)) = result else { panic!("{result:?}") };
@@ -211,7 +211,7 @@ fn weights_that_need_too_much_memory_are_refused_beforehand() {
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
 }
 
-/// Layered ground whose history may use so many bytes.
+/// Layered ground whose history may use at most `memory` bytes.
 fn ground_with_memory(memory: usize) -> ElasticGround {
     let ground = ElasticGround::new(layered(3.0), strip()).unwrap().with_stages(Stages::Two);
     ground.with_history(HistoryOptions { memory, ..HistoryOptions::default() }).unwrap()
@@ -244,7 +244,7 @@ fn histories_that_need_too_much_memory_are_refused_beforehand() {
 fn strong_contrasts_are_resolved() {
     let stiff = Soil::new(1e10, 0.2, 2400.0).unwrap();
     let soft = Soil::new(1e6, 0.4999, 1500.0).unwrap();
-    // Shear waves are five thousand times as fast as in the soft soil.
+    // Shear waves are four thousand times as fast as in the soft soil.
     let rigid = Soil::new(2.5e13, 0.2, 2400.0).unwrap();
     for (top, base) in [(stiff, soft), (soft, stiff), (rigid, soft), (soft, rigid)] {
         for thickness in [0.1, 1.0, 1e3] {

@@ -1,4 +1,4 @@
-//! GOAL: impossible parts of a user are named, and unusual ones accepted.
+//! GOAL: an error names an impossible part of a user; unusual parts are accepted.
 //! SCENE: a base of many nodes; a stored energy that is not finite; grounds that are not passive.
 //! REFERENCE: the same body on two nodes; the wrong number; the limit of passivity.
 
@@ -13,7 +13,7 @@ use super::{NOT_FINITE, error_with};
 use basemat_problems::block_on_springs::bed;
 use basemat_problems::own_force;
 
-/// A rigid body on so many nodes.
+/// A rigid body on this number of nodes.
 struct BodyOnManyNodes(usize);
 
 impl Structure for BodyOnManyNodes {

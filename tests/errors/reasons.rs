@@ -1,7 +1,7 @@
 //! GOAL: a structure's error of a matrix, a load, a force or a tangent is reported, with nothing committed; a nonlinear
 //! force with only one of its two accessors is refused.
-//! SCENE: a block on springs that refuses one part from a time or a displacement on.
-//! REFERENCE: the reason itself; the state before the step.
+//! SCENE: a structure on springs that returns an error for one part, from a time or a displacement on.
+//! REFERENCE: the structure's error; the state before the step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -134,11 +134,11 @@ fn matrices_and_the_static_load_are_refused_with_the_structures_error() {
         RefusedPart::Force,
         RefusedPart::Tangent,
     ] {
-        let [alone, member, with_springs] = [(); 3].map(|()| RefusingStructure::new(part, 0.0));
+        let [alone, member, sprung] = [(); 3].map(|()| RefusingStructure::new(part, 0.0));
         assert_eq!(build(alone).unwrap_err(), refusal(), "{part:?}");
         let group = StructureGroup::new().with(member, 0.0).unwrap();
         assert_eq!(build(group).unwrap_err(), refusal(), "{part:?}");
-        let with_springs = WithSprings::new(with_springs);
+        let with_springs = WithSprings::new(sprung);
         assert_eq!(build(with_springs).unwrap_err(), refusal(), "{part:?}");
     }
     let damping = ModalDamping::new(&[0.05]).unwrap();
@@ -153,7 +153,7 @@ fn matrices_and_the_static_load_are_refused_with_the_structures_error() {
 }
 
 #[test]
-fn a_step_that_the_structure_refuses_commits_nothing() {
+fn a_step_refused_by_the_structure_commits_nothing() {
     for (part, threshold, quantity) in [
         (RefusedPart::Load, 0.0205, "load of the structure"),
         (RefusedPart::Force, 1e-4, "nonlinear force of the structure"),

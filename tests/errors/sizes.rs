@@ -1,5 +1,5 @@
 //! GOAL: sizes that are too large are refused before memory is allocated, by an error that names what they would need.
-//! SCENE: blocks, strips, boundaries, records, sweeps, structures and matrices far too large; huge hints of steps.
+//! SCENE: blocks, strips, boundaries, records, sweeps and matrices far too large; huge expected numbers of steps.
 //! REFERENCE: the smallest size of their matrices and lists, counted by hand; the peak memory of the process.
 
 use basemat::bem::full_plane::Boundary;
@@ -18,7 +18,7 @@ fn peak_memory() -> Option<f64> {
     Some(1024.0 * line.split_whitespace().nth(1)?.parse::<f64>().ok()?)
 }
 
-/// Checks that this number is refused for its memory, of at least so many bytes.
+/// Checks that this number is refused for its memory of at least `min_bytes`.
 #[track_caller]
 fn assert_too_large<T>(result: Result<T>, quantity: &str, number: f64, min_bytes: f64) {
     let Err(Error::Memory(error)) = result.map(drop) else {
@@ -30,7 +30,7 @@ fn assert_too_large<T>(result: Result<T>, quantity: &str, number: f64, min_bytes
     assert!(error.to_string().contains("GB of memory, but at most 8.6 GB are allowed"), "{error}");
 }
 
-/// Checks that the peak memory has grown by less than so many bytes.
+/// Checks that the peak memory has grown by less than `limit` bytes.
 #[track_caller]
 fn assert_memory_growth(previous_peak: Option<f64>, limit: f64) {
     if let (Some(before), Some(after)) = (previous_peak, peak_memory()) {
@@ -38,12 +38,12 @@ fn assert_memory_growth(previous_peak: Option<f64>, limit: f64) {
     }
 }
 
-/// A layer of so many rows.
+/// A layer of `rows` rows.
 fn concrete_layer(rows: usize) -> [Layer; 1] {
     [Layer::new(1.0, rows, Material::new(30e9, 0.2, 2400.0).unwrap())]
 }
 
-/// Checks that a block is refused: an element has four nodes of eight bytes, at least.
+/// Checks that a block is refused: an element stores at least four node numbers of eight bytes.
 #[track_caller]
 fn assert_block_is_too_large(result: Result<Mesh>, columns: f64, rows: f64) {
     let quantity = "columns times rows of the block";

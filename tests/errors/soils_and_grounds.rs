@@ -1,6 +1,6 @@
 //! GOAL: soils, strips, grounds and their kernels refuse bad numbers and huge counts.
 //! SCENE: zero, negative and non-finite parameters; grounds that were not prepared.
-//! REFERENCE: the fields of the error; nothing is allocated for a huge count.
+//! REFERENCE: the fields of the error.
 
 use basemat::bem::{
     ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, SpringGround,
@@ -18,7 +18,7 @@ use super::{
 use basemat_problems::block_on_springs::bed;
 
 #[test]
-fn soils_refuse_bad_numbers() {
+fn soils_refuse_invalid_numbers() {
     assert_refused("shear modulus", &NOT_POSITIVE_FINITE, |x| Soil::new(x, 0.3, 1.0));
     assert_refused("density", &NOT_POSITIVE_FINITE, |x| Soil::new(1.0, 0.3, x));
     let out_of_range = [-1.0, 0.5, 0.7, -3.0, f64::NAN, f64::INFINITY];
@@ -35,7 +35,7 @@ fn soils_refuse_bad_numbers() {
 }
 
 #[test]
-fn strips_and_grounds_refuse_bad_numbers() {
+fn strips_and_grounds_refuse_invalid_numbers() {
     assert_refused("left end", &NOT_FINITE, |x| Strip::uniform(x..1.0, 2));
     assert_refused("right end", &NOT_FINITE, |x| Strip::new(0.0..x, 2, Grading::Cosine));
     assert_refused("length of the strip", &[0.0, -1.0], |x| Strip::uniform(0.0..x, 2));
@@ -73,14 +73,14 @@ fn strips_and_grounds_refuse_bad_numbers() {
 }
 
 #[test]
-fn an_unprepared_half_plane_says_so() {
+fn errors_of_an_unprepared_half_plane_name_prepare() {
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     error_with("prepare", ground.step_compliance(&mut [0.0; 4]));
     error_with("prepare", ground.history(&mut [0.0; 2]));
 }
 
 #[test]
-fn an_unprepared_spring_bed_says_so() {
+fn errors_of_an_unprepared_spring_bed_name_prepare() {
     let mut bed = SpringGround::new(0.0..1.0, 1, 1e6, 1e6).unwrap();
     error_with("prepare", bed.step_compliance(&mut [0.0; 4]));
     error_with("prepare", bed.history(&mut [0.0; 2]));
@@ -112,7 +112,7 @@ fn huge_counts_do_not_panic() {
 }
 
 #[test]
-fn kernels_refuse_bad_numbers() {
+fn kernels_refuse_invalid_numbers() {
     assert_refused("time step", &NOT_POSITIVE_FINITE, |x| InfluenceKernel::new(soil(), x));
     let kernel = InfluenceKernel::new(soil(), 1e-3).unwrap();
     let unit = ContactElement::new(0.0, 1.0);

@@ -81,7 +81,7 @@ fn with_nodes(nodes: Vec<BaseNode>) -> SimulationBuilder {
 }
 
 #[test]
-fn structures_with_a_bad_base_are_refused() {
+fn structures_with_an_invalid_base_are_refused() {
     let error = build_error("contact nodes", with_nodes(vec![BaseNode::free(0.0, 0, 1)]));
     assert!(matches!(error, Error::Size { found: 1, needed: 2, .. }));
     let unknown_dof = vec![BaseNode::free(-2.0, 0, 1), BaseNode::free(2.0, 0, 9)];

@@ -71,7 +71,7 @@ fn largest_displacement(ground: &mut FullPlaneGround, steps: usize) -> f64 {
     largest(ground.displacement())
 }
 
-/// GOAL: the time step of the paper is refused, with the growth that a march of this ground shows.
+/// GOAL: β = 1/2, the step of the paper, is refused with the growth of a march of this ground.
 #[test]
 fn growth_is_refused_and_is_that_of_the_march() {
     // β = 1/2.
@@ -87,14 +87,14 @@ fn growth_is_refused_and_is_that_of_the_march() {
     let assessed = allowed.assess(0.25, 1e-4).unwrap().map(|state| state.growth_per_step);
     assert_eq!(assessed[0].max(assessed[1]), growth_per_step);
     // The base is free of traction: the growth of the uplifted state.
-    let mut second = ground().allow_growth();
-    second.prepare(0.25, None, &mut unobserved).unwrap();
+    let mut longer = ground().allow_growth();
+    longer.prepare(0.25, None, &mut unobserved).unwrap();
     let early = largest_displacement(&mut allowed, 400);
-    let late = largest_displacement(&mut second, 800);
+    let late = largest_displacement(&mut longer, 800);
     assert_close("growth", ((late / early).ln() / 400.0).exp_m1(), assessed[0], 0.0, 0.02);
 }
 
-/// GOAL: a bounded time step marches, and convolution quadrature is bounded at the time step for
+/// GOAL: a bounded time step is accepted, and convolution quadrature is bounded at the time step for
 /// which the time kernel is refused on the same mesh.
 #[test]
 fn bounded_grounds_are_prepared_and_decay() {
@@ -132,7 +132,7 @@ fn a_simulation_is_refused_unless_allowed() {
 
 /// GOAL: an assessment is computed once, and not at all when growth is allowed.
 #[test]
-fn coefficients_are_asked_for_once() {
+fn coefficients_are_requested_once() {
     let calls = Arc::new(AtomicUsize::new(0));
     let mut ground = counting_ground(&calls);
     let first = requests_of_preparation(&calls, &mut ground, 1.0);
@@ -153,7 +153,7 @@ fn coefficients_are_asked_for_once() {
 
 /// GOAL: growth below the smallest growth of interest counts as bounded.
 #[test]
-fn the_smallest_growth_is_chosen() {
+fn growth_below_the_smallest_of_interest_is_bounded() {
     let assessed = ground().assess(0.25, 0.25).unwrap();
     assert!(assessed[0].is_bounded() && assessed[1].is_bounded());
     for growth in [0.0, 1.0, f64::NAN] {

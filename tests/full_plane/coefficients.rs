@@ -56,9 +56,9 @@ fn coefficients_match_forty_digits() {
     assert_eq!(count, 70);
 }
 
-/// GOAL: the paper's sub-elements tend to the exact integrals, slowly where a front is inside.
+/// GOAL: the paper's sub-elements converge to the exact integrals, slowly where a front is inside.
 #[test]
-fn subelements_tend_to_the_exact_integrals() {
+fn subelements_converge_to_the_exact_integrals() {
     let pair = [
         Segment { from: [-0.5, 0.0], to: [0.5, 0.0] },
         Segment { from: [2.5, 0.0], to: [3.5, 0.0] },
@@ -89,9 +89,9 @@ fn subelements_tend_to_the_exact_integrals() {
     }
 }
 
-/// GOAL: rigid translations: Σ H over lags and a closed polygon is 1 outside and 0 inside.
+/// GOAL: in rigid translations of a closed polygon Σ H over all lags is 1 outside and 0 inside.
 #[test]
-fn rigid_motion_of_closed_polygons() {
+fn sums_over_closed_polygons_are_one_outside_and_zero_inside() {
     for (outside, x_row_sum) in [(true, 1.0), (false, 0.0)] {
         let kernel = TimeKernel::new(soil(0.3), &circle(9, outside), 0.7).unwrap();
         let mut sums = [0.0; 18];
@@ -109,9 +109,9 @@ fn rigid_motion_of_closed_polygons() {
     }
 }
 
-/// GOAL: causality: two elements do not act on each other before the pressure wave arrives.
+/// GOAL: two elements do not act on each other before the pressure wave arrives.
 #[test]
-fn nothing_moves_before_the_pressure_wave() {
+fn coefficients_are_zero_before_the_pressure_wave() {
     let distant_pair = [
         Segment { from: [-0.5, 0.0], to: [0.5, 0.0] },
         Segment { from: [4.0, 3.0], to: [5.0, 3.5] },

@@ -26,11 +26,11 @@ fn coefficients(kernel: &dyn BoundaryKernel, lag: usize) -> [Vec<f64>; 2] {
     [g, h]
 }
 
-/// The transformed kernel at one ζ; complex numbers as real and imaginary part.
+/// The transformed kernel at one ζ; complex numbers as real and imaginary parts.
 struct SymbolValues {
     /// G and H.
     matrices: [Vec<[f64; 2]>; 2],
-    /// Laplace variable s that belongs to ζ.
+    /// Laplace variable s of ζ.
     laplace: [f64; 2],
 }
 
@@ -57,7 +57,7 @@ fn index_of_component(component: &str, count: usize) -> usize {
 }
 
 /// GOAL: element integrals of the transformed kernels. TABLE: mpmath, laplace_element.py.
-/// With BDF1 and a unit step, ζ = 1 − s reaches any s.
+/// With BDF1 and a unit step, s = 1 − ζ, so that any s is possible.
 #[test]
 fn laplace_integrals_agree_with_the_table() {
     let table = table("laplace_element.csv");
@@ -212,7 +212,7 @@ fn late_coefficients_agree_with_the_time_domain() {
 
 /// GOAL: the coefficients continue smoothly from contour integral to closed form.
 #[test]
-fn contour_and_closed_form_meet() {
+fn contour_integral_and_closed_form_agree_where_they_meet() {
     for method in [CqMethod::Bdf1, CqMethod::Bdf2] {
         let kernel = ConvolutionQuadrature::new(unit_soil(), &flat(6), 0.5, method).unwrap();
         let seam = kernel.contour_lags();
@@ -232,7 +232,7 @@ fn contour_and_closed_form_meet() {
 /// Vertical displacement of one element at time `end` under the traction t⁴ on another.
 ///
 /// Integration by parts leaves the ramp response against f″ = 12t²; the composite midpoint rule
-/// serves, as the integrand is smooth but for its fronts.
+/// is sufficient, as the integrand is smooth but for its fronts.
 fn response_to_quartic_load(segments: &[Segment], row: usize, column: usize, end: f64) -> f64 {
     let plane = FullPlane::new(unit_soil());
     let segment = segments[column];
@@ -266,7 +266,7 @@ fn quadrature_of_quartic_load(segments: &[Segment], method: CqMethod, steps: u32
         .sum()
 }
 
-/// GOAL: Σ ω f(mΔt) tends to the convolution at order 1 and 2, for a pair of elements and the
+/// GOAL: Σ ω f(mΔt) converges to the convolution with order 1 and 2, for a pair of elements and the
 /// smooth traction t⁴.
 #[test]
 fn convolution_converges_at_the_order_of_the_method() {
@@ -290,7 +290,7 @@ fn entry_of_five(matrix: &[f64], pair: [usize; 2], i: usize, j: usize) -> f64 {
 
 /// GOAL: on a flat surface the coupling blocks of G are zero, and equal distances give equal entries.
 #[test]
-fn flat_boundaries_have_zero_blocks_and_toeplitz_ones() {
+fn flat_boundaries_have_zero_and_toeplitz_blocks() {
     let kernel = ConvolutionQuadrature::new(unit_soil(), &flat(5), 0.5, CqMethod::Bdf2).unwrap();
     for lag in [0, 3, 50, 5000] {
         let [g, h] = coefficients(&kernel, lag);
@@ -319,9 +319,9 @@ fn bdf2_quadrature(segments: &[Segment], step: f64) -> Result<ConvolutionQuadrat
     ConvolutionQuadrature::new(unit_soil(), segments, step, CqMethod::Bdf2)
 }
 
-/// GOAL: bad input gives typed errors, never a panic or a hang.
+/// GOAL: invalid input gives typed errors, without a panic or an endless loop.
 #[test]
-fn bad_input_is_an_error() {
+fn invalid_input_is_an_error() {
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
         assert!(matches!(bdf2_quadrature(&flat(2), step), Err(Error::Input { .. })), "{step}");
     }

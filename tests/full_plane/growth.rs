@@ -74,7 +74,7 @@ impl GrowthCase {
         let mut random = random::Random(11);
         let start: Vec<f64> = (0..2 * count).map(|_| random.within(-1.0, 1.0)).collect();
         march.step(&start).unwrap();
-        // Means over eighths smooth the beat of complex modes.
+        // Means over eighths average the beat of complex modes.
         let eighth = steps / 8;
         mean_log_size(&mut march, is_bonded, 3 * eighth);
         let middle = mean_log_size(&mut march, is_bonded, eighth);
@@ -99,7 +99,7 @@ fn mean_log_size(march: &mut BoundaryMarch, is_bonded: bool, steps: usize) -> f6
 /// Columns β of the module's first table.
 const TABLE_BETAS: [f64; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 5.0];
 
-/// Checks a growth to 1.5 %, as several modes grow alike; `None` stands for bounded.
+/// Checks a growth to 1.5 %, as several modes have nearly the same growth; `None` means bounded.
 #[track_caller]
 fn check_growth(name: &str, computed: &Stability, expected: Option<f64>) {
     println!("{name}: {computed:?}");
@@ -130,7 +130,7 @@ fn check_row(
 
 /// GOAL: the module's first table, time kernel.
 #[test]
-fn time_kernel_grows_for_short_steps() {
+fn the_time_kernel_grows_with_short_steps() {
     check_row(
         TIME_KERNEL,
         [Some(1.02e-2), Some(2.86e-2), Some(6.78e-2), Some(9.95e-2), None, None],
@@ -150,9 +150,9 @@ fn bdf2_is_bounded_from_one_half() {
     );
 }
 
-/// GOAL: the module's first table, BDF1: bounded for every step of it, and slightly active.
+/// GOAL: the module's first table, BDF1: bounded at all its steps, and slightly active.
 #[test]
-fn bdf1_is_bounded() {
+fn bdf1_is_bounded_at_all_steps() {
     check_row(
         BDF1,
         [None; 6],
@@ -161,7 +161,7 @@ fn bdf1_is_bounded() {
     );
 }
 
-/// GOAL: the module's second table: which steps grow does not follow from β alone.
+/// GOAL: the module's second table: whether a step leads to growth depends on β and ν.
 /// SCENE: ten elements and five free ones on either side, time kernel.
 #[test]
 fn growth_depends_on_poissons_ratio() {
@@ -187,7 +187,7 @@ fn growth_depends_on_poissons_ratio() {
     }
 }
 
-/// GOAL: a longer free surface grows where a shorter one does not.
+/// GOAL: marches on a longer free surface grow where those on a shorter one do not.
 #[test]
 fn long_surfaces_grow_where_short_ones_do_not() {
     for (method, beta) in [(BDF2, 0.1), (TIME_KERNEL, 0.5)] {

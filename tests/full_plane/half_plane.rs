@@ -1,4 +1,4 @@
-//! GOAL: the flat full-plane boundary is the half-plane, but for its truncated surface.
+//! GOAL: the flat full-plane boundary agrees with the half-plane, but for its truncated surface.
 //! SCENE: rigid strips and blocks with free elements on either side.
 //! REFERENCE: impedances by a spectral method, and runs on the half-plane.
 
@@ -21,12 +21,12 @@ fn bdf2_mesh(free: usize) -> FullPlaneMesh {
     FullPlaneMesh { elements: 8, free, beta: 1.15, quadrature: Some(CqMethod::Bdf2) }
 }
 
-/// GOAL: the flat boundary is the half-plane, but for its truncated surface.
+/// GOAL: impedances on the flat boundary are those of the half-plane, but for its truncated surface.
 /// SCENE: bonded massless rigid strip of 8 elements, β = 1.15.
 /// REFERENCE: impedances by a spectral method. The coupling, a small number that comes from H and the
-/// free surface alone, is poor for every time step and hardly better with twice the elements.
+/// free surface alone, has a large error at every time step, hardly less with twice the elements.
 #[test]
-fn impedances_of_the_bonded_strip() {
+fn impedances_of_a_bonded_strip_are_those_of_the_half_plane() {
     for (free, limits) in
         [(5, [4.2e-2, 4.6e-2, 1.5e-1, 5.2e-1]), (10, [4.2e-2, 4.6e-2, 1.5e-1, 4.2e-1])]
     {
@@ -35,12 +35,12 @@ fn impedances_of_the_bonded_strip() {
     }
 }
 
-/// GOAL: the error of the truncated free surface. The direct impedances have the mesh's error with or without free
-/// elements; the coupling, which comes from the free surface and from H alone, tends to the half-plane's with the root
-/// of the surface's length. SCENE: as before by convolution quadrature (BDF2), which is bounded with any of these
-/// surfaces. REFERENCE: impedances by a spectral method.
+/// GOAL: the error of the truncated free surface. The direct impedances have the error of the mesh with or without free
+/// elements; the coupling, which comes from the free surface and from H alone, converges to that of the half-plane with
+/// about the root of the surface's length. SCENE: as before by convolution quadrature (BDF2), which is bounded with any
+/// of these surfaces. REFERENCE: impedances by a spectral method.
 #[test]
-fn coupling_settles_with_the_length_of_the_free_surface() {
+fn the_coupling_converges_with_the_length_of_the_free_surface() {
     let ground = bdf2_mesh(20).ground(soil(1.0 / 3.0));
     let time_step = bdf2_mesh(0).time_step(soil(1.0 / 3.0));
     assert!(ground.assess(time_step, 1e-4).unwrap().iter().all(Stability::is_bounded));
@@ -59,10 +59,10 @@ fn coupling_settles_with_the_length_of_the_free_surface() {
     assert_close("order", (errors[2][3] / errors[3][3]).log2() / 2.0, 0.4, 0.1, 0.0);
 }
 
-/// GOAL: both grounds tend to the same response in a coupled run.
+/// GOAL: coupled runs on both grounds converge to the same response.
 /// SCENE: bonded rigid block under a Ricker pulse, 5 free elements on either side, β = 1.
 #[test]
-fn rigid_block_on_both_grounds() {
+fn a_rigid_block_moves_alike_on_both_grounds() {
     for (count, free, limits) in [(8, 5, [6.2e-2, 7.6e-2, 3e-2]), (16, 5, [2.2e-2, 3.8e-2, 3.2e-2])]
     {
         let errors = block_errors(time_kernel_mesh(count, free, 1.0));
@@ -73,7 +73,7 @@ fn rigid_block_on_both_grounds() {
 /// GOAL: contact with friction converges with an operator that is not symmetric.
 /// SCENE: a block that rocks and slides, 5 free elements on either side, β = 2.
 #[test]
-fn rocking_and_sliding_on_both_grounds() {
+fn a_block_rocks_and_slides_alike_on_both_grounds() {
     let [(full_slip, full_uplift), (half_slip, half_uplift)] = rocking(8, 5, 2.0);
     println!("uplift {full_uplift} {half_uplift}");
     println!("slip {:?} {:?}", full_slip.last(), half_slip.last());
@@ -85,8 +85,8 @@ fn rocking_and_sliding_on_both_grounds() {
 
 /// Differences of a static compliance of four elements that need no datum.
 ///
-/// Under a load on the left element: z and x displacements between the two on the right, then how
-/// z and x move each other.
+/// Under a load on the left element: differences of the z and of the x displacements of two others,
+/// then the coupling of x and z.
 fn relative_compliances(matrix: &[f64; 64]) -> [f64; 4] {
     [
         matrix[2 * 8] - matrix[3 * 8],
@@ -97,10 +97,10 @@ fn relative_compliances(matrix: &[f64; 64]) -> [f64; 4] {
 }
 
 /// GOAL: the static limit of the boundary equation is the half-plane's.
-/// SCENE: a surface of which the last element dips by a millionth, so that it counts as not flat.
+/// SCENE: a surface whose last element is inclined by a millionth, so that it is not treated as flat.
 /// REFERENCE: the half-plane's static compliance; between two elements, as there is no datum.
 #[test]
-fn static_compliance_tends_to_the_half_planes() {
+fn the_static_compliance_is_that_of_the_half_plane() {
     let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
     let mut half_plane = ElasticGround::new(soil(0.3), strip).unwrap();
     half_plane.prepare(0.1, None, &mut unobserved).unwrap();

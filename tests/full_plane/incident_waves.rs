@@ -66,7 +66,7 @@ fn norm(values: &[f64]) -> f64 {
     values.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// GOAL: displacement and stress of the incident field belong together, in sign and size.
+/// GOAL: displacement and stress of the incident field are consistent, in sign and size.
 /// SCENE: a box of soil, its boundary moved and loaded as by S and P waves.
 /// REFERENCE: the boundary equation; its residual.
 #[test]
@@ -114,7 +114,7 @@ pub(crate) fn waves() -> VerticalWaves {
 
 /// Mean displacement of the contact by scattering, down and along, and the largest incident one.
 struct ContactMotion {
-    /// Down, then along.
+    /// Downwards, then along.
     scattered: [f64; 2],
     largest_incident: f64,
 }
@@ -141,10 +141,10 @@ fn contact_motion(boundary: Boundary, time_step: f64, steps: usize) -> Vec<Conta
         .collect()
 }
 
-/// GOAL: a flat ground scatters nothing, a canyon does, and its response converges with the mesh.
+/// GOAL: a canyon scatters waves, a flat ground does not; the scattered motion converges with the mesh.
 /// SCENE: canyon 4 wide and 1 deep beside a strip without structure, SV Ricker pulse, β = 0.75.
 #[test]
-fn canyons_scatter_incident_waves() {
+fn canyons_scatter_incident_waves_and_flat_grounds_do_not() {
     let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
     let flat = contact_motion(Boundary::flat(&[strip], 3).unwrap(), 0.25, 80);
     assert!(flat.iter().all(|motion| motion.scattered == [0.0; 2]));
@@ -165,11 +165,11 @@ fn canyons_scatter_incident_waves() {
     assert_within("canyon", &["down", "along"], &errors, &[0.29, 0.19]);
 }
 
-/// GOAL: incident and scattered field together are the motion of the new surface, in sign and size.
+/// GOAL: the sum of incident and scattered field is the motion of the new surface, in sign and size.
 /// SCENE: the soil excavated down to 0.5 over a width of 24, until waves arrive from the ends.
 /// REFERENCE: a free surface at depth d moves by twice the wave from below: s(t − t₀ + d/c₂).
 #[test]
-fn excavated_half_plane_moves_as_its_own_surface() {
+fn an_excavated_half_plane_moves_as_its_new_surface() {
     let pulse = RickerDisplacement::new(1.0, 0.5, 2.0).unwrap();
     let nodes: Vec<[f64; 2]> = (0..97).map(|k| [0.25 * f64::from(k) - 12.0, 0.5]).collect();
     let segments: Vec<Segment> =

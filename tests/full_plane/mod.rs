@@ -1,5 +1,5 @@
-//! GOAL: full-plane boundary elements: coefficients, stability, cavities, incident waves, and the
-//! ground against the half-plane.
+//! GOAL: full-plane boundary elements: coefficients, stability, cavities, incident waves, and
+//! agreement with the half-plane.
 //! SCENE: circles, trenches and flat surfaces in a soil of unit modulus and density.
 //! REFERENCE: quadrature, closed forms and half-plane kernels.
 
@@ -50,7 +50,7 @@ fn coefficients(kernel: &TimeKernel, lag: usize) -> LagMatrices {
     LagMatrices { g, h }
 }
 
-/// Polygon around a hole of area π, the soil outside (or inside).
+/// Polygon of area π, with the soil outside or inside.
 fn circle(count: usize, outside: bool) -> Vec<Segment> {
     let angle = 2.0 * PI / count as f64;
     let radius = (PI / (0.5 * count as f64 * angle.sin())).sqrt();

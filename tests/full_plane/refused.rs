@@ -1,4 +1,4 @@
-//! GOAL: input that makes no sense, and two motions at once, are refused.
+//! GOAL: invalid input, and two motions at once, are refused.
 //! SCENE: empty, degenerate and non-finite boundaries; an incident field beside a motion of the scene.
 //! REFERENCE: the typed error.
 
@@ -25,7 +25,7 @@ fn two_motions_are_refused() {
     ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);
     assert!(out.iter().all(|x| x.is_nan()));
     assert!(matches!(ground.history(&mut out), Err(Error::Scene { .. })));
-    // A simulation passes the reason on.
+    // The error of a simulation has the reason.
     let ground = FullPlaneGround::new(soil(0.25), canyon(0.5)).with_incident_field(waves());
     let elements = ground.elements().to_vec();
     let width = elements[elements.len() - 1].right() - elements[0].left();
@@ -51,9 +51,9 @@ fn unit_kernel() -> Box<TimeKernel> {
     Box::new(TimeKernel::new(soil(0.25), &[unit_element(0.0)], 0.5).unwrap())
 }
 
-/// GOAL: boundaries, marches and grounds refuse input that makes no sense.
+/// GOAL: boundaries, marches and grounds refuse invalid input.
 #[test]
-fn bad_input_is_refused() {
+fn invalid_input_is_refused() {
     let soil = soil(0.25);
     let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));

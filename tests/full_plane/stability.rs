@@ -1,4 +1,4 @@
-//! GOAL: growth and passivity of the full-plane boundary equations are found correctly.
+//! GOAL: growth and passivity of the full-plane boundary equations are computed correctly.
 //! SCENE: twenty unit elements, both kernels, over β = c₁Δt/l; a kernel with known zeros.
 //! REFERENCE: marches, a quadrature in space and time, and exact figures.
 
@@ -155,7 +155,7 @@ fn marched_growth(kernel: &dyn BoundaryKernel, prescribed_displacement: bool, st
         log_sizes.push(largest(&next).ln());
         dofs.push(next);
     }
-    // Means over sixths smooth the beat of complex modes.
+    // Means over sixths average the beat of complex modes.
     let window = steps / 6;
     let end = log_sizes.len();
     let late = mean(&log_sizes[end - window..]);
@@ -196,7 +196,7 @@ fn time_kernel_agrees_with_quadrature() {
     }
 }
 
-/// GOAL: the argument principle finds the growth of a march (20 elements, ν = 1/3).
+/// GOAL: the growth by the argument principle is that of a march (20 elements, ν = 1/3).
 #[test]
 fn growth_is_that_of_the_march() {
     for (beta, conditions, steps) in [(0.5, FREE_SURFACE, 400), (0.5, BONDED_SURFACE, 800)] {
@@ -208,7 +208,7 @@ fn growth_is_that_of_the_march() {
     let kernel = bdf2_kernel(0.25);
     let assessed = Stability::assess(&kernel, &FREE_SURFACE, 1e-3).unwrap();
     let marched = marched_growth(&kernel, false, 1200);
-    // Two pairs of modes grow nearly alike: after 1200 steps the slower pair still contributes.
+    // Two pairs of modes have nearly the same growth: after 1200 steps the slower pair still contributes.
     assert_close("growth of BDF2 at 0.25", assessed.growth_per_step, marched, 0.0, 0.1);
     assert!(assessed.growth_per_step > 0.98 * marched);
     // A kernel assessed as bounded stays bounded.
@@ -219,7 +219,7 @@ fn growth_is_that_of_the_march() {
 
 /// GOAL: the smallest eigenvalue shows that BDF2 at β = ½ is slightly active, the time kernel strongly.
 #[test]
-fn passivity_tells_active_operators() {
+fn active_operators_have_a_negative_passivity() {
     let eigenvalue = boundary_passivity(&bdf2_kernel(0.5))[0];
     assert!((-1e-2..-1e-5).contains(&eigenvalue), "{eigenvalue:e}");
     let eigenvalue = boundary_passivity(&time_kernel(0.5))[0];
@@ -259,7 +259,7 @@ impl BoundaryKernel for OneElementKernel {
     }
 }
 
-/// GOAL: exact figures: growth a − 1, modes; passivity of a spring (0) and of its negative.
+/// GOAL: exact figures: growth a − 1, number of modes, passivity of a spring (0) and of its negative.
 #[test]
 fn figures_of_a_kernel_with_known_zeros() {
     let free = [BoundaryCondition::TractionFree];
@@ -276,7 +276,7 @@ fn figures_of_a_kernel_with_known_zeros() {
     let kernel = OneElementKernel::new([0.5, 1.0005], 1.0);
     assert!(Stability::assess(&kernel, &free, 1e-3).unwrap().is_bounded());
     assert!(!Stability::assess(&kernel, &free, 1e-4).unwrap().is_bounded());
-    // u = 2t at once: (1−ζ)·2 has the real part 2(1 − cos θ), from 0 to 4.
+    // u = 2t without memory: (1−ζ)·2 has the real part 2(1 − cos θ), from 0 to 4.
     let spring = OneElementKernel::new([0.0, 0.0], 1.0);
     assert!(Stability::assess(&spring, &fixed, 1e-3).unwrap().is_bounded());
     let eigenvalue = boundary_passivity(&spring)[0];
@@ -306,15 +306,15 @@ impl BoundaryKernel for AlternatingKernel {
 
 /// GOAL: the assessment refuses coefficients that are not smooth.
 #[test]
-fn rough_coefficients_are_an_error() {
+fn coefficients_that_are_not_smooth_are_an_error() {
     let free = [BoundaryCondition::TractionFree];
     let assessed = Stability::assess(&AlternatingKernel(flat(1)), &free, 1e-3);
     assert!(matches!(assessed, Err(Error::Part { .. })), "{assessed:?}");
 }
 
-/// GOAL: bad input gives typed errors.
+/// GOAL: invalid input gives typed errors.
 #[test]
-fn bad_input_is_an_error() {
+fn invalid_input_is_an_error() {
     let kernel = OneElementKernel::new([0.0; 2], 1.0);
     let free = [BoundaryCondition::TractionFree];
     for growth in [0.0, -1.0, f64::NAN, f64::INFINITY, 1.0, 1e-9] {

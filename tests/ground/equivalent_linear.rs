@@ -126,7 +126,7 @@ pub(super) fn motion(peak: f64) -> Record {
     record.scaled_to_peak(peak * STANDARD_GRAVITY).unwrap()
 }
 
-/// A name and numbers, as `equivalent_linear.py` reads them.
+/// Name and parameters of curves, in the form that `equivalent_linear.py` reads.
 fn curve_fields(curves: &StrainCurves) -> String {
     match curves {
         StrainCurves::Linear { damping } => format!("linear,{damping}"),
@@ -187,7 +187,7 @@ fn curves_are_those_of_another_program() {
             }
         }
     }
-    // Half way between two plasticity indices of the publication.
+    // Between two plasticity indices of the publication, values are interpolated linearly.
     let values = [50.0, 75.0, 100.0]
         .map(|plasticity_index| StrainCurves::VuceticDobry { plasticity_index }.at(2e-4).unwrap());
     for k in 0..2 {
@@ -195,7 +195,7 @@ fn curves_are_those_of_another_program() {
     }
 }
 
-/// What is compared of a site under a motion.
+/// Compared results of a site under a motion.
 struct SiteResponse {
     /// Site and peak acceleration, as the reference table names them.
     case: String,
@@ -240,7 +240,7 @@ impl SiteResponse {
     }
 }
 
-/// The numbers, each after a comma.
+/// Text of the numbers, each after a comma.
 fn comma_list(values: &[f64]) -> String {
     values.iter().fold(String::new(), |text, x| text + "," + &x.to_string())
 }

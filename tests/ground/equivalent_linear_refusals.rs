@@ -1,4 +1,4 @@
-//! GOAL: the equivalent-linear analysis warns of strained assumptions and refuses bad sites by name.
+//! GOAL: the equivalent-linear analysis warns where its assumptions do not hold, and refuses bad sites by name.
 //! SCENE: strong shaking of clay; curves, options and motions out of range.
 //! REFERENCE: the warning or the typed error, with layer, quantity, value and need.
 
@@ -26,9 +26,9 @@ fn assert_warns(computed: &EquivalentLinear, kind: fn(&SiteWarning) -> bool) {
     assert!(computed.warnings.iter().any(kind), "{computed}");
 }
 
-/// GOAL: strains beyond the curves, too few iterations, large strains and long ringing are told.
+/// GOAL: strains beyond the curves, too few iterations, large strains and long ringing cause warnings.
 #[test]
-fn strained_assumptions_are_told() {
+fn assumptions_that_do_not_hold_cause_warnings() {
     let curves = LayeredSite::named("clay").curves();
     let narrow = vec![StrainCurves::Table(vec![[1e-6, 1.0, 0.01], [1e-4, 0.8, 0.05]]); 10];
     assert_warns(&strongly_shaken_clay(&narrow, 50), |warning| {
@@ -80,7 +80,7 @@ fn single_sample() -> Record {
 
 /// GOAL: curves out of range are errors of their layer.
 #[test]
-fn bad_curves_are_told_by_layer() {
+fn invalid_curves_are_refused_by_layer() {
     let nan = f64::NAN;
     for bad_curves in [
         StrainCurves::Linear { damping: 1.0 },
@@ -117,7 +117,7 @@ fn bad_curves_are_told_by_layer() {
 
 /// GOAL: options out of range are named.
 #[test]
-fn bad_options_are_told_by_name() {
+fn invalid_options_are_refused_by_name() {
     let default = EquivalentLinearOptions::default();
     let curves = [StrainCurves::SeedIdrissMean, StrainCurves::SeedIdrissMean];
     for (options, name) in [
@@ -135,22 +135,22 @@ fn bad_options_are_told_by_name() {
     }
 }
 
-/// GOAL: sites without an answer are refused by layer, quantity, value and need.
+/// GOAL: sites without a solution are refused by layer, quantity, value and need.
 #[test]
-fn bad_sites_are_told_by_layer_quantity_value_and_need() {
+fn invalid_sites_are_refused_by_layer_quantity_value_and_need() {
     let column = two_layer_column();
-    let quiet = single_sample();
+    let pulse = single_sample();
     let good = StrainCurves::SeedIdrissMean;
     let curves = [good.clone(), good.clone()];
-    let error = analysed(&column, &quiet, &curves[..1]).unwrap_err();
+    let error = analysed(&column, &pulse, &curves[..1]).unwrap_err();
     let quantity = "list of strain curves, one for each layer,";
     assert_eq!(error, Error::Size { quantity, found: 1, needed: 2 });
     let pressure = SoilColumn::new(two_layers(), VerticalWave::Pressure).unwrap();
-    let error = analysed(&pressure, &quiet, &curves).unwrap_err();
+    let error = analysed(&pressure, &pulse, &curves).unwrap_err();
     assert!(matches!(error, Error::Scene { quantity: "soil column", .. }), "{error}");
     // An undamped layer keeps the waves that a rigid base reflects.
     let undamped = [good.clone(), StrainCurves::Linear { damping: 0.0 }];
-    let error = analysed(&column, &quiet, &undamped).unwrap_err();
+    let error = analysed(&column, &pulse, &undamped).unwrap_err();
     assert!(is_input_of(&error, "layer 2", "damping ratio at small strain", 0.0), "{error}");
     // With this damping a modulus of given magnitude has no positive real part.
     let options = EquivalentLinearOptions {
@@ -160,12 +160,12 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     let compatible = "strain-compatible damping ratio";
     let strongly_damped = [good.clone(), StrainCurves::Linear { damping: 0.6 }];
     let error = column
-        .equivalent_linear(&quiet, &strongly_damped, &options, &mut unobserved)
+        .equivalent_linear(&pulse, &strongly_damped, &options, &mut unobserved)
         .unwrap_err();
     assert!(is_input_of(&error, "layer 2", compatible, 0.6), "{error}");
     // No body has this damping.
     let overdamped = [StrainCurves::Linear { damping: 0.99 }, good];
-    let error = analysed(&column, &quiet, &overdamped).unwrap_err();
+    let error = analysed(&column, &pulse, &overdamped).unwrap_err();
     assert!(is_input_of(&error, "layer 1", compatible, 0.99), "{error}");
     // Motions whose strains leave the range of numbers.
     let large = analysed(&column, &alternating_motion(1e100), &curves);
@@ -175,6 +175,6 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
 }
 
 /// Three samples of alternating sign.
-fn alternating_motion(size: f64) -> Record {
-    Record::new(1.0, vec![size, -size, size]).unwrap()
+fn alternating_motion(amplitude: f64) -> Record {
+    Record::new(1.0, vec![amplitude, -amplitude, amplitude]).unwrap()
 }

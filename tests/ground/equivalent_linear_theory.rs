@@ -21,13 +21,13 @@ pub(super) fn uniform_profile(damping: f64) -> SoilProfile {
     profile.with_damping(Hysteretic::new(damping).unwrap())
 }
 
-/// GOAL: strains of a long harmonic, well after its beginning.
+/// GOAL: the largest strains and accelerations of a long harmonic motion follow from theory.
 /// REFERENCE: one layer over a rigid base has u = cos kz/cos kH; the strain over the base's acceleration is
 /// k sin kz/(ω² cos kH) with k = ω/c complex.
 #[test]
 fn strains_of_a_harmonic_are_those_of_theory() {
     check_strains_of_harmonics(ComplexModulus::RealPart, 0.08, Complex::new(1.0, 0.16).sqrt());
-    // The modulus G e^(2i asin ξ) of magnitude G: c turns by asin ξ.
+    // The modulus is G e^(2i asin ξ), of magnitude G: the phase of c is asin ξ.
     let sine = 0.2_f64;
     let cosine = (1.0 - 0.04_f64).sqrt();
     check_strains_of_harmonics(ComplexModulus::Magnitude, sine, Complex::new(cosine, sine));
@@ -82,7 +82,7 @@ fn check_strains_of_harmonics(complex_modulus: ComplexModulus, damping: f64, roo
     }
 }
 
-/// Samples of the plain Fourier sum, a power of two far beyond the record's 512.
+/// Number of samples of the plain Fourier sum, a power of two far above the 512 of the record.
 const FOURIER_LENGTH: usize = 16_384;
 
 /// e^(2πi k/n) for n samples of the Fourier sum.
@@ -100,7 +100,7 @@ fn small_pulse(t: f64) -> f64 {
 /// GOAL: at small strain the properties are the initial ones of the curves, and the surface moves as in the linear column.
 /// REFERENCE: each frequency of the record by its transfer function, summed without a fast transform.
 #[test]
-fn small_motions_pass_a_linear_column() {
+fn small_motions_respond_as_in_the_linear_column() {
     let curves = vec![StrainCurves::Epri { depth: 4.0 }; 4];
     let damping = curves[0].at(0.0).unwrap()[1];
     let column = SoilColumn::new(uniform_profile(0.5), VerticalWave::Shear).unwrap();
@@ -171,7 +171,7 @@ fn profiles_are_ready_for_a_ground() {
         assert!(!is_first || (reduction / compatible.modulus_ratio - 1.0).abs() < 1e-3);
         assert!(damping > 0.0);
     }
-    // Through the causal laws of the profile the surface moves nearly the same.
+    // With the causal laws of the profile, the surface motion is nearly the same.
     let causal = SoilColumn::new(computed.profile.clone(), VerticalWave::Shear).unwrap();
     let surface = causal
         .to_surface(

@@ -1,4 +1,4 @@
-//! GOAL: displacements and tractions of the full plane are right to their last digits and belong together.
+//! GOAL: displacements and tractions of the full plane are right to their last digits and consistent.
 //! SCENE: line loads over elapsed times from before the first wave to statics.
 //! REFERENCE: tables of another program, finite differences, Kelvin's solution, differential equations.
 
@@ -7,12 +7,12 @@ use std::f64::consts::PI;
 use basemat::Soil;
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
 
-use super::kernels::{close, rows};
+use super::kernels::{assert_near, rows};
 use basemat_problems::dense::largest;
 
 /// GOAL: displacements and tractions of the full plane agree with another program.
 #[test]
-fn full_plane_test_vectors() {
+fn full_plane_agrees_with_another_program() {
     for row in rows(include_str!("../data/es_fullplane_testvectors.csv")) {
         let ground = Soil::from_wave_speeds(row[2], row[1], row[0]).unwrap();
         let plane = FullPlane::new(ground);
@@ -28,7 +28,7 @@ fn full_plane_test_vectors() {
             let tolerance = 1e-10 * largest(expected) + 1e-14;
             for (i, expected) in expected.iter().enumerate() {
                 let name = format!("{column} {i} {row:?}");
-                close(computed[i / 2][i % 2], *expected, tolerance, &name);
+                assert_near(computed[i / 2][i % 2], *expected, tolerance, &name);
             }
         }
     }
@@ -52,7 +52,7 @@ fn displacement_gradient(
 /// GOAL: tractions of the full plane are those of its displacements, and tend to Kelvin's solution.
 /// REFERENCE: Hooke's law by finite differences.
 #[test]
-fn full_plane_is_consistent() {
+fn full_plane_tractions_follow_from_displacements() {
     let ground = Soil::new(2.0, 0.3, 1.5).unwrap();
     let plane = FullPlane::new(ground);
     let x = [0.7, -0.4];
@@ -63,7 +63,7 @@ fn full_plane_is_consistent() {
         for time in [0.3, 0.5, 0.9, 30.0] {
             let gradient = displacement_gradient(&plane, x, time, load);
             let t = plane.traction(x, n, time, load).unwrap();
-            let size = t.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+            let scale = t.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
             for j in 0..2 {
                 for i in 0..2 {
                     let mut expected = lambda * (gradient[0][0][j] + gradient[1][1][j]) * n[i];
@@ -71,7 +71,7 @@ fn full_plane_is_consistent() {
                         expected += mu * (gradient[k][i][j] + gradient[i][k][j]) * n[k];
                     }
                     let name = format!("{load:?} {time} {i} {j}");
-                    close(t[i][j], expected, 2e-8 * size.max(0.1), &name);
+                    assert_near(t[i][j], expected, 2e-8 * scale.max(0.1), &name);
                 }
             }
         }
@@ -79,10 +79,10 @@ fn full_plane_is_consistent() {
     // Kelvin: χ → −1/(8πμ(1−ν)), so u_xz → e_x e_z/(8πμ(1−ν)), to rounding at very late times.
     let late = plane.displacement(x, 1e9, LoadHistory::Step).unwrap();
     let kelvin = -0.28 / 0.65 / (8.0 * PI * mu * 0.7);
-    close(late[0][1], kelvin, 1e-16, "Kelvin");
+    assert_near(late[0][1], kelvin, 1e-16, "Kelvin");
     let first = plane.traction(x, n, 1e7, LoadHistory::Step).unwrap();
     let second = plane.traction(x, n, 1e9, LoadHistory::Step).unwrap();
-    close(first[0][1], second[0][1], 1e-13, "late traction");
+    assert_near(first[0][1], second[0][1], 1e-13, "late traction");
 }
 
 /// GOAL: Navier's equation and reciprocity, u_ij(x) = u_ji(−x).
@@ -94,7 +94,7 @@ fn full_plane_obeys_navier_and_reciprocity() {
         let h = 1e-4;
         for (x, time) in [([0.7, -0.4], 0.55), ([0.7, -0.4], 1.4), ([-0.2, 0.9], 2.5)] {
             let inertia = plane.displacement(x, time, LoadHistory::Impulse).unwrap();
-            let size = inertia.iter().flatten().fold(0.1_f64, |m, v| m.max(v.abs()));
+            let scale = inertia.iter().flatten().fold(0.1_f64, |m, v| m.max(v.abs()));
             // Tractions on planes to the right, to the left, below and above.
             let tractions = [
                 ([h, 0.0], [1.0, 0.0]),
@@ -112,7 +112,7 @@ fn full_plane_obeys_navier_and_reciprocity() {
                         - tractions[3][i][j];
                     let divergence = sum / (2.0 * h);
                     let name = format!("Navier {nu} {x:?} {time} {i} {j}");
-                    close(divergence, density * inertia[i][j], 1e-5 * density * size, &name);
+                    assert_near(divergence, density * inertia[i][j], 1e-5 * density * scale, &name);
                 }
             }
             for load in [LoadHistory::Impulse, LoadHistory::Step, LoadHistory::Ramp] {

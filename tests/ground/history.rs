@@ -90,7 +90,7 @@ fn direct_history_is_the_plain_sum() {
 }
 
 /// GOAL: the memory grows beyond the reserved steps.
-/// SCENE: at least 64 lags are stored: 150 steps grow twice, and reach the series for late times.
+/// SCENE: at least 64 lags are stored; in 150 steps the memory grows twice, and lags reach the series for late times.
 #[test]
 fn memory_grows_beyond_what_was_reserved() {
     let strips = [Strip::uniform(-1.0..1.0, 3).unwrap(), Strip::uniform(2.0..3.0, 1).unwrap()];
@@ -117,9 +117,9 @@ fn history_of_random_run(expected_steps: Option<usize>) -> Vec<f64> {
     history
 }
 
-/// GOAL: growth of the memory changes no bit: the same sums in the same order.
+/// GOAL: growth of the memory changes no bit, since the same sums are made in the same order.
 #[test]
-fn ground_does_not_depend_on_the_hint() {
+fn history_does_not_depend_on_the_expected_steps() {
     let expected = history_of_random_run(Some(200));
     assert!(expected.iter().all(|x| x.is_finite()));
     assert_eq!(history_of_random_run(None), expected);

@@ -16,7 +16,9 @@ use basemat_problems::heavy;
 use basemat_problems::passivity::PassivityScene;
 use basemat_problems::random::Random;
 
-/// A strip of length 2 with soil of unit modulus and density, β = c₁Δt over the mean element.
+/// Weights of elements over a length of 2 on soil of unit modulus and density.
+///
+/// `beta` is c₁Δt over the mean element length.
 fn kernel(poisson: f64, beta: f64, elements: Vec<ContactElement>) -> Arc<dyn ConvolutionWeights> {
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let length = 2.0 / elements.len() as f64;
@@ -149,7 +151,7 @@ fn pair_coefficients(kernel: &dyn ConvolutionWeights, pair: usize, lag: usize) -
     [pair.scale * weights[0][0], pair.scale * weights[1][0]]
 }
 
-/// GOAL: the response to a pulse is the coefficients themselves, lag by lag, up to the horizon.
+/// GOAL: the response to a unit traction of one step is the list of coefficients, lag by lag, up to the horizon.
 #[test]
 fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it() {
     let kernel = kernel(1.0 / 3.0, 0.5, strip(2, Grading::Uniform));
@@ -207,7 +209,7 @@ fn random_tractions_never_extract_energy() {
                     history: HistoryMethod::Exponentials,
                     tolerance,
                 };
-                let work = scene.least_work();
+                let work = scene.min_work_ratio();
                 let growth = scene.growth_of_tractions();
                 assert!(work >= 0.0, "{scene:?}: {work:e}");
                 assert!(growth < 2.0, "{scene:?}: {growth}");
@@ -256,7 +258,7 @@ fn unit_ground(strip: Strip) -> ElasticGround {
 
 /// GOAL: tolerances, time steps and memory out of range give typed errors.
 #[test]
-fn bad_input_is_an_error() {
+fn invalid_input_is_an_error() {
     let kernel = kernel(0.3, 0.5, strip(2, Grading::Uniform));
     for tolerance in [0.0, -1.0, 1e-13, 0.1, f64::NAN, f64::INFINITY] {
         let refused = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();
@@ -265,7 +267,7 @@ fn bad_input_is_an_error() {
     let uniform = Strip::uniform(-1.0..1.0, 2).unwrap();
     let no_tolerance = HistoryOptions { tolerance: Some(f64::NAN), ..HistoryOptions::default() };
     assert!(unit_ground(uniform.clone()).with_history(no_tolerance).is_err());
-    // Windows of more than a million steps are refused; Auto takes the transforms instead.
+    // Windows of more than a million steps are refused; `Auto` uses transforms instead.
     let mut ground = unit_ground(uniform).with_history(HistoryMethod::Exponentials).unwrap();
     assert!(matches!(ground.prepare(1e-7, None, &mut unobserved), Err(Error::Input { .. })));
     // More memory than allowed is refused before any of it is allocated.
@@ -287,7 +289,7 @@ fn bad_input_is_an_error() {
     assert!(matches!(history.evaluate(&mut [0.0; 3]), Err(Error::Size { .. })));
 }
 
-/// Ground of the choices: six elements on a soil in SI units.
+/// Ground for the choice of a method: six elements on a soil in SI units.
 fn six_element_ground() -> ElasticGround {
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap()

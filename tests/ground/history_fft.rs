@@ -1,5 +1,5 @@
 //! GOAL: the relaxed FFT history is the direct sum, and its memory is as predicted.
-//! SCENE: by pairs and by wavenumbers, leaves of several lengths, arbitrary tractions.
+//! SCENE: histories by pairs and by wavenumbers, blocks of several lengths, arbitrary tractions.
 //! REFERENCE: the direct history.
 
 use std::sync::Arc;
@@ -112,7 +112,7 @@ fn equals_the_direct_sum() {
         ("two strips off any lattice", strips_with_gap(1.4), 8e-4, 700, 700),
         ("nothing reserved", strip(-5.0..5.0, 3, Grading::Uniform), 5e-4, 1300, 0),
         ("beyond what is reserved", two_strips(), 3e-4, 1111, 130),
-        ("hint much too large", strip(-5.0..5.0, 3, Grading::Uniform), 5e-4, 150, 4000),
+        ("far more reserved", strip(-5.0..5.0, 3, Grading::Uniform), 5e-4, 150, 4000),
     ] {
         let differences = relative_differences(&kernel(elements, time_step), steps, reserved);
         println!("{name}: {differences:?}");
@@ -122,7 +122,7 @@ fn equals_the_direct_sum() {
 
 /// GOAL: the difference from the direct sum does not accumulate over a long march.
 #[test]
-fn long_march() {
+fn differences_do_not_accumulate_in_a_long_march() {
     let kernel = kernel(strip(0.0..2.0, 2, Grading::Uniform), 1e-3);
     let differences = relative_differences(&kernel, 10_000, 5_000);
     println!("10 000 steps: {differences:?}");
@@ -163,9 +163,9 @@ fn check_evaluation_keeps_state(mut evaluated: RelaxedFftHistory, mut pushed: Re
     assert!(first.iter().all(|value| *value != 0.0));
 }
 
-/// GOAL: wrong lengths of displacements are errors; tractions are padded by zeros or cut.
+/// GOAL: displacements of a wrong length are errors; tractions are padded by zeros or cut.
 #[test]
-fn lengths() {
+fn wrong_lengths_are_errors_and_tractions_are_padded() {
     let kernel = kernel(strip(-1.0..1.0, 2, Grading::Uniform), 1e-3);
     for mut history in relaxed_histories(&kernel) {
         let mut start = [f64::NAN; 4];
@@ -206,9 +206,9 @@ fn fewer_steps_leave_the_memory() {
     }
 }
 
-/// GOAL: the memory of the headline problem: 54 000 steps, ten elements.
+/// GOAL: the headline problem, 54 000 steps of ten elements, needs less than 52 MB.
 #[test]
-fn memory() {
+fn memory_of_the_headline_problem_is_bounded() {
     let elements = strip(-2.286..2.286, 10, Grading::Uniform);
     let mut history = RelaxedFftHistory::new(kernel(elements, 0.577e-3));
     history.prepare(54_000, &mut unobserved).unwrap();
@@ -264,7 +264,7 @@ proptest! {
 
     /// GOAL: the relaxed history is the direct sum for arbitrary strips and tractions.
     #[test]
-    fn any_tractions(
+    fn any_tractions_have_the_direct_sum(
         count in 1_usize..6,
         cosine in any::<bool>(),
         time_step in 1e-4..2e-2,

@@ -34,7 +34,7 @@ impl ShWave {
     }
 }
 
-/// GOAL: one layer on a half-plane, softer and stiffer.
+/// GOAL: one layer on a half-plane, softer or stiffer than it, has its closed form.
 /// REFERENCE: surface over outcrop 1/(cosh(s b h) + (μ b)/(μ′ b′) sinh(s b h)).
 #[test]
 fn one_layer_has_its_closed_form() {
@@ -70,9 +70,9 @@ fn one_layer_has_its_closed_form() {
     assert!(largest_error < 1e-11 && largest > 4.0, "{largest_error:e} {largest}");
 }
 
-/// GOAL: at no angle a wave is that of the column; without layers it is a plane wave of the half-plane.
+/// GOAL: at an angle of zero a wave is that of the column; without layers it is a plane wave of the half-plane.
 #[test]
-fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
+fn vertical_waves_are_those_of_columns_and_bare_rock_has_plane_waves() {
     let layered = two_layers(constant_q(0.05), constant_q(0.02));
     let column = SoilColumn::new(layered.clone(), VerticalWave::Shear).unwrap();
     let upright = InclinedWave::sh(layered.clone(), 0.0).unwrap();
@@ -102,7 +102,7 @@ fn vertical_incidence_is_the_column_and_no_layers_a_plane_wave() {
         assert!(expected[0] != 0.0);
     }
 
-    // Nothing moves up; a layer stiffer than the base has no refracted wave beyond its critical angle.
+    // SH waves have no vertical motion; a layer stiffer than the base has no refracted wave beyond its critical angle.
     assert!(upright.transfer(InclinedControl::OutcropVertical, 1.0).is_err());
     let covered = SoilProfile::on_half_plane(soft()).with_layer(rock(), 4.0).unwrap();
     let wave = InclinedWave::sh(covered, 0.4).unwrap();

@@ -29,36 +29,36 @@ pub(super) struct SoilWaves {
     mu: Complex,
     p: f64,
     /// Vertical slownesses of P and SV.
-    pub(super) slownesses: [Complex; 2],
+    pub(super) vertical_slownesses: [Complex; 2],
     /// 1/c of P and SV.
-    pub(super) totals: [Complex; 2],
+    pub(super) total_slownesses: [Complex; 2],
 }
 
 impl SoilWaves {
     pub(super) fn new(soil: Soil, law: &dyn Relaxation, p: f64, s: Complex) -> Self {
         let mu = law.modulus(s) * soil.shear_modulus();
         let lambda = mu * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
-        let totals =
+        let total_slownesses =
             [lambda + mu * 2.0, mu].map(|modulus| (Complex::real(soil.density()) / modulus).sqrt());
-        let slownesses = totals.map(|total| {
+        let vertical_slownesses = total_slownesses.map(|total| {
             let root = (total * total - Complex::real(p * p)).sqrt();
             if (s * root).re < -1e-12 * (s * root).abs() { -root } else { root }
         });
-        Self { lambda, mu, p, slownesses, totals }
+        Self { lambda, mu, p, vertical_slownesses, total_slownesses }
     }
 
     /// A wave of unit amplitude, at depth z below its origin.
     fn state(&self, wave: BodyWave, is_upward: bool, s: Complex, z: f64) -> WaveState {
         let kind = usize::from(wave == BodyWave::Sv);
-        let slowness = self.slownesses[kind];
+        let slowness = self.vertical_slownesses[kind];
         let q = if is_upward { -slowness } else { slowness };
-        // Along (p, q), or across it and to the right.
+        // P waves move along (p, q), SV waves normal to it and to the right.
         let direction = match wave {
             BodyWave::P => [Complex::real(self.p), q],
             BodyWave::Sv if is_upward => [slowness, Complex::real(self.p)],
             BodyWave::Sv => [slowness, -Complex::real(self.p)],
         };
-        self.state_of_plane_wave(direction.map(|x| x / self.totals[kind]), q, s, z)
+        self.state_of_plane_wave(direction.map(|x| x / self.total_slownesses[kind]), q, s, z)
     }
 
     /// A wave d e^(s(t − px − qz)) by Hooke's law, up to the factor of t and x.
@@ -71,7 +71,7 @@ impl SoilWaves {
     }
 }
 
-/// Gauss's elimination with pivots, of a matrix with its right-hand side as the last column.
+/// Gauss–Jordan elimination with pivots of a matrix whose last column is the right-hand side.
 fn solve(mut matrix: Vec<Vec<Complex>>) -> Vec<Complex> {
     let n = matrix.len();
     for k in 0..n {
@@ -120,20 +120,21 @@ impl LayerOnHalfPlane {
         let incident = incident
             .map_or([Complex::default(); 4], |wave| self.base.state(wave, true, self.s, 0.0));
         // Stresses are divided by the soil's impedance, so that all rows have similar size.
-        let impedance = self.layer.mu.abs() * self.layer.totals[1].abs();
+        let impedance = self.layer.mu.abs() * self.layer.total_slownesses[1].abs();
         let mut matrix = vec![];
         for row in 2..4 {
-            let mut line: Vec<_> = top.iter().map(|wave| wave[row] * (1.0 / impedance)).collect();
-            line.extend([Complex::default(); 2]);
-            line.push(load[row - 2] * (1.0 / impedance));
-            matrix.push(line);
+            let mut equation: Vec<_> =
+                top.iter().map(|wave| wave[row] * (1.0 / impedance)).collect();
+            equation.extend([Complex::default(); 2]);
+            equation.push(load[row - 2] * (1.0 / impedance));
+            matrix.push(equation);
         }
         for row in 0..4 {
             let scale = if row < 2 { 1.0 } else { 1.0 / impedance };
-            let mut line: Vec<_> = bottom.iter().map(|wave| wave[row] * scale).collect();
-            line.extend(refracted.iter().map(|wave| wave[row] * -scale));
-            line.push(incident[row] * scale);
-            matrix.push(line);
+            let mut equation: Vec<_> = bottom.iter().map(|wave| wave[row] * scale).collect();
+            equation.extend(refracted.iter().map(|wave| wave[row] * -scale));
+            equation.push(incident[row] * scale);
+            matrix.push(equation);
         }
         let amplitudes = solve(matrix);
         let mut surface = [Complex::default(); 2];

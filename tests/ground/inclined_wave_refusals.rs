@@ -1,5 +1,5 @@
 //! GOAL: inclined waves out of range are refused, and extreme scales stay finite.
-//! SCENE: angles, frequencies, motions and profiles without an answer; moduli and thicknesses over hundreds of decades.
+//! SCENE: angles, frequencies, motions and profiles without a solution; moduli and thicknesses over hundreds of decades.
 //! REFERENCE: the typed error.
 
 use std::f64::consts::FRAC_PI_2;
@@ -14,7 +14,7 @@ use basemat_problems::profiles::{soft, two_layers};
 
 /// GOAL: angles, frequencies, motions and profiles out of range give typed errors.
 #[test]
-fn bad_waves_are_refused() {
+fn invalid_waves_are_refused() {
     let elastic = two_layers(Elastic, Elastic);
     let control = InclinedControl::Incident;
     for wave in BODY_WAVES {
@@ -52,7 +52,8 @@ fn bad_waves_are_refused() {
     }
 }
 
-/// GOAL: controls that the outcrop hardly moves with, and time series beyond a critical angle or without a front, are refused.
+/// GOAL: controls in whose direction the outcrop hardly moves, and motions beyond a critical angle or without a wave front,
+/// are refused.
 #[test]
 fn waves_without_a_causal_motion_are_refused() {
     let elastic = two_layers(Elastic, Elastic);
@@ -63,7 +64,7 @@ fn waves_without_a_causal_motion_are_refused() {
         assert!(matches!(wave.transfer(control, 1.0), Err(Error::Input { .. })));
         assert!(wave.to_surface(control, 0.01, &[1.0], &mut unobserved).is_err());
     }
-    // The rock's critical angle of 35.3°, and fronts without a limit to their speed.
+    // The rock's critical angle is 35.3°. Waves of a Kelvin–Voigt soil have no largest speed, and so no front.
     let control = InclinedControl::OutcropHorizontal;
     let beyond = InclinedWave::sv(elastic, 36.0_f64.to_radians()).unwrap();
     assert!(beyond.transfer(control, 1.0).is_ok());

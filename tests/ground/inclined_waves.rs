@@ -13,9 +13,9 @@ use basemat::{Complex, Soil, unobserved};
 use super::inclined_wave_reference::{BODY_WAVES, BodyWave, LayerOnHalfPlane, SoilWaves, inclined};
 use basemat_problems::profiles::{constant_q, one_layer, rock, soft, two_layers};
 
-/// GOAL: at no angle SV and P waves are those of the column.
+/// GOAL: at an angle of zero SV and P waves are those of the column.
 #[test]
-fn vertical_incidence_is_the_column() {
+fn vertical_waves_are_those_of_the_column() {
     let mut largest_error = 0.0_f64;
     for profile in [two_layers(Elastic, Elastic), two_layers(constant_q(0.05), constant_q(0.02))] {
         for (wave, vertical, component, control) in [
@@ -106,10 +106,10 @@ fn critical_angles_of_layers_are_regular() {
     assert!(largest_error < 1e-9, "{largest_error:e}");
 }
 
-/// GOAL: one layer, softer and stiffer than its base, at many angles and frequencies.
+/// GOAL: one layer, softer or stiffer than its base, is right at many angles and frequencies.
 /// REFERENCE: all its waves solved at once.
 #[test]
-fn one_layer_is_all_its_waves_at_once() {
+fn one_layer_agrees_with_all_its_waves_solved_at_once() {
     let height = 6.0;
     let mut largest_error = 0.0_f64;
     let mut largest = 0.0_f64;
@@ -144,7 +144,7 @@ fn one_layer_is_all_its_waves_at_once() {
 /// GOAL: reciprocity and energy: incident waves of slowness p determine what a surface load e^(iω(t − px)) radiates.
 /// REFERENCE: −Im C = Σ |T|²/(4ρω c² q) over P and SV, in elastic rock.
 #[test]
-fn incident_waves_say_how_much_a_surface_load_radiates() {
+fn incident_waves_determine_the_radiation_of_a_surface_load() {
     let rock = rock();
     let height = 6.0;
     let profile = SoilProfile::on_half_plane(rock).with_layer(soft(), height).unwrap();
@@ -163,14 +163,14 @@ fn incident_waves_say_how_much_a_surface_load_radiates() {
             ] {
                 let inclined = inclined(wave, profile.clone(), (p * speed).asin()).unwrap();
                 let transfer = inclined.transfer(InclinedControl::Incident, frequency).unwrap();
-                let q = reference.base.slownesses[kind].re;
-                let total = reference.base.totals[kind].re;
+                let q = reference.base.vertical_slownesses[kind].re;
+                let total = reference.base.total_slownesses[kind].re;
                 for (sum, t) in radiated.iter_mut().zip(transfer) {
                     *sum += t.abs().powi(2) * total * total / (4.0 * rock.density() * s.im * q);
                 }
             }
             for (component, radiated) in radiated.into_iter().enumerate() {
-                // A unit stress, −σ on the surface; the vertical one up.
+                // A unit stress −σ on the surface; the vertical one acts upwards.
                 let mut load = [Complex::default(); 2];
                 let sign = if component == 0 { -1.0 } else { 1.0 };
                 load[component] = s.inverse() * sign;
@@ -188,9 +188,9 @@ fn soft_half_plane() -> SoilProfile {
     SoilProfile::on_half_plane(soft()).with_bedrock_damping(constant_q(0.02))
 }
 
-/// GOAL: a layer cut into many gives the same, also where e^(αh) would overflow; long waves see the outcrop only.
+/// GOAL: a layer cut into slices has the same motion, also where e^(αh) would overflow; it does not affect long waves.
 #[test]
-fn thin_slices_high_frequencies_and_long_waves() {
+fn slices_change_nothing_and_layers_do_not_affect_long_waves() {
     let control = InclinedControl::Incident;
     let stiff = Soil::from_shear_wave_speed(900.0, 0.2, 2300.0).unwrap();
     let whole = soft_half_plane().with_layer(stiff, 60.0).unwrap().with_damping(constant_q(0.01));
@@ -200,21 +200,21 @@ fn thin_slices_high_frequencies_and_long_waves() {
     }
     for wave in BODY_WAVES {
         for angle in [0.2_f64, 0.7, 1.3] {
-            let of_whole = inclined(wave, whole.clone(), angle).unwrap();
-            let of_slices = inclined(wave, sliced.clone(), angle).unwrap();
+            let whole_wave = inclined(wave, whole.clone(), angle).unwrap();
+            let sliced_wave = inclined(wave, sliced.clone(), angle).unwrap();
             for frequency in [0.5, 5.0, 40.0, 5000.0] {
-                let expected = of_whole.transfer(control, frequency).unwrap();
-                let computed = of_slices.transfer(control, frequency).unwrap();
+                let expected = whole_wave.transfer(control, frequency).unwrap();
+                let computed = sliced_wave.transfer(control, frequency).unwrap();
                 let size = expected[0].abs().max(expected[1].abs());
                 for (a, b) in expected.into_iter().zip(computed) {
                     let error = (a - b).abs() / size.max(f64::MIN_POSITIVE);
                     assert!(error < 1e-9, "{angle} {frequency}: {error:e} of {size:e}");
                 }
             }
-            // Against the bare base at the same, static moduli; layers are 46 times as stiff.
-            let of_base = inclined(wave, soft_half_plane(), angle).unwrap();
-            let computed = of_slices.transfer(control, 1e-9).unwrap();
-            let expected = of_base.transfer(control, 1e-9).unwrap();
+            // At the same static moduli the bare base has the same motion, although layers are 46 times as stiff.
+            let base_wave = inclined(wave, soft_half_plane(), angle).unwrap();
+            let computed = sliced_wave.transfer(control, 1e-9).unwrap();
+            let expected = base_wave.transfer(control, 1e-9).unwrap();
             for (a, b) in computed.into_iter().zip(expected) {
                 assert!((a - b).abs() < 1e-6, "{a:?} {b:?}");
             }
@@ -274,7 +274,7 @@ fn motions_in_time_are_integrals_over_frequency() {
 
 /// GOAL: a free field travels along x with the motion of its origin.
 #[test]
-fn fields_run_along_the_surface() {
+fn fields_travel_along_the_surface() {
     let samples: Vec<f64> = (0..800).map(|i| ricker(0.01 * f64::from(i))).collect();
     let record = Record::new(0.01, samples.clone()).unwrap();
     let wave = InclinedWave::p(two_layers(constant_q(0.05), Elastic), -0.8).unwrap();

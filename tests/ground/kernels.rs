@@ -24,7 +24,7 @@ fn soil(nu: f64) -> Soil {
 }
 
 #[track_caller]
-pub(super) fn close(computed: f64, expected: f64, tolerance: f64, name: &str) {
+pub(super) fn assert_near(computed: f64, expected: f64, tolerance: f64, name: &str) {
     assert!(
         (computed - expected).abs() <= tolerance,
         "{name}: {computed:e}, expected {expected:e}"
@@ -36,7 +36,7 @@ fn unit_element(center: f64) -> ContactElement {
     ContactElement::new(center - 0.5, center + 0.5)
 }
 
-/// GOAL: convolution weights to 1e-10 of the self term up to 20 elements away, 1e-8 up to 200.
+/// GOAL: convolution weights are exact to 1e-10 of the self term at distances up to 25, and to 1e-8 beyond.
 #[test]
 fn step_coefficients_match_sixty_digits() {
     for row in rows(include_str!("../data/influence.csv")) {
@@ -45,32 +45,32 @@ fn step_coefficients_match_sixty_digits() {
         let source = ContactElement::new(row[4], row[5]);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let weights = kernel.coefficients(receiver, source, row[6] as usize).unwrap();
-        // A large source on a small receiver gives more than the receiver on itself.
+        // A large source moves a small receiver more than the receiver moves itself.
         let scale = row[10].abs().max(row[7].abs());
         let distance = (row[3] - row[4]).abs().max((row[5] - row[2]).abs());
         let tolerance = scale * if distance > 25.0 { 1e-8 } else { 1e-10 };
         for (computed, expected) in
             [(weights.zz, row[7]), (weights.xx, row[8]), (weights.zx, row[9])]
         {
-            close(computed, expected, tolerance, &format!("{row:?}"));
+            assert_near(computed, expected, tolerance, &format!("{row:?}"));
         }
     }
 }
 
 fn square_root([re, im]: [f64; 2]) -> [f64; 2] {
-    let size = re.hypot(im);
-    let root = (0.5 * (size + re)).max(0.0).sqrt();
-    [root, (0.5 * (size - re)).max(0.0).sqrt().copysign(im)]
+    let modulus = re.hypot(im);
+    let root = (0.5 * (modulus + re)).max(0.0).sqrt();
+    [root, (0.5 * (modulus - re)).max(0.0).sqrt().copysign(im)]
 }
 
-fn times(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+fn product(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
 /// Imaginary part of a quotient of complex numbers.
 fn imaginary_part_of_quotient(numerator: [f64; 2], denominator: [f64; 2]) -> f64 {
-    let size = denominator[0] * denominator[0] + denominator[1] * denominator[1];
-    times(numerator, [denominator[0], -denominator[1]])[1] / size
+    let square = denominator[0] * denominator[0] + denominator[1] * denominator[1];
+    product(numerator, [denominator[0], -denominator[1]])[1] / square
 }
 
 /// GOAL: the kernels are Im a/R, Im b/R and Im p(G−2ab)/R of the transform on the upper side of the cut.
@@ -84,23 +84,23 @@ fn impulse_is_the_jump_of_the_transform() {
             // On the upper side the roots have negative imaginary parts.
             let a = square_root([a2 - y, -0.0]);
             let b = square_root([1.0 - y, -0.0]);
-            let ab = times(a, b);
+            let ab = product(a, b);
             let g = 1.0 - 2.0 * y;
             let r = [g * g + 4.0 * y * ab[0], 4.0 * y * ab[1]];
-            let size = r[0] * r[0] + r[1] * r[1];
+            let square = r[0] * r[0] + r[1] * r[1];
             let zz = imaginary_part_of_quotient(a, r);
             let xx = imaginary_part_of_quotient(b, r);
             let impulse = plane.impulse(tau);
-            // Terms of size y² cancel in R: its relative rounding. Behind the S wave f decays like
-            // 1/τ, and the tolerance with it.
-            let rounding = 2e-15 * (1.0 + y) * (1.0 + y) / size.sqrt();
+            // Terms of size y² cancel in R, which limits its relative accuracy. Behind the S wave f decays like
+            // 1/τ, and so does the tolerance.
+            let rounding = 2e-15 * (1.0 + y) * (1.0 + y) / square.sqrt();
             let tolerance = (1e-13 + rounding) * (zz.abs() + xx.abs()).max(1.0 / (1.0 + tau));
-            close(impulse.zz, zz, tolerance, &format!("zz {nu} {tau}"));
-            close(impulse.xx, xx, tolerance, &format!("xx {nu} {tau}"));
+            assert_near(impulse.zz, zz, tolerance, &format!("zz {nu} {tau}"));
+            assert_near(impulse.xx, xx, tolerance, &format!("xx {nu} {tau}"));
             let coupling = [tau * (g - 2.0 * ab[0]), tau * -2.0 * ab[1]];
             let zx = -imaginary_part_of_quotient(coupling, r);
             if tau < 1.0 {
-                close(impulse.zx, zx, tolerance, &format!("zx {nu} {tau}"));
+                assert_near(impulse.zx, zx, tolerance, &format!("zx {nu} {tau}"));
             }
         }
     }
@@ -146,18 +146,18 @@ fn primitives_match_quadrature() {
                     let change = end[component] - start[component];
                     let expected = sums[m][component];
                     let name = format!("{nu} {from} {m} {component}");
-                    close(change, expected, 1e-6 * expected.abs() + 1e-9, &name);
+                    assert_near(change, expected, 1e-6 * expected.abs() + 1e-9, &name);
                 }
             }
         }
         // Long-time limits, and continuity where the late series takes over.
-        close(plane.heaviside(50.0).zx, PI * (1.0 - 2.0 * nu) / 4.0, 1e-12, "static zx");
-        close(50.0 * plane.impulse(50.0).zz, 1.0 - nu, 1e-3, "static zz");
+        assert_near(plane.heaviside(50.0).zx, PI * (1.0 - 2.0 * nu) / 4.0, 1e-12, "static zx");
+        assert_near(50.0 * plane.impulse(50.0).zz, 1.0 - nu, 1e-3, "static zz");
         for tail in [HalfPlane::first_tail, HalfPlane::second_tail] {
             let before = tail(&plane, 3.0 * arrival * (1.0 - 1e-14));
             let after = tail(&plane, 3.0 * arrival * (1.0 + 1e-14));
-            close(before.zz, after.zz, 1e-11, &format!("late zz {nu}"));
-            close(before.xx, after.xx, 1e-11, &format!("late xx {nu}"));
+            assert_near(before.zz, after.zz, 1e-11, &format!("late zz {nu}"));
+            assert_near(before.xx, after.xx, 1e-11, &format!("late xx {nu}"));
         }
     }
 }
@@ -203,14 +203,14 @@ fn integral_along_surface(plane: &HalfPlane, x: f64, time: f64, is_impulse: bool
     let q = plane.first_tail(time / x.abs());
     let [xx, zz, zx] = [[f.xx, q.xx], [f.zz, q.zz], [f.zx, q.zx]]
         .map(|[f, q]| if is_impulse { q } else { x.abs() * f + time * q });
-    let even = x.signum() / PI;
-    [xx * even, zz * even, zx / PI]
+    let sign_factor = x.signum() / PI;
+    [xx * sign_factor, zz * sign_factor, zx / PI]
 }
 
-/// GOAL: Lamb's problem for a line load, a loaded element, and the mean of an element.
+/// GOAL: Lamb's problem is right for a line load, for a loaded element, and as the mean of an element.
 /// REFERENCE: tables with columns xy (x due to z load) and yx (z due to x load).
 #[test]
-fn lamb_line_load_and_elements() {
+fn displacements_of_line_loads_and_elements_are_those_of_the_tables() {
     for (nu, [heaviside, element, galerkin]) in lamb_tables() {
         let plane = HalfPlane::new(soil(nu));
         for row in rows(heaviside) {
@@ -219,7 +219,7 @@ fn lamb_line_load_and_elements() {
             for (computed, expected) in
                 [(u[0][0], row[1]), (u[0][1], row[2]), (u[1][0], row[3]), (u[1][1], row[4])]
             {
-                close(computed, expected, 1e-11, &name);
+                assert_near(computed, expected, 1e-11, &name);
             }
         }
         for row in rows(galerkin) {
@@ -228,17 +228,17 @@ fn lamb_line_load_and_elements() {
             for (computed, expected) in
                 [(u.xx, row[2]), (-u.zx, row[3]), (u.zx, row[4]), (u.zz, row[5])]
             {
-                close(computed, expected, 1e-11, &name);
+                assert_near(computed, expected, 1e-11, &name);
             }
         }
-        // Traction on [−1/2, 1/2], displacement of a point: a difference of integrals from it.
+        // Under a traction on [−1/2, 1/2], the displacement of a point is a difference of two integrals from this point.
         for row in rows(element).iter().filter(|row| row[0] >= 0.0) {
             let is_impulse = row[0] == 1.0;
             let right = integral_along_surface(&plane, row[1] + 0.5, row[2], is_impulse);
             let left = integral_along_surface(&plane, row[1] - 0.5, row[2], is_impulse);
             let name = format!("element {nu} {row:?}");
             for (i, expected) in [row[3], row[6], row[5]].into_iter().enumerate() {
-                close(right[i] - left[i], expected, 1e-11, &name);
+                assert_near(right[i] - left[i], expected, 1e-11, &name);
             }
         }
     }
@@ -262,7 +262,7 @@ fn half_plane_loads_follow_from_each_other() {
                 for j in 0..2 {
                     let computed = (after[i][j] - before[i][j]) / (2.0 * h);
                     let name = format!("{slow:?} {x} {time} {i} {j}");
-                    close(computed, rate[i][j], 2e-7, &name);
+                    assert_near(computed, rate[i][j], 2e-7, &name);
                 }
             }
         }
@@ -271,7 +271,7 @@ fn half_plane_loads_follow_from_each_other() {
 
 /// GOAL: weights are zero before the first wave and after the last coupling, are reciprocal, and refuse bad input.
 #[test]
-fn nothing_arrives_early_and_bad_input_is_refused() {
+fn nothing_arrives_early_and_invalid_input_is_refused() {
     for nu in POISSON_RATIOS {
         let ground = soil(nu);
         let near = ContactElement::new(0.0, 1.0);

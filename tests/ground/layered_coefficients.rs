@@ -24,7 +24,7 @@ fn weights_of_class(
     weights
 }
 
-/// GOAL: weights of a damped layer on rock at lags 1 … 64, two stages.
+/// GOAL: weights of a damped layer on rock, of two stages and at lags 1 to 64, agree with a table.
 /// REFERENCE: `G_r2_P1_gmb_Q3_dt0.2.csv` by another program.
 #[test]
 fn agrees_with_the_table_of_a_damped_layer_on_rock() {
@@ -43,12 +43,12 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
         let row: usize = fields[1].parse().unwrap();
         let column: usize = fields[2].parse().unwrap();
         let pair = kernel.classes().pairs()[row % 3 * 3 + column % 3];
-        let of_pair = &weights[pair.class];
+        let pair_weights = &weights[pair.class];
         let computed = match (row / 3, column / 3) {
-            (0, 0) => of_pair[0][lag - 1],
-            (1, 1) => of_pair[1][lag - 1],
-            (0, 1) => pair.sign * of_pair[2][lag - 1],
-            _ => -pair.sign * of_pair[2][lag - 1],
+            (0, 0) => pair_weights[0][lag - 1],
+            (1, 1) => pair_weights[1][lag - 1],
+            (0, 1) => pair.sign * pair_weights[2][lag - 1],
+            _ => -pair.sign * pair_weights[2][lag - 1],
         };
         let expected: f64 = fields[3].parse().unwrap();
         largest = largest.max(expected.abs());
@@ -62,7 +62,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
 
 /// GOAL: weights of a half-plane as layered ground tend to its closed form at late lags.
 ///
-/// The closed form is exact in time, Radau IIA of higher order.
+/// The closed form is exact in time; the layered weights have the error of Radau IIA.
 #[test]
 fn homogeneous_ground_tends_to_the_closed_form() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
@@ -125,7 +125,7 @@ fn weights_with_tolerance(tolerance: f64) -> [Vec<f64>; 3] {
     weights_of_class(kernel.as_ref(), 0, 1, COMPARED_LAGS)
 }
 
-/// GOAL: errors are the tolerance's power 2/3 of the lag's weight, also at the ends of blocks.
+/// GOAL: errors are of the order of the tolerance's power 2/3 of a lag's weight, also at the ends of blocks.
 /// REFERENCE: the weights of a much smaller tolerance.
 #[test]
 fn tolerance_governs_the_latest_lags() {

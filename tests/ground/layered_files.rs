@@ -1,5 +1,5 @@
 //! GOAL: weights from a file are the computed ones, or there is an error.
-//! SCENE: files of the kernel, of others, of an older format, foreign, cut, extended, every word damaged.
+//! SCENE: files of the same kernel, of other kernels and of older formats; foreign, cut, extended and damaged files.
 //! REFERENCE: the kernel without a file, to the last bit; the format of the file.
 
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ fn march_in_plan(
 
 /// GOAL: weights of a ground in plan are the same from a file; other cells replace it.
 #[test]
-fn files_in_plan_are_taken_to_the_last_bit() {
+fn files_in_plan_reproduce_weights_to_the_last_bit() {
     let half_space = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
     for profile in [half_space, p1(gmb(5), gmb(1))] {
         let file = TemporaryFile::new("plan");
@@ -182,7 +182,7 @@ fn a_file_gives_the_same_bits_and_is_used() {
     assert_eq!(original.len(), 8 * (classes * 3 * 256 + 6));
     assert_eq!(bits_with_file(&file.path).unwrap(), expected);
     assert_eq!(file.read(), original);
-    // A number changed with its check sum: the file is read.
+    // A number and the check sum are changed: the result shows that the file is read.
     file.write(rewritten(&original, true, |words| words[5] = 2.5_f64.to_bits()));
     let computed = bits_with_file(&file.path).unwrap();
     assert_eq!((computed[0], &computed[1..]), (2.5_f64.to_bits(), &expected[1..]));
@@ -197,7 +197,7 @@ fn a_file_gives_the_same_bits_and_is_used() {
     assert!(short.len() < original.len());
 }
 
-/// Relaxation law that describes itself by nothing but its modulus.
+/// Relaxation law without a description, known by its modulus only.
 #[derive(Debug)]
 struct UndescribedLaw(f64);
 
@@ -207,9 +207,9 @@ impl Relaxation for UndescribedLaw {
     }
 }
 
-/// GOAL: whatever changes a weight makes the file another kernel's: it is replaced.
+/// GOAL: the file of a kernel with any other weight is replaced.
 #[test]
-fn files_of_other_kernels_are_made_anew() {
+fn files_of_other_kernels_are_replaced() {
     let file = TemporaryFile::new("other");
     let longer = Strip::uniform(-1.0..1.1, 2).unwrap();
     let kernels: [(&dyn Fn() -> ElasticGround, f64); 9] = [
@@ -291,7 +291,8 @@ fn damaged_files_are_refused() {
     // Two neighbours exchanged.
     file.write(rewritten(&original, false, |words| words.swap(20, 21)));
     assert!(is_damaged(&fault(bits_with_file(&file.path))));
-    // One wrong bit anywhere: an error; in format, fingerprint or number of classes another kernel's file.
+    // One wrong bit is an error; in format, fingerprint or number of classes it makes the file another kernel's. Some bytes
+    // of the file are tested, and all bytes of its head.
     let interval = if heavy() { 311 } else { 1511 };
     for byte in (0..original.len()).step_by(interval).chain(0..48) {
         for bit in [0, 7] {

@@ -54,13 +54,13 @@ fn largest_errors(
     for row in rows {
         let meshes = [16, 32, 64].map(|count| impedance_components(profile, count, row[0]));
         for (component, expected) in expected(row) {
-            let size = if component == 3 { meshes[2][0].abs() } else { expected.abs() };
+            let scale = if component == 3 { meshes[2][0].abs() } else { expected.abs() };
             for (largest, mesh) in largest.iter_mut().zip(&meshes) {
-                *largest = largest.max((mesh[component] - expected).abs() / size);
+                *largest = largest.max((mesh[component] - expected).abs() / scale);
             }
             let extrapolated =
                 meshes[2][component] * (4.0 / 3.0) - meshes[1][component] * (1.0 / 3.0);
-            largest[3] = largest[3].max((extrapolated - expected).abs() / size);
+            largest[3] = largest[3].max((extrapolated - expected).abs() / scale);
         }
     }
     largest
@@ -118,7 +118,7 @@ fn half_plane_strips_match_the_tables() {
     assert_second_order("half-plane", errors, 1e-4);
 }
 
-/// GOAL: static stiffness of a layer on a rigid base.
+/// GOAL: static stiffnesses of strips on a layer on a rigid base agree with a table.
 #[test]
 fn static_strips_match_the_table() {
     let table = include_str!("../data/layered/ref_static_layer_on_rigid_base.csv");
@@ -132,10 +132,10 @@ fn static_strips_match_the_table() {
         for (component, column) in [(0, 2), (1, 3), (2, 4), (3, 5), (5, 6), (6, 7)] {
             let expected = row[column];
             let extrapolated = (4.0 * meshes[1][component].re - meshes[0][component].re) / 3.0;
-            let size = if component == 3 { row[2] } else { expected };
-            extrapolated_error = extrapolated_error.max((extrapolated - expected).abs() / size);
+            let scale = if component == 3 { row[2] } else { expected };
+            extrapolated_error = extrapolated_error.max((extrapolated - expected).abs() / scale);
             for (error, mesh) in mesh_errors.iter_mut().zip(meshes) {
-                *error = error.max((mesh[component].re - expected).abs() / size);
+                *error = error.max((mesh[component].re - expected).abs() / scale);
             }
         }
     }
@@ -147,14 +147,14 @@ fn static_strips_match_the_table() {
 #[test]
 fn rigid_base_has_a_cut_off_frequency() {
     let profile = p3(hysteretic(0.05));
-    let still = impedance_components(&profile, 32, 0.0)[0];
-    let slow = impedance_components(&profile, 32, 0.2)[0];
-    let fast = impedance_components(&profile, 32, 2.0)[0];
-    println!("{:.6} and {:.6}", slow.im, 0.1 * still.re);
-    assert!((slow.im / (0.1 * still.re) - 1.0).abs() < 1e-3);
-    assert!((slow.im - 0.24722).abs() < 3e-4);
+    let static_impedance = impedance_components(&profile, 32, 0.0)[0];
+    let slow_impedance = impedance_components(&profile, 32, 0.2)[0];
+    let fast_impedance = impedance_components(&profile, 32, 2.0)[0];
+    println!("{:.6} and {:.6}", slow_impedance.im, 0.1 * static_impedance.re);
+    assert!((slow_impedance.im / (0.1 * static_impedance.re) - 1.0).abs() < 1e-3);
+    assert!((slow_impedance.im - 0.24722).abs() < 3e-4);
     // Above the cut-off, a0 = π/4 for this layer, waves radiate.
-    assert!(fast.im > 3.0 * slow.im, "{fast:?}");
+    assert!(fast_impedance.im > 3.0 * slow_impedance.im, "{fast_impedance:?}");
 }
 
 /// GOAL: undamped ground, whose poles lie on the path, is the limit of damped ground.
@@ -218,7 +218,7 @@ fn impedances_at(profile: SoilProfile, frequency: f64) -> Result<Vec<StripImpeda
 
 /// GOAL: frequencies out of range, resonances and profiles without soil are refused.
 #[test]
-fn bad_frequencies_and_resonances_are_refused() {
+fn invalid_frequencies_and_resonances_are_refused() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
     // An undamped layer 2 m thick guides waves from 1/8 Hz.
     let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();

@@ -34,10 +34,10 @@ fn weight_matrices(kernel: &dyn ConvolutionWeights) -> Vec<Vec<f64>> {
             for (index, pair) in classes.pairs().iter().enumerate() {
                 let p = index / count;
                 let q = index % count;
-                let of_pair = &weights[pair.class];
-                let coupling = pair.sign * of_pair[2][lag];
-                matrix[p * 2 * count + q] = of_pair[0][lag];
-                matrix[(count + p) * 2 * count + count + q] = of_pair[1][lag];
+                let pair_weights = &weights[pair.class];
+                let coupling = pair.sign * pair_weights[2][lag];
+                matrix[p * 2 * count + q] = pair_weights[0][lag];
+                matrix[(count + p) * 2 * count + count + q] = pair_weights[1][lag];
                 matrix[p * 2 * count + count + q] = coupling;
                 matrix[(count + p) * 2 * count + q] = -coupling;
             }

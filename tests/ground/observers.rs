@@ -78,7 +78,7 @@ fn unprepared_weights() -> Arc<dyn ConvolutionWeights> {
 
 /// GOAL: the preparation of weights reports, stops, and continues after a stop.
 #[test]
-fn step_coefficients_are_watched_and_stopped() {
+fn convolution_weights_report_and_stop() {
     let expected = weight_bits(&*unprepared_weights(), 500);
     // A new kernel each time, then one that is stopped again and again.
     check_observed(
@@ -129,7 +129,7 @@ fn weight_bits_in_plan(kernel: &dyn ConvolutionWeights) -> Vec<u64> {
 
 /// GOAL: the integrals and weights of a mat in three dimensions report and stop.
 #[test]
-fn weights_in_plan_are_watched_and_stopped() {
+fn weights_in_plan_report_and_stop() {
     let expected = weight_bits_in_plan(&*unprepared_weights_in_plan());
     let kernel = unprepared_weights_in_plan();
     check_observed(|observer| kernel.prepare(300, observer), None);
@@ -138,7 +138,7 @@ fn weights_in_plan_are_watched_and_stopped() {
 
 /// GOAL: impedances of strips report and stop.
 #[test]
-fn impedances_are_watched_and_stopped() {
+fn impedances_report_and_stop() {
     for profile in [p1(gmb(5), gmb(1)), p3(Elastic)] {
         let ground = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
         let frequencies = [0.05, 0.11, 0.3];
@@ -153,7 +153,7 @@ fn impedances_are_watched_and_stopped() {
 
 /// GOAL: response spectra of records report and stop.
 #[test]
-fn response_spectra_are_watched_and_stopped() {
+fn response_spectra_report_and_stop() {
     let record = el_centro_1940();
     let periods: Vec<f64> = (0..20).map(|i| 1e-4 * 1.6_f64.powi(i)).collect();
     let expected = record.response_spectrum(&periods, 0.05, &mut unobserved).unwrap();
@@ -190,7 +190,7 @@ fn base_shear_bits(mut simulation: Simulation) -> Vec<u64> {
 
 /// GOAL: weights of a run are computed when it is built, or by `prepare`; the run then reports none of them.
 #[test]
-fn builds_and_runs_hand_their_observer_on() {
+fn builds_and_preparations_pass_their_observer_on() {
     let expected = base_shear_bits(block_on_four_elements().build().unwrap());
     let expected_when_prepared =
         base_shear_bits(block_on_four_elements().expected_steps(200).build().unwrap());
@@ -239,7 +239,7 @@ fn displacement_bits(elements: &[ContactElement], observer: &mut Observer<'_>) -
 
 /// GOAL: transforms of the weights alone, by pairs and by wavenumbers, report in parts and stop between any two.
 #[test]
-fn spectra_are_heard_of_in_parts() {
+fn transforms_report_in_parts() {
     for strip in [Strip::graded(-3.0..3.0, 8), Strip::uniform(-3.0..3.0, 16)] {
         let elements = strip.unwrap().elements();
         let reports = count_reports(|observer| {
@@ -251,9 +251,10 @@ fn spectra_are_heard_of_in_parts() {
     }
 }
 
-/// GOAL: transforms of a run follow its weights: reported, stopped without a trace, the end reported at the end alone.
+/// GOAL: a preparation reports transforms after the weights, can be stopped without any change, and reports its end only at
+/// its end.
 #[test]
-fn spectra_are_watched_and_stopped() {
+fn transforms_report_and_stop() {
     for strip in [Strip::graded(-3.0..3.0, 4), Strip::uniform(-3.0..3.0, 8)] {
         let strip = strip.unwrap();
         let expected = base_shear_bits(block_on_layer(strip.clone()).build().unwrap());

@@ -33,7 +33,7 @@ fn face_without_polygon(faces: &[Vec<[f64; 2]>]) -> String {
     }
 }
 
-/// GOAL: cells of a rectangle reach beyond its outline, or not, whatever the order of corners.
+/// GOAL: cells of a rectangle reach beyond its outline unless this is excluded, whatever the order of corners.
 #[test]
 fn rectangles_reach_beyond_their_outline() {
     let plan = Plan::rectangle(2.0..22.0, -3.0..11.0, 8).unwrap();
@@ -79,12 +79,12 @@ fn cut_cells_have_the_area_and_the_centre_of_their_outline() {
             (Plan::disc([1.0, 2.0], 3.0, cells).unwrap(), 9.0 * std::f64::consts::PI, [1.0, 2.0]),
         ] {
             assert!(plan.area_error().abs() < 1e-9, "{cells} {}", plan.area_error());
-            let size = area.sqrt() / cells as f64;
+            let cell_side = area.sqrt() / cells as f64;
             for (plan, limit) in [(plan.clone(), 0.06), (plan.without_overhang().unwrap(), 0.02)] {
                 let sums = area_and_moments(plan);
                 assert!((sums[0] / area - 1.0).abs() < 1e-9, "{cells} {area} {}", sums[0]);
                 for axis in 0..2 {
-                    let error = (sums[1 + axis] / sums[0] - center[axis]) / size;
+                    let error = (sums[1 + axis] / sums[0] - center[axis]) / cell_side;
                     assert!(error.abs() < limit, "{cells} {area} {axis}: {error} cells");
                 }
             }
@@ -92,9 +92,9 @@ fn cut_cells_have_the_area_and_the_centre_of_their_outline() {
     }
 }
 
-/// GOAL: cells of a disc lie about its centre; a mask gives its cells.
+/// GOAL: cells of a disc lie about its centre; a mask has one cell for each of its marks.
 #[test]
-fn discs_and_masks_are_their_cells() {
+fn discs_and_masks_have_their_cells() {
     let disc = Plan::disc([1.0, 2.0], 3.0, 20).unwrap();
     assert!(disc.middle().iter().zip([1.0, 2.0]).all(|(x, y)| (x - y).abs() < 1e-12));
     // A ring in a mask with an empty margin.
@@ -122,7 +122,7 @@ fn faces_that_are_no_polygons_are_errors() {
     }
 }
 
-/// GOAL: faces that overlap, lie too close or catch no cell give errors.
+/// GOAL: faces that overlap, lie too close or contain no centre of a cell are errors.
 #[test]
 fn faces_that_are_no_mat_are_errors() {
     let square = rectangle([0.0, 1.0], [0.0, 1.0]);
@@ -206,7 +206,7 @@ fn impedances_of_square(
 
 /// GOAL: frequencies too high for the cells, out of range, and profiles out of reach give typed errors.
 #[test]
-fn impedances_say_what_they_cannot() {
+fn impossible_impedances_are_refused() {
     let profile: SoilProfile = soft_soil().into();
     let refused = impedances_of_square(&profile, &[1.0, 20.0], &mut unobserved);
     assert!(

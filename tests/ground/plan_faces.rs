@@ -32,7 +32,7 @@ fn point_between(a: [f64; 2], b: [f64; 2], fraction: f64) -> [f64; 2] {
     [0, 1].map(|k| a[k] + fraction * (b[k] - a[k]))
 }
 
-/// Two faces, by a random cut from edge to edge.
+/// Two parts of a face, by a random cut from edge to edge.
 fn cut_from_edge_to_edge(face: &FaceCorners, random: &mut Random) -> Vec<FaceCorners> {
     let count = face.len();
     let one = random_below(random, count);
@@ -60,7 +60,7 @@ fn cut_into_triangles(face: &FaceCorners, random: &mut Random) -> Vec<FaceCorner
     (0..count).map(|k| vec![face[k], face[(k + 1) % count], point]).collect()
 }
 
-/// The same area in other faces, with their corners and the faces themselves in random order.
+/// The same area, cut at random into other faces; faces and their corners are in random order.
 fn divided(faces: &[FaceCorners], cuts: usize, random: &mut Random) -> Vec<FaceCorners> {
     let mut faces = faces.to_vec();
     for _ in 0..cuts {
@@ -123,7 +123,7 @@ fn are_close(a: [f64; 4], b: [f64; 4], tolerance: f64) -> bool {
     a.iter().zip(&b).all(|(a, b)| (a - b).abs() < tolerance)
 }
 
-/// Length that differences of elements are related to, m.
+/// Scale of differences between elements, m.
 const MAT_SIZE: f64 = 20.0;
 
 /// Largest difference of centres, sides and areas, relative to the size of the mats.

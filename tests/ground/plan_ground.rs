@@ -1,4 +1,4 @@
-//! GOAL: the march of a ground in plan: step compliance, history, statics, end of memory, checkpoints, limits.
+//! GOAL: a ground in plan has the right step compliance, history, statics, end of memory, checkpoints and limits.
 //! SCENE: cells of squares, oblong ones and an L on a half-space and on a damped layer over rock.
 //! REFERENCE: direct sums; static compliance as the sum of all lags; rigid mats by another solution.
 
@@ -118,8 +118,10 @@ fn step_compliance_and_history_add_up_to_statics() {
         }
         let mut displacement = vec![0.0; size];
         ground.history(&mut displacement).unwrap();
-        for (sum, in_step) in displacement.iter_mut().zip(multiply(&step_compliance, &traction)) {
-            *sum += in_step;
+        for (sum, step_displacement) in
+            displacement.iter_mut().zip(multiply(&step_compliance, &traction))
+        {
+            *sum += step_displacement;
         }
         let expected = multiply(&static_compliance, &traction);
         let error = largest_difference(&[displacement], &[expected]);
@@ -149,7 +151,7 @@ fn step_compliance_and_history_add_up_to_statics() {
 /// GOAL: tractions that extract the largest energy in each step never extract energy in sum.
 /// SCENE: four grounds under a square, an L and a disc, short to long time steps; `PLAN_STEPS` sets the number of steps.
 #[test]
-fn tractions_never_take_energy_from_a_ground_in_plan() {
+fn tractions_never_extract_energy_from_a_ground_in_plan() {
     let steps = std::env::var("PLAN_STEPS").map_or(60, |number| number.parse().unwrap());
     let thin_layer =
         SoilProfile::on_rigid_bedrock().with_layer(Soil::new(1.0, 0.45, 1.0).unwrap(), 0.4);
@@ -175,9 +177,9 @@ fn l_shape_with_history(options: HistoryOptions) -> ElasticGround {
     ground.with_history(options).unwrap()
 }
 
-/// GOAL: with a coarse tolerance the memory ends; the error by the cut is below its bound and above zero.
+/// GOAL: with a coarse tolerance the memory ends; the error of this cut is below its bound and above zero.
 #[test]
-fn what_memory_forgets_is_bounded() {
+fn the_error_of_a_memory_that_ends_is_bounded() {
     let options = HistoryOptions { tolerance: Some(3e-3), ..HistoryOptions::default() };
     let mut complete = l_shape_with_history(HistoryMethod::RelaxedFft.into());
     let mut cut = l_shape_with_history(options);
@@ -207,7 +209,7 @@ fn what_memory_forgets_is_bounded() {
 
 /// GOAL: too much memory, and analyses of strips alone, are refused beforehand.
 #[test]
-fn limits_are_told_beforehand() {
+fn limits_are_checked_beforehand() {
     let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, 8).unwrap();
     let little_memory = HistoryOptions { memory: 1 << 20, ..HistoryOptions::default() };
     let mut ground = ElasticGround::in_plan(half_space(), plan.clone()).unwrap();
@@ -227,7 +229,7 @@ fn limits_are_told_beforehand() {
 
 /// GOAL: without a tolerance the memory ends where weights are smaller than their errors, in a long run on layers.
 #[test]
-fn memory_ends_by_itself() {
+fn memory_ends_without_a_tolerance() {
     let steps = 5000;
     let mut cut = l_shape_on_layer().with_tolerance(1e-10).unwrap();
     cut.prepare(0.4, Some(steps), &mut unobserved).unwrap();
@@ -237,7 +239,7 @@ fn memory_ends_by_itself() {
     assert!((5e-7..2e-6).contains(&choice.error_bound), "{choice}");
     let saved_steps = cut.save().unwrap().len() / (3 * 12);
     assert!(bound > 0.0 && saved_steps < steps - 2000, "{bound:e} {saved_steps}");
-    // All weights, a hundred times as good; random tractions cancel, their bound does not.
+    // All weights are used, with errors a hundredth as large. Errors of random tractions cancel; their bound does not.
     let complete = l_shape_on_layer().with_tolerance(1e-13).unwrap();
     let mut complete = complete.with_history(HistoryMethod::RelaxedFft).unwrap();
     complete.prepare(0.4, None, &mut unobserved).unwrap();
@@ -256,7 +258,7 @@ fn prepared_l_shape(expected_steps: Option<usize>) -> ElasticGround {
 
 /// GOAL: a history saved before the end of its memory is known can be restored after, and the reverse.
 #[test]
-fn memory_that_ends_is_restored_however_far_is_looked() {
+fn memory_that_ends_is_restored_for_any_expected_steps() {
     for (steps, expected_by_saved, expected_by_restored) in [
         (1, None, Some(5000)),
         (300, None, Some(5000)),

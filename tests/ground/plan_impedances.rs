@@ -30,7 +30,9 @@ fn impedance_at(
     impedances_in_plan(profile, plan, &[a0 / TAU], contact, &mut unobserved).unwrap()[0]
 }
 
-/// The component of a table. Its w = x Ry is down, so ry equals the crate's; Rx and Hy alike.
+/// Component of an impedance by its name in the tables.
+///
+/// The tables count w = x Ry down: Ry, Rx and Hy have the signs of the crate.
 fn component(impedance: &PlanImpedance, name: &str) -> Complex {
     let matrix = &impedance.matrix;
     match name {
@@ -53,20 +55,20 @@ fn rows(table: &'static str) -> Vec<Vec<&'static str>> {
     table.lines().skip(2).map(|line| line.split(',').collect()).collect()
 }
 
-fn number(text: &str) -> f64 {
+fn parse_number(text: &str) -> f64 {
     text.parse().unwrap()
 }
 
 /// Largest errors of static rectangles against the table, in five groups.
 ///
-/// Translations and torsion, rocking with ν = 0, rocking of squares and of others, and all with sides 1 : 4, whose
-/// values in the table are of coarser cells.
+/// The groups are translations and torsion, rocking with ν = 0, rocking of squares, rocking of other rectangles, and
+/// all components with sides 1 : 4, for which the table has coarser cells.
 fn largest_static_errors(longest: f64, plan: impl Fn(f64) -> Plan) -> [f64; 5] {
     let rows = rows(include_str!("../data/plan/static_rectangle.csv"));
     let mut largest = [0.0_f64; 5];
     for same_mat in rows.chunk_by(|a, b| a[..2] == b[..2]) {
-        let length = number(same_mat[0][0]);
-        let poisson = number(same_mat[0][1]);
+        let length = parse_number(same_mat[0][0]);
+        let poisson = parse_number(same_mat[0][1]);
         if length > longest {
             continue;
         }
@@ -75,7 +77,7 @@ fn largest_static_errors(longest: f64, plan: impl Fn(f64) -> Plan) -> [f64; 5] {
             .map(|contact| impedance_at(&profile, &plan(length), 0.0, contact));
         for row in same_mat {
             for (impedance, expected) in impedances.iter().zip(&row[3..]) {
-                let error = (component(impedance, row[2]).re / number(expected) - 1.0).abs();
+                let error = (component(impedance, row[2]).re / parse_number(expected) - 1.0).abs();
                 let group = match (length, poisson, row[2].starts_with('R')) {
                     (4.0, ..) => 4,
                     (_, _, false) => 0,
@@ -95,7 +97,7 @@ fn rectangle(length: f64, cells: usize) -> Plan {
     Plan::rectangle(-length..length, -1.0..1.0, cells).unwrap()
 }
 
-/// GOAL: static stiffness of rectangles with 8 and 12 cells along the shorter side.
+/// GOAL: static stiffnesses of rectangles with 8 and 12 cells along the shorter side agree with a table.
 ///
 /// Rocking about the longer axis has the largest error, and more so for smaller ν: shear at welded edges oscillates.
 /// Extrapolated values of the table are themselves low, by 0.04 % (ν = 1/3) to 0.11 % (ν = 0) of the square's rocking,
@@ -110,7 +112,7 @@ fn static_rectangles_match_the_table() {
     }
 }
 
-/// GOAL: static stiffness of a square of graded elements.
+/// GOAL: static stiffnesses of a square of graded elements agree with another program.
 /// REFERENCE: another program with the same elements: compliances of the cells in closed form, summed over elements.
 #[test]
 fn static_graded_elements_are_those_of_another_program() {
@@ -143,7 +145,7 @@ fn graded_rectangle(length: f64, cells: usize, graded_cells: &[usize]) -> Plan {
     plan.with_unions(&along, graded_cells).unwrap()
 }
 
-/// GOAL: graded elements on cells half as large, as many along the shorter side, halve the largest errors.
+/// GOAL: graded elements on cells half as large have at most the errors of the same number of equal elements.
 #[test]
 fn static_rectangles_of_graded_elements_match_the_table() {
     for (longest, cells, graded_cells, limits) in [
@@ -156,10 +158,10 @@ fn static_rectangles_of_graded_elements_match_the_table() {
     }
 }
 
-/// GOAL: a square punch without friction.
+/// GOAL: the stiffness of a square punch without friction is its closed form.
 /// REFERENCE: 4.6092 μb/(1 − ν), from the capacity of the unit square, 0.3667892.
 #[test]
-fn static_punch_is_the_closed_form() {
+fn static_punch_has_its_closed_form() {
     // With and without overhang, for 8 and 16 cells.
     let errors = [8, 16].map(|cells| {
         let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
@@ -174,7 +176,7 @@ fn static_punch_is_the_closed_form() {
     assert!((0.9..1.1).contains(&order), "without overhang: order {order}");
 }
 
-/// GOAL: dynamic stiffness of rectangles on half-spaces and a layer.
+/// GOAL: dynamic stiffnesses of rectangles on half-spaces and a layer agree with a table.
 #[test]
 fn dynamic_rectangles_match_the_table() {
     let rows = rows(include_str!("../data/plan/impedance_rectangle.csv"));
@@ -182,8 +184,8 @@ fn dynamic_rectangles_match_the_table() {
     for same_mat in rows.chunk_by(|a, b| a[..4] == b[..4]) {
         let shape = same_mat[0][0];
         let ground = same_mat[0][1];
-        let a0 = number(same_mat[0][3]);
-        // Undamped ground needs eight points for a frequency.
+        let a0 = parse_number(same_mat[0][3]);
+        // Undamped ground needs eight evaluations for a frequency: only some of its rows are compared.
         if ground != "layer" && (shape == "2:1" || ground == "nu_1/4") && a0 != 1.0
             || shape == "2:1" && ground == "nu_1/4"
         {
@@ -200,7 +202,7 @@ fn dynamic_rectangles_match_the_table() {
         for row in same_mat {
             // The table's coupling has the other sign on the layer.
             let sign = if row[4] == "HxRy" && ground == "layer" { -1.0 } else { 1.0 };
-            let expected = Complex::new(sign * number(row[5]), sign * number(row[6]));
+            let expected = Complex::new(sign * parse_number(row[5]), sign * parse_number(row[6]));
             let error = (component(&impedance, row[4]) - expected).abs() / expected.abs();
             largest[group] = largest[group].max(error);
             assert!(error < [5e-3, 1e-2][group], "{row:?} {error:e}");
@@ -217,13 +219,13 @@ fn discs_match_a_spectral_solution() {
         let plan = Plan::disc([0.3, -0.1], 1.0, cells).unwrap();
         let profile = half_space(poisson);
         for same_frequency in rows.chunk_by(|a, b| a[..4] == b[..4]) {
-            let a0 = number(same_frequency[0][3]);
-            if number(same_frequency[0][2]) != poisson || a0 == 1.0 {
+            let a0 = parse_number(same_frequency[0][3]);
+            if parse_number(same_frequency[0][2]) != poisson || a0 == 1.0 {
                 continue;
             }
             let impedance = impedance_at(&profile, &plan, a0, StripContact::Relaxed);
             for row in same_frequency {
-                let expected = Complex::new(number(row[5]), number(row[6]));
+                let expected = Complex::new(parse_number(row[5]), parse_number(row[6]));
                 let error = (component(&impedance, row[4]) - expected).abs() / expected.abs();
                 println!("{cells} {} {} {error:.1e}", row[3], row[4]);
                 assert!(error < limit, "{cells} {row:?} {error:e}");
@@ -266,7 +268,7 @@ fn long_mats_are_strips() {
 
 /// GOAL: the error of plane strain for a square mat is as the guide states it.
 #[test]
-fn plane_strain_misleads_on_square_mats() {
+fn errors_of_plane_strain_on_square_mats_are_those_of_the_guide() {
     let profile = half_space(1.0 / 3.0);
     let strip = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap();
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();
@@ -316,9 +318,9 @@ fn turned_plans_have_turned_stiffness() {
     for (i, (row, row_sign)) in QUARTER_TURN.into_iter().enumerate() {
         assert!(mat[i][i].im > 0.0 && mat[i][i].re > 0.0);
         for (j, (column, column_sign)) in QUARTER_TURN.into_iter().enumerate() {
-            let size = (mat[i][i].abs() * mat[j][j].abs()).sqrt();
+            let scale = (mat[i][i].abs() * mat[j][j].abs()).sqrt();
             let turned_back = turned[row][column] * (row_sign * column_sign);
-            let error = (turned_back - mat[i][j]).abs() / size;
+            let error = (turned_back - mat[i][j]).abs() / scale;
             assert!(error < 1e-10, "{i}{j} {error:e}");
             assert_eq!(mat[i][j], mat[j][i]);
         }

@@ -52,7 +52,7 @@ fn outline_stiffness(plan: &Plan) -> [f64; 2] {
 /// A mat with its stiffness from another solution.
 struct OutlineCase {
     name: &'static str,
-    /// None for a disc.
+    /// Faces of the mat; `None` for a disc.
     faces: Option<OutlineFaces>,
     /// Vertical and rocking stiffness, times (1 − ν)/G.
     expected: [f64; 2],
@@ -91,7 +91,7 @@ fn outline_cases() -> [OutlineCase; 9] {
 
 /// GOAL: vertical errors fall and rocking errors rise from below as cells become smaller.
 #[test]
-fn static_stiffnesses_of_oblique_outlines_fall_steadily() {
+fn static_stiffnesses_of_oblique_outlines_converge_steadily() {
     let largest_count = std::env::var("OUTLINE_CELLS").ok().and_then(|text| text.parse().ok());
     let counts: Vec<usize> = match largest_count {
         Some(largest_count) => (4..=largest_count).collect(),
@@ -105,9 +105,9 @@ fn static_stiffnesses_of_oblique_outlines_fall_steadily() {
             assert!(pair[1][0] < pair[0][0] + 0.06, "{name} {cells}: {pair:?}");
             assert!(pair[1][1] > pair[0][1] - 0.1, "{name} {cells}: {pair:?}");
         }
-        let of_sixteen_cells = counts.iter().position(|cells| *cells == 16).unwrap();
-        let vertical = errors[of_sixteen_cells][0];
-        let rocking = errors[of_sixteen_cells][1];
+        let sixteen_cells_index = counts.iter().position(|cells| *cells == 16).unwrap();
+        let vertical = errors[sixteen_cells_index][0];
+        let rocking = errors[sixteen_cells_index][1];
         assert!(vertical.abs() < 0.4, "{name} {vertical}");
         let rocking_limit = if name == "disc" { 1.2 } else { 1.7 };
         let is_known = case.expected[1].is_finite();

@@ -23,7 +23,7 @@ fn rectangle() -> Plan {
     Plan::rectangle(-1.0..1.0, -1.5..1.5, 5).unwrap()
 }
 
-/// Which union a cell belongs to.
+/// Assignment of cells to unions.
 struct UnionMap {
     /// Union of each cell.
     union_of_cell: Vec<usize>,
@@ -63,7 +63,7 @@ impl UnionMap {
     }
 }
 
-/// Each index as often as its count.
+/// Each index, repeated as often as its count.
 fn repeated_indices(counts: &[usize]) -> Vec<usize> {
     counts.iter().enumerate().flat_map(|(index, count)| vec![index; *count]).collect()
 }
@@ -139,7 +139,7 @@ fn l_shape_with_unions(columns: &[usize], rows: &[usize]) -> Result<Plan> {
 
 /// GOAL: unions that do not fill the cells of a mat are refused.
 #[test]
-fn bad_unions_are_errors() {
+fn invalid_unions_are_errors() {
     for columns in [&[1, 4][..], &[2, 2, 1], &[1, 3]] {
         assert!(with_unions(columns, &UNION_ROWS).is_err(), "{columns:?}");
     }

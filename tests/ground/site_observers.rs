@@ -33,7 +33,7 @@ fn column() -> SoilColumn {
 
 /// GOAL: motions through a column, up and down, report often enough to be interrupted.
 #[test]
-fn site_response_is_watched_and_stopped() {
+fn site_response_reports_and_stops() {
     let record = el_centro_1940();
     let control = ControlPoint::Outcrop;
     let step = record.time_step();
@@ -53,7 +53,7 @@ fn site_response_is_watched_and_stopped() {
 
 /// GOAL: transfer functions of many frequencies are those of each, report and stop.
 #[test]
-fn transfers_are_watched_and_stopped() {
+fn transfer_functions_report_and_stop() {
     let control = ControlPoint::Outcrop;
     let column = column();
     let frequencies: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
@@ -67,7 +67,7 @@ fn transfers_are_watched_and_stopped() {
 
 /// GOAL: motions and records of inclined waves report and stop; their field travels with the records.
 #[test]
-fn inclined_waves_are_watched_and_stopped() {
+fn inclined_waves_report_and_stop() {
     let record = el_centro_1940();
     let step = record.time_step();
     let samples = record.accelerations();
@@ -84,7 +84,7 @@ fn inclined_waves_are_watched_and_stopped() {
 
 /// GOAL: a motion of several directions through the site reports and stops.
 #[test]
-fn motions_in_plan_are_watched_and_stopped() {
+fn motions_in_three_directions_report_and_stop() {
     let record = el_centro_1940();
     let motion = Triaxial { x: Some(record.clone()), y: None, up: Some(record) };
     let control = ControlPoint::Outcrop;
@@ -99,7 +99,7 @@ fn motions_in_plan_are_watched_and_stopped() {
 
 /// GOAL: the equivalent-linear analysis reports every iteration, in its frequencies and in its layers.
 #[test]
-fn equivalent_linear_iterations_are_watched_and_stopped() {
+fn equivalent_linear_iterations_report_and_stop() {
     let record = el_centro_1940();
     let column = column();
     let curves = vec![StrainCurves::VuceticDobry { plasticity_index: 30.0 }; 12];

@@ -10,7 +10,7 @@ use basemat::{Complex, Error, Soil, unobserved};
 
 use basemat_problems::profiles::p1;
 
-/// GOAL: the surface over the outcrop of a hysteretic layer on rock.
+/// GOAL: the transfer function from the outcrop to the surface of a hysteretic layer agrees with a table.
 /// REFERENCE: `amplification_1d.csv` by another program.
 #[test]
 fn amplification_matches_the_table() {
@@ -50,28 +50,28 @@ struct ReflectedPulse {
     /// Impedance of the layer over the rock's.
     impedance_ratio: f64,
     /// Travel time through the layer.
-    travel: f64,
+    travel_time: f64,
 }
 
 impl ReflectedPulse {
     fn at_surface(&self, t: f64) -> f64 {
         let r = (1.0 - self.impedance_ratio) / (1.0 + self.impedance_ratio);
         (0..400_i32)
-            .map(|m| (-r).powi(m) * ricker(t - f64::from(2 * m + 1) * self.travel))
+            .map(|m| (-r).powi(m) * ricker(t - f64::from(2 * m + 1) * self.travel_time))
             .sum::<f64>()
             * 2.0
             / (1.0 + self.impedance_ratio)
     }
 
     fn at_bottom(&self, t: f64) -> f64 {
-        0.5 * (self.at_surface(t - self.travel) + self.at_surface(t + self.travel))
+        0.5 * (self.at_surface(t - self.travel_time) + self.at_surface(t + self.travel_time))
     }
 }
 
-/// GOAL: a pulse through one elastic layer on rock, up to the surface and down again.
-/// REFERENCE: it arrives after h/c, then returns −r times as large after each 2h/c.
+/// GOAL: a pulse passes through one elastic layer on rock, up to the surface and down again.
+/// REFERENCE: the pulse arrives after h/c, then returns −r times as large after each 2h/c.
 #[test]
-fn reflections_in_an_elastic_layer() {
+fn reflections_in_an_elastic_layer_are_those_of_theory() {
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
     let rock = Soil::from_shear_wave_speed(600.0, 0.25, 2200.0).unwrap();
     let height = 35.0;
@@ -92,7 +92,7 @@ fn reflections_in_an_elastic_layer() {
             .samples;
         let expected = ReflectedPulse {
             impedance_ratio: layer.density() * speeds[0] / (rock.density() * speeds[1]),
-            travel: height / speeds[0],
+            travel_time: height / speeds[0],
         };
         let mut surface_error = 0.0_f64;
         let mut within_error = 0.0_f64;
@@ -113,7 +113,7 @@ fn reflections_on_a_rigid_base_never_end() {
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_bedrock().with_layer(layer, 35.0).unwrap();
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
-    let travel = 35.0 / 200.0;
+    let travel_time = 35.0 / 200.0;
     let motion = ricker_samples();
     let surface = column
         .to_surface(ControlPoint::Outcrop, TIME_STEP, &motion, &mut unobserved)
@@ -123,7 +123,7 @@ fn reflections_on_a_rigid_base_never_end() {
     for (i, surface) in surface.iter().enumerate() {
         let expected: f64 = (0..60)
             .map(|m| {
-                let delayed = ricker(TIME_STEP * i as f64 - f64::from(2 * m + 1) * travel);
+                let delayed = ricker(TIME_STEP * i as f64 - f64::from(2 * m + 1) * travel_time);
                 2.0 * (-1.0_f64).powi(m) * delayed
             })
             .sum();
@@ -169,9 +169,9 @@ fn deconvolution_undoes_convolution() {
     }
 }
 
-/// GOAL: motions, frequencies and profiles without an answer are refused.
+/// GOAL: motions, frequencies and profiles out of range are refused.
 #[test]
-fn bad_motions_are_refused() {
+fn invalid_motions_are_refused() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 5.0).unwrap();
     let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();

@@ -1,4 +1,4 @@
-//! GOAL: a motion passes through a site and is recovered, whatever its frequencies.
+//! GOAL: a motion that passes through a site is recovered, whatever its frequencies.
 //! SCENE: three damped layers on rock; noise, pulses, impulses and records, odd and even numbers of samples, one sample.
 //! REFERENCE: the motion itself; a zero-padded Fourier transform with `transfer`.
 
@@ -166,7 +166,7 @@ impl RoundTrip {
 
 /// GOAL: with quiet time on both sides a motion is recovered; without, the size of the lost motion is reported.
 #[test]
-fn there_and_back() {
+fn motions_are_recovered_through_a_site() {
     let column = SoilColumn::new(profile(), VerticalWave::Shear).unwrap();
     let mut largest_error = 0.0_f64;
     let mut largest_ratio = 0.0_f64;
@@ -228,7 +228,7 @@ fn check_transfer(
 /// GOAL: the motion of the surface follows the transfer function; at the highest frequencies the reported size is right
 /// to a factor of four.
 #[test]
-fn the_surface_moves_by_the_transfer_function() {
+fn the_surface_follows_the_transfer_function() {
     let column = SoilColumn::new(profile(), VerticalWave::Shear).unwrap();
     let sv = InclinedWave::sv(profile(), 0.35).unwrap();
     let p = InclinedWave::p(profile(), -0.8).unwrap();

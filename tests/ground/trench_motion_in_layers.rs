@@ -1,6 +1,6 @@
 //! GOAL: motions at the faces of a trench are those of the profile, at every depth of every layer.
 //! SCENE: trenches that end in, at or below layers; vertical, inclined and Rayleigh waves, with and without damping.
-//! REFERENCE: the half-plane, for layers of its soil; waves up and down in time, and transfer functions, through layers.
+//! REFERENCE: the half-plane, for layers of its soil; upward and downward waves in time, and transfer functions.
 
 use std::f64::consts::{PI, TAU};
 
@@ -165,10 +165,10 @@ fn layer_at(depth: f64) -> (usize, f64) {
     unreachable!("the last layer has no end")
 }
 
-/// What a wave does at a depth.
+/// Displacement and stress impulses of a wave at a depth.
 #[derive(Clone, Copy, Default)]
 struct WaveAtDepth {
-    /// To the right or up.
+    /// Displacement to the right or up.
     displacement: f64,
     /// Impulse of the stress on a horizontal plane.
     impulse: f64,
@@ -176,11 +176,11 @@ struct WaveAtDepth {
     lateral_impulse: f64,
 }
 
-/// Points of the mean over an element: the stress on a vertical plane jumps where the soil changes.
+/// Number of points of the mean over an element. It is large, since the stress on a vertical plane jumps between soils.
 const POINTS_PER_ELEMENT: usize = 2000;
 
 /// Means over each element of the left wall, and the values at the base.
-fn means_over_elements(at: impl Fn(f64) -> WaveAtDepth) -> Vec<WaveAtDepth> {
+fn means_over_elements(wave_at: impl Fn(f64) -> WaveAtDepth) -> Vec<WaveAtDepth> {
     let mut means = vec![];
     for element in &elements().elements()[..WALL_ELEMENTS] {
         let middle = -element.center()[2];
@@ -190,14 +190,14 @@ fn means_over_elements(at: impl Fn(f64) -> WaveAtDepth) -> Vec<WaveAtDepth> {
         let mut mean = WaveAtDepth::default();
         for k in 0..POINTS_PER_ELEMENT {
             let depth = top + (bottom - top) * (k as f64 + 0.5) / POINTS_PER_ELEMENT as f64;
-            let wave = at(depth);
+            let wave = wave_at(depth);
             mean.displacement += wave.displacement / POINTS_PER_ELEMENT as f64;
             mean.impulse += wave.impulse / POINTS_PER_ELEMENT as f64;
             mean.lateral_impulse += wave.lateral_impulse / POINTS_PER_ELEMENT as f64;
         }
         means.push(mean);
     }
-    means.push(at(TRENCH_DEPTH));
+    means.push(wave_at(TRENCH_DEPTH));
     means
 }
 
@@ -233,8 +233,8 @@ fn largest_error(
     errors.values()[0].max(errors.values()[1])
 }
 
-/// Displacement and impulse of the stress in a layer: waves up and down, of those in the layer above.
-fn waves_up_and_down(time: f64, layer: usize, below_top: f64, is_shear: bool) -> [f64; 2] {
+/// Displacement and stress impulse at a depth of a layer, by upward and downward waves from its top.
+fn upward_and_downward_waves(time: f64, layer: usize, below_top: f64, is_shear: bool) -> [f64; 2] {
     let soil = layers()[layer].soil;
     let speed = if is_shear { soil.shear_wave_speed() } else { soil.pressure_wave_speed() };
     let impedance = soil.density() * speed;
@@ -249,14 +249,14 @@ fn waves_up_and_down(time: f64, layer: usize, below_top: f64, is_shear: bool) ->
 fn waves_at_top(time: f64, layer: usize, is_shear: bool) -> [f64; 2] {
     match layer {
         0 => [pulse(time), 0.0],
-        _ => waves_up_and_down(time, layer - 1, layers()[layer - 1].thickness, is_shear),
+        _ => upward_and_downward_waves(time, layer - 1, layers()[layer - 1].thickness, is_shear),
     }
 }
 
-/// GOAL: vertical waves in undamped layers.
-/// REFERENCE: each layer transmits the waves of its top down and up again, in time.
+/// GOAL: vertical waves pass undamped layers.
+/// REFERENCE: upward and downward waves in time, which follow in each layer from the motion of its top.
 #[test]
-fn vertical_waves_in_layers_are_waves_up_and_down() {
+fn vertical_waves_in_layers_are_upward_and_downward_waves() {
     let layers = layers();
     let profile = SoilProfile::on_half_plane(layers[2].soil)
         .with_layer(layers[0].soil, layers[0].thickness)
@@ -273,7 +273,7 @@ fn vertical_waves_in_layers_are_waves_up_and_down() {
         let motion = TrenchMotion::new(&ground, motion, &mut unobserved).unwrap();
         let error = largest_error(&motion, is_shear, |time, depth| {
             let (layer, below_top) = layer_at(depth);
-            let wave = waves_up_and_down(time, layer, below_top, is_shear);
+            let wave = upward_and_downward_waves(time, layer, below_top, is_shear);
             let poisson = layers[layer].soil.poisson();
             WaveAtDepth {
                 displacement: wave[0],
@@ -301,12 +301,12 @@ fn transfer_to_depth(laws: &[GeneralizedMaxwell; 3], s: Complex, depth: f64) -> 
         let slowness = s * (Complex::real(layer.soil.density()) / modulus).sqrt();
         let up = (slowness * Complex::real(height)).exp();
         let down = (slowness * Complex::real(-height)).exp();
-        let even = (up + down) * 0.5;
-        let odd = (up - down) * 0.5;
+        let cosh = (up + down) * 0.5;
+        let sinh = (up - down) * 0.5;
         let stiffness = modulus * slowness;
         (displacement, stress) = (
-            displacement * even + stress * odd / stiffness,
-            displacement * odd * stiffness + stress * even,
+            displacement * cosh + stress * sinh / stiffness,
+            displacement * sinh * stiffness + stress * cosh,
         );
     }
     [displacement, stress / s]
@@ -318,8 +318,8 @@ fn pulse_spectrum(omega: f64) -> f64 {
     size * (-(0.5 * omega / PULSE_RATE).powi(2)).exp()
 }
 
-/// GOAL: vertical waves in damped layers on rock.
-/// REFERENCE: the sum over frequencies of transfer functions of the surface's motion.
+/// GOAL: vertical waves pass damped layers on rock.
+/// REFERENCE: a Fourier sum of the transfer functions from the surface to each depth.
 #[test]
 fn damped_vertical_waves_in_layers_follow_their_transfer_functions() {
     /// Time after which the Fourier sum repeats, s.

@@ -1,7 +1,7 @@
 //! GOAL: the paper's ground translated, mirrored and in other units is the same ground; its kernel, given by a user, is
 //! its kernel.
 //! SCENE: two strips under random tractions; runs would grow (`tests/full_plane`).
-//! REFERENCE: step compliance and displacements by past tractions in SI_UNITS units.
+//! REFERENCE: step compliance and displacements by past tractions in SI units.
 
 use basemat::bem::full_plane::{Boundary, BoundaryKernel, FullPlaneGround, TimeKernel};
 use basemat::bem::{Ground, Strip};
@@ -23,7 +23,7 @@ const VECTOR_LENGTH: usize = 2 * CONTACT_ELEMENTS;
 /// Rounding, which a scheme that grows amplifies.
 const DIFFERENCE_LIMIT: f64 = 1e-9;
 
-/// Two strips of a surface, in SI_UNITS units.
+/// Two strips of a surface, in SI units.
 struct TwoStrips {
     modulus: f64,
     poisson: f64,
@@ -72,7 +72,7 @@ impl TwoStrips {
         Ok(FullPlaneGround::new(soil, Boundary::flat(&strips, self.free)?).allow_growth())
     }
 
-    /// Step compliance and displacements by past tractions of all steps, in SI_UNITS units and the order of the scene.
+    /// Step compliance and displacements by past tractions of all steps, in SI units and the order of the scene.
     fn response(&self, mut ground: FullPlaneGround, frame: &UnitFrame) -> Result<Vec<f64>> {
         ground.prepare(self.time_step * frame.time, Some(CONVOLUTION_STEPS), &mut unobserved)?;
         // Index and sign in the view of each component of a contact vector.

@@ -72,7 +72,7 @@ fn relative_difference(one: &[f64], other: &[f64]) -> f64 {
     if largest == 0.0 { 0.0 } else { largest / scale }
 }
 
-/// Real and imaginary real_and_imaginary_parts.
+/// Real and imaginary parts of complex numbers, one after the other.
 fn real_and_imaginary_parts(values: &[Complex]) -> Vec<f64> {
     values.iter().flat_map(|value| [value.re, value.im]).collect()
 }

@@ -3,7 +3,7 @@
 use basemat_problems::random::Random;
 use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
-/// How a scene in SI_UNITS units is written down.
+/// How a scene in SI units is written down.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
     /// Units, and whether x is mirrored.
@@ -16,11 +16,11 @@ pub(crate) struct View {
     pub(crate) renumbered: bool,
     /// Finite elements behind the trait that a user implements.
     pub(crate) by_user: bool,
-    /// The mesh written as a Gmsh file and read again; in SI_UNITS units and as the scene stands only.
+    /// The mesh written as a Gmsh file and read again; in SI units and as the scene stands only.
     pub(crate) read_from_gmsh: bool,
 }
 
-/// The scene in SI_UNITS units, as it stands.
+/// The scene in SI units, as it stands.
 pub(crate) const PLAIN_VIEW: View = View {
     frame: SI_UNITS,
     turns: 0,
@@ -30,7 +30,7 @@ pub(crate) const PLAIN_VIEW: View = View {
     read_from_gmsh: false,
 };
 
-/// Units of length, time and mass that differ from SI_UNITS by up to a thousand.
+/// Units of length, time and mass that differ from SI units by up to a thousand.
 pub(crate) fn random_units(random: &mut Random) -> UnitFrame {
     let length = 10.0_f64.powf(random.within(-3.0, 3.0));
     let time = 10.0_f64.powf(random.within(-3.0, 3.0));

@@ -1,6 +1,6 @@
 //! GOAL: a scene translated, turned, mirrored, renumbered and in other units is the same scene.
 //! SCENE: scenes of all parts in the plane, in plan and around a trench.
-//! REFERENCE: the scene in SI_UNITS units.
+//! REFERENCE: the scene in SI units.
 
 use basemat_problems::random::Random;
 use basemat_problems::scenes::{SI_UNITS, UnitFrame};

@@ -1,4 +1,4 @@
-//! Statements that hold for every run: properties of given and of random scenes.
+//! Properties of every run, in fixed and in random scenes.
 
 mod properties;
 mod random_scenes;

@@ -63,7 +63,7 @@ proptest! {
     }
 
     #[test]
-    fn units_do_not_matter(length in -3.0..3.0, time in -2.0..2.0, mass in -4.0..4.0, mu in 0.2..0.7) {
+    fn units_have_no_effect(length in -3.0..3.0, time in -2.0..2.0, mass in -4.0..4.0, mu in 0.2..0.7) {
         let frame = UnitFrame {
             length: 10.0_f64.powf(length),
             time: 10.0_f64.powf(time),
@@ -99,7 +99,7 @@ proptest! {
     }
 }
 
-/// Runs with each friction, block and tower.
+/// Runs of block and tower with each friction coefficient.
 fn contact_runs() -> Vec<(f64, Vec<State>)> {
     let mut runs = Vec::new();
     for mu in [0.0, 0.2, 0.5, 1.5, f64::INFINITY] {
@@ -135,7 +135,7 @@ fn contact_conditions_hold_at_every_step() {
                     assert!(end.shear.abs() <= limit, "friction, {context}");
                 }
                 let slip_increment = end.slip - start.slip;
-                // Friction works against the slip, and only slides at its limit.
+                // Friction works against the slip, and an element slides at the friction limit only.
                 let min_work = -1e-14 * max_pressure * max_displacement;
                 assert!(end.shear * slip_increment >= min_work, "work, {context}");
                 let is_at_limit = (end.shear.abs() - mu * end.pressure).abs() <= traction_tolerance;
@@ -178,7 +178,7 @@ fn preload_is_in_equilibrium() {
     }
 }
 
-/// A weight beside the middle: the moment of the pressures is the weight times its arm.
+/// Under a weight beside the middle, the moment of the pressures is the weight times its arm.
 #[test]
 fn eccentric_preload_balances_moments() {
     let along = block(SI_UNITS).vertical_at(1.3);
@@ -204,13 +204,13 @@ fn a_structure_at_rest_stays_at_rest() {
 }
 
 #[test]
-fn runs_repeat_to_the_bit() {
+fn repeated_runs_have_the_same_bits() {
     assert_eq!(rocking_states(SI_UNITS, 0.5, 0.4), rocking_states(SI_UNITS, 0.5, 0.4));
 }
 
-/// The ground stops being a number after a while: the step fails, and nothing has changed.
+/// The ground motion becomes NaN: the step fails, and the state is unchanged.
 #[test]
-fn failed_step_changes_nothing() {
+fn a_failed_step_leaves_the_state_unchanged() {
     let builder = scene(SI_UNITS, 0.5).structure(block(SI_UNITS)).interface(friction(0.4));
     let expected = states(&mut builder.build().unwrap(), 100).pop().unwrap();
     let field = shake(SI_UNITS, 0.5);
@@ -235,8 +235,8 @@ fn failed_step_changes_nothing() {
     }
 }
 
-/// Changes the mode again and again once an element slides.
-fn never_settled(mode: Mode, start: &PreviousContact, next: Mode) -> Mode {
+/// Changes the mode in every iteration once an element slides.
+fn never_converged(mode: Mode, start: &PreviousContact, next: Mode) -> Mode {
     match mode {
         _ if start.state.slip.abs() <= 1e-5 || next != mode => next,
         Mode::Stick => Mode::Open,
@@ -244,10 +244,10 @@ fn never_settled(mode: Mode, start: &PreviousContact, next: Mode) -> Mode {
     }
 }
 
-/// A law whose modes never settle fails in the mode search, with the step's number, residual and modes.
+/// A law whose modes never converge fails in the mode search, with the step's number, residual and modes.
 #[test]
-fn step_without_modes_changes_nothing() {
-    let law = InPlane(LawWithNextMode { law: friction(0.2), next: never_settled });
+fn a_step_without_solution_leaves_the_state_unchanged() {
+    let law = InPlane(LawWithNextMode { law: friction(0.2), next: never_converged });
     let mut simulation: Simulation =
         scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law).build().unwrap();
     let mut last_state = simulation.state().clone();

@@ -12,7 +12,7 @@ use basemat_problems::random::Random;
 const RUN_STEPS: usize = 60;
 /// Largest residual of the energy balance.
 const BALANCE_TOLERANCE: f64 = 1e-9;
-/// Largest decrease of a sum that never falls, relative to the largest energy.
+/// Largest decrease of a sum that never decreases but for rounding, relative to the largest energy.
 const DECREASE_TOLERANCE: f64 = 1e-12;
 
 /// A random scene, and whether its plastic strain is normal to the yield surface.
@@ -125,7 +125,7 @@ fn random_scene(seed: u64) -> YieldingScene {
     YieldingScene { simulation, is_associated, text }
 }
 
-/// Counts of what random scenes did.
+/// Counts over random scenes.
 #[derive(Debug, Default)]
 struct YieldingSceneCounts {
     refused: usize,

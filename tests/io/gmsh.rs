@@ -1,4 +1,4 @@
-//! GOAL: meshes from Gmsh are read as they are, or refused with their line.
+//! GOAL: meshes from Gmsh are read, or refused with the line of the error.
 //! SCENE: the example of Gmsh's manual, partitions, second-order elements, damaged files, any
 //! bytes.
 //! REFERENCE: a layered block written and read back; typed errors.
@@ -67,7 +67,7 @@ $EndNodeData
 ";
 
 #[test]
-fn the_manuals_example_is_read() {
+fn the_example_of_the_manual_is_read() {
     let gmsh = read(MANUAL_EXAMPLE).unwrap();
     assert_eq!((gmsh.surfaces(), gmsh.lines().len()), (vec![""], 0));
     let mesh = gmsh.mesh(&[("", concrete())]).unwrap();
@@ -133,7 +133,7 @@ fn matrices(model: &FemModel) -> [Vec<f64>; 2] {
 }
 
 #[test]
-fn a_block_comes_back_as_it_was() {
+fn a_written_block_is_read_back() {
     let soft = Material::new(1.0e9, 0.3, 1800.0).unwrap();
     let layers = [Layer::new(1.0, 2, soft), Layer::new(1.0, 1, concrete())];
     let mesh = Mesh::graded_block(&[0.0, 0.3, 0.7, 1.0], &layers).unwrap();
@@ -149,12 +149,12 @@ fn a_block_comes_back_as_it_was() {
     assert_eq!(read_model.base(), model.base());
     for (computed, expected) in matrices(&read_model).iter().zip(matrices(&model)) {
         let scale = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        // Turned quadrilaterals sum in another order.
+        // Reordered quadrilaterals sum in another order.
         assert!(computed.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-14 * scale));
     }
 }
 
-/// Line and reason of the refusal of `text`.
+/// Line and cause of the error of `text`.
 pub(super) fn refusal(text: &str) -> (usize, FileFault) {
     match read(text) {
         Err(Error::File(FileError { file, line, fault })) if file == "test.msh" => (line, fault),
@@ -162,13 +162,13 @@ pub(super) fn refusal(text: &str) -> (usize, FileFault) {
     }
 }
 
-/// Line and reason of the refusal of the manual's example with `from` replaced by `to`.
+/// Line and cause of the error of the manual's example with `from` replaced by `to`.
 fn refusal_with(from: &str, to: &str) -> (usize, FileFault) {
     refusal(&MANUAL_EXAMPLE.replacen(from, to, 1))
 }
 
 #[test]
-fn bad_files_are_refused_with_their_line() {
+fn invalid_files_are_refused_with_their_line() {
     assert!(matches!(refusal_with("4.1 0 8", "4.0 0 8"), (2, FileFault::Format { .. })));
     assert!(matches!(refusal_with("4.1 0 8", "4.1 1 8"), (2, FileFault::Missing { .. })));
     assert!(matches!(refusal_with("4.1 0 8", "4.1 1 4"), (2, FileFault::Format { .. })));
@@ -194,10 +194,10 @@ fn bad_files_are_refused_with_their_line() {
 
 /// Editors may write a byte-order mark before the first line; anywhere else it is not a number.
 #[test]
-fn a_byte_order_mark_is_passed_over() {
+fn a_byte_order_mark_is_skipped() {
     let marked = format!("\u{feff}{MANUAL_EXAMPLE}");
     assert_eq!(read(&marked).unwrap(), read(MANUAL_EXAMPLE).unwrap());
-    // Lines are counted as without it.
+    // Line numbers are those without it.
     assert_eq!(refusal(&marked.replacen("1. 1. 0.", "1. x 0.", 1)), (15, not_a_number("x")));
     assert_eq!(refusal_with("1. 1. 0.", "\u{feff}1. 1. 0.").0, 15);
 }
@@ -208,7 +208,7 @@ fn manual_with_coordinate(x: &str) -> String {
 }
 
 #[test]
-fn numbers_are_read_wholly_or_refused() {
+fn numbers_are_read_completely_or_refused() {
     for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
         assert_eq!(
             read(&manual_with_coordinate(two)).unwrap(),
@@ -231,7 +231,7 @@ fn groups_of_any_number_are_read() {
 }
 
 #[test]
-fn groups_that_are_not_there_are_named() {
+fn missing_groups_are_named() {
     let gmsh = read(MANUAL_EXAMPLE).unwrap();
     for materials in [&[][..], &[("", concrete()), ("roof", concrete())]] {
         let error = gmsh.mesh(materials).unwrap_err();
@@ -254,7 +254,7 @@ fn groups_that_are_not_there_are_named() {
 }
 
 #[test]
-fn what_is_announced_must_be_there() {
+fn counts_must_be_those_announced() {
     let nodes = refusal_with("1 6 1 6", "1 7 1 6");
     assert_eq!(nodes, (18, count("nodes", 6, "7, as announced")));
     let elements = refusal_with("1 2 1 2", "1 1 1 2");
@@ -268,9 +268,9 @@ fn read_with_height(z: &str) -> basemat::Result<GmshMesh> {
     read(&MANUAL_EXAMPLE.replacen("0. 1. 0.", &format!("0. 1. {z}"), 1))
 }
 
-/// Gmsh leaves some 10⁻¹⁷ of z when a plane mesh was turned or extruded; this is ignored.
+/// Gmsh writes z of about 10⁻¹⁷ after a plane mesh was rotated or extruded; this is ignored.
 #[test]
-fn the_plane_is_as_flat_as_rounding_leaves_it() {
+fn rounding_of_z_is_ignored() {
     assert_eq!(read_with_height("1e-17").unwrap(), read(MANUAL_EXAMPLE).unwrap());
     assert!(read_with_height("-1e-10").is_ok());
     assert!(read_with_height("1e-6").is_err() && read_with_height("-1e-6").is_err());
@@ -285,9 +285,9 @@ fn a_group_has_one_material() {
     assert_eq!(fault, value("material of surface ''", "given twice", "given once"));
 }
 
-/// A square of the second order, clockwise: corners and the nodes between them are turned round.
+/// A clockwise square of the second order: corners and the nodes between them are reordered.
 #[test]
-fn clockwise_elements_of_the_second_order_are_turned() {
+fn clockwise_elements_of_the_second_order_are_reordered() {
     let text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 8 1 8\n2 1 0 8\n\
         1\n2\n3\n4\n5\n6\n7\n8\n0 0 0\n0 2 0\n2 2 0\n2 0 0\n0 1 0\n1 2 0\n2 1 0\n1 0 0\n$EndNodes\n\
         $Elements\n1 1 1 1\n2 1 16 1\n1 1 2 3 4 5 6 7 8\n$EndElements\n";

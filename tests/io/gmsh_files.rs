@@ -1,8 +1,8 @@
-//! GOAL: files that Gmsh 4.15 wrote make the models they describe.
+//! GOAL: files written by Gmsh 4.15 give the models they describe.
 //! SCENE: a block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and
 //! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
-//! REFERENCE: areas, uniform strain, and the statics of the layered block; of a wall on a base of which one half has
-//! another name, too, the coordinates.
+//! REFERENCE: areas, uniform strain, and the statics of the layered block; coordinates of a
+//! wall whose base is partly in a second group.
 
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::GmshMesh;
@@ -56,7 +56,7 @@ fn elements_groups_and_lines_are_those_of_the_file() {
             assert!(line.windows(2).all(|pair| pair[1][0] - pair[0][0] > 0.1));
             assert!(line.len() > 16, "{}", line.len());
         }
-        // All of the base: no other node lies as low.
+        // The whole base: no other node is as low.
         assert_eq!(
             gmsh.line("base").unwrap(),
             model.mesh().nodes_at_height(0.0, 1e-9).unwrap(),
@@ -65,22 +65,22 @@ fn elements_groups_and_lines_are_those_of_the_file() {
     }
 }
 
-/// Young's modulus times this factor of Poisson's ratio: stress over strain without lateral strain, λ + 2μ.
+/// Stress over strain without lateral strain, λ + 2μ.
 fn constrained_modulus(young: f64, nu: f64) -> f64 {
     young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
 }
 
 /// The mass follows the areas, and uniform strain has the energy of both materials. Its forces are zero except at the
-/// edge and the seam, whatever the shape of the elements.
+/// edge and at the interface of the materials, whatever the shape of the elements.
 #[test]
-fn areas_materials_and_the_order_of_nodes_are_right() {
+fn masses_and_energies_of_uniform_strain_are_exact() {
     for (name, _) in GMSH_FILES {
         let model = model(&file(name));
-        let ride = model.rigid_motion(Direction::X, [0.0; 3]);
+        let translation = model.rigid_motion(Direction::X, [0.0; 3]);
         let mut mass = Triplets::new(model.dofs());
         model.mass(&mut mass).unwrap();
         let expected = 2500.0 * 12.0 + 1800.0 * 18.0;
-        let found = dot(&ride, &product(&mass, &ride));
+        let found = dot(&translation, &product(&mass, &translation));
         assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
         // u_x = x: σ_xx ε_xx = λ + 2μ.
         let mut strain = vec![0.0; model.dofs()];
@@ -118,7 +118,7 @@ fn jacobi_preconditioned(residual: &[f64], diagonal: &[f64]) -> Vec<f64> {
     residual.iter().zip(diagonal).map(|(r, k)| r / k).collect()
 }
 
-/// Work of a sideways weight of 1 m/s² on the block that stands on a fixed base: f·K⁻¹f by conjugate
+/// Work of a horizontal weight of 1 m/s² on a block with a fixed base: f·K⁻¹f by conjugate
 /// gradients.
 fn compliance(model: &FemModel) -> f64 {
     let n = model.dofs();
@@ -167,7 +167,7 @@ fn a_static_solution_is_that_of_the_layered_block() {
     let fine = compliance(&FemModel::on_base(block).unwrap());
     for ((name, _), tolerance) in GMSH_FILES.into_iter().zip([5e-3, 2e-3]) {
         let found = compliance(&model(&file(name)));
-        println!("{name}: {found:.6e}, fine block {fine:.6e}, apart by {:.1e}", found / fine - 1.0);
+        println!("{name}: {found:.6e}, fine block {fine:.6e}, error {:.1e}", found / fine - 1.0);
         assert!((found / fine - 1.0).abs() < tolerance, "{name}: {found} {fine}");
     }
 }
@@ -193,7 +193,7 @@ fn a_curve_belongs_to_all_of_its_groups() {
     let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     assert!(gmsh.mesh(&[("wall", concrete)]).is_ok());
 
-    // The second surface in a second group as well: one of its groups has the material, not both.
+    // The second surface is in a second group too: one of its groups may have a material, not both.
     let text = std::fs::read_to_string(&path).unwrap();
     let text =
         text.replacen("2 2 0 0 6 3 0 1 12 4 2 3 4 -7", "2 2 0 0 6 3 0 2 12 13 4 2 3 4 -7", 1);

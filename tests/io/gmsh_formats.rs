@@ -1,5 +1,5 @@
-//! GOAL: versions 2.2 and 4.1 of Gmsh's format, as text and binary, hold the same mesh; damage is refused.
-//! SCENE: files that Gmsh 4.15 wrote (`tests/data/gmsh/formats.py`): bricks, a wall of quadrilaterals in two groups, a
+//! GOAL: versions 2.2 and 4.1 of Gmsh's format, as text and binary, contain the same mesh; damaged files are refused.
+//! SCENE: files written by Gmsh 4.15 (`tests/data/gmsh/formats.py`): bricks, a wall of quadrilaterals in two groups, a
 //! wall of triangles, a column, a point; the example of the manual; files with any byte changed, cut anywhere.
 //! REFERENCE: the four forms of one mesh; places and volumes by hand.
 
@@ -76,9 +76,9 @@ fn all_forms_are_the_same_mesh() {
     }
 }
 
-/// The example of the manual of version 2.2, comments left out, with a line below; the plane.
+/// The example of the manual of version 2.2, without comments, with a line below, read in the plane.
 #[test]
-fn the_manuals_example_of_version_2_is_read() {
+fn the_example_of_the_manual_of_version_2_is_read() {
     let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 7 \"base\"\n$EndPhysicalNames\n\
         $Nodes\n6\n1 0.0 0.0 0.0\n2 1.0 0.0 0.0\n3 1.0 1.0 0.0\n4 0.0 1.0 0.0\n5 2.0 0.0 0.0\n6 2.0 1.0 0.0\n$EndNodes\n\
         $Elements\n4\n1 3 2 99 2 1 2 3 4\n2 3 2 99 2 2 5 6 3\n3 1 3 7 1 0 1 2\n4 1 2 7 1 2 5\n$EndElements\n\
@@ -106,7 +106,7 @@ fn the_manuals_example_of_version_2_is_read() {
     }
 }
 
-/// Every part of a file that ends too early is refused.
+/// A file that ends early is refused wherever it ends.
 #[test]
 fn files_that_end_early_are_refused() {
     for form in FILE_FORMS {
@@ -123,7 +123,7 @@ fn files_that_end_early_are_refused() {
     }
 }
 
-/// Counts that no file could hold are refused when the file ends, without memory for them.
+/// Counts larger than any file are refused when the file ends, without memory for them.
 #[test]
 fn counts_beyond_the_file_are_refused() {
     for (form, section) in
@@ -193,7 +193,7 @@ fn nodes_of_a_file_are_merged() {
     let mut space = read(text.as_bytes()).unwrap();
     assert_eq!((space.merge_nodes(1e-4).unwrap(), space.nodes().len()), (2, 6));
     assert_eq!(space.cells(2, "9").unwrap(), [vec![0, 1, 2, 3], vec![1, 4, 5, 2]]);
-    // With a tolerance of a square's side the nodes are a row.
+    // A tolerance beyond the side of a square, or below zero, is an error.
     for tolerance in [1.2, -1.0] {
         assert!(space.merge_nodes(tolerance).is_err());
     }

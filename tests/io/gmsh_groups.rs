@@ -1,4 +1,4 @@
-//! GOAL: groups and the pieces of lines are those of the file; what it gives twice is refused.
+//! GOAL: groups and the pieces of lines are those of the file; repeated definitions are refused.
 //! SCENE: three squares in a row on two strips, partitions, repeated sections and elements.
 //! REFERENCE: the nodes of each line and strip by hand; typed errors.
 
@@ -11,7 +11,7 @@ use basemat::{FileFault, Simulation, Soil};
 
 use super::gmsh::{MANUAL_EXAMPLE, concrete, read, refusal};
 
-/// Three squares in a row; what is below them is a line each for the first and the last.
+/// Three squares in a row, with a line below the first and one below the last.
 const THREE_SQUARES: &str = "$MeshFormat\n4.1 0 8\n$EndMeshFormat
 $PhysicalNames\n1\n1 7 \"base\"\n$EndPhysicalNames
 $Entities\n0 1 1 0\n1 0 0 0 3 0 0 1 7 0\n1 0 0 0 3 1 0 0 0\n$EndEntities
@@ -20,7 +20,7 @@ $Nodes\n1 8 1 8\n2 1 0 8\n1\n2\n3\n4\n5\n6\n7\n8
 $Elements\n2 5 1 5\n1 1 1 2\n1 4 3\n2 1 2\n2 1 3 3\n3 1 2 6 5\n4 2 3 7 6\n5 3 4 8 7\n$EndElements
 ";
 
-/// Line of the refusal of `text`, in which `part` stands twice.
+/// Line of the error of `text`, in which `part` is repeated.
 #[track_caller]
 fn line_given_twice(text: &str, part: &str) -> usize {
     let refusal = refusal(text);
@@ -40,18 +40,18 @@ fn section<'a>(name: &str, text: &'a str) -> &'a str {
     &text[begin..end]
 }
 
-/// GOAL: what a file gives twice is refused, whole sections and single elements.
+/// GOAL: repeated sections, groups, entities and elements are refused.
 #[test]
-fn nothing_counts_twice() {
+fn repeated_definitions_are_refused() {
     let elements_twice = format!("{MANUAL_EXAMPLE}{}", section("Elements", MANUAL_EXAMPLE));
     assert_eq!(line_given_twice(&elements_twice, "$Elements"), 42);
     for name in ["MeshFormat", "Nodes", "PhysicalNames", "Entities", "Elements"] {
         let section_twice = format!("{THREE_SQUARES}{}", section(name, THREE_SQUARES));
         line_given_twice(&section_twice, &format!("section ${name}"));
     }
-    // The other sections may come more than once, as results do.
+    // Other sections, such as results, may be repeated.
     assert!(read(&format!("{MANUAL_EXAMPLE}{}", section("NodeData", MANUAL_EXAMPLE))).is_ok());
-    // Once more as it is, from another corner, clockwise, under another tag and entity.
+    // The same element again, from another corner, clockwise, under another tag and entity.
     for again in ["1 1 2 3 4", "9 3 4 1 2", "9 4 3 2 1"] {
         let text = MANUAL_EXAMPLE.replacen("1 2 1 2\n2 1 3 2\n", "1 3 1 9\n2 1 3 3\n", 1);
         let line = line_given_twice(
@@ -72,7 +72,7 @@ fn nothing_counts_twice() {
     let second_entity = entity.replace("1 7 0", "1 8 0");
     let entity_twice = apart.replacen(entity, &format!("{entity}{second_entity}"), 1);
     line_given_twice(&entity_twice, "entity 1");
-    // A line that two curves share is a line.
+    // A line on two curves is allowed.
     let lines = THREE_SQUARES.replacen("2 5 1 5\n1 1 1 2", "2 6 1 6\n1 1 1 3\n8 1 2", 1);
     assert_eq!(read(&lines).unwrap().foundations("base").unwrap().len(), 2);
 }
@@ -114,7 +114,7 @@ fn a_base_with_a_gap_is_two_foundations() {
     {
         assert!(FemModel::on_foundations(mesh_of(&gmsh), bad).is_err(), "{bad:?}");
     }
-    // With the middle closed it is one line.
+    // With a line below the middle square it is one line.
     let closed = THREE_SQUARES.replacen("2 5 1 5\n1 1 1 2\n", "2 6 1 6\n1 1 1 3\n9 3 2\n", 1);
     assert_eq!(read(&closed).unwrap().line("base").unwrap(), [0, 1, 2, 3]);
 }

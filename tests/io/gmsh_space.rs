@@ -1,5 +1,5 @@
-//! GOAL: meshes in space from Gmsh become the beams, shells and bricks that their groups stand for, or are an error.
-//! SCENE: a file that Gmsh 4.15 wrote (`tests/data/gmsh/space.py`): a block of bricks, a wall of quadrilaterals around
+//! GOAL: meshes in space from Gmsh become the beams, shells and bricks of their groups, or are an error.
+//! SCENE: a file written by Gmsh 4.15 (`tests/data/gmsh/space.py`): a block of bricks, a wall of quadrilaterals around
 //! triangles, a column and a beam; a brick, a shell and a line by hand; damaged files.
 //! REFERENCE: volumes and lengths, uniform strains of solids and plates, bending of a column; typed errors.
 
@@ -13,7 +13,7 @@ fn concrete() -> Material {
     Material::new(30.0e9, 0.2, 2500.0).unwrap()
 }
 
-/// I_z, about the axis across the orientation, is twice I_y.
+/// Section whose I_z, about the axis across the orientation, is twice I_y.
 fn section() -> BeamSection {
     BeamSection::new(0.2, [0.002, 0.004], 0.003).unwrap()
 }
@@ -38,7 +38,7 @@ fn file() -> GmshSpaceMesh {
     GmshSpaceMesh::read(basemat_problems::data_path("gmsh/space.msh")).unwrap()
 }
 
-/// Elements of as many nodes, of one kind in the file.
+/// Elements with these numbers of nodes.
 fn elements<'a>(mesh: &'a Mesh, nodes: &'a [usize]) -> impl Iterator<Item = &'a dyn Element> {
     mesh.elements().filter(|element| nodes.contains(&element.nodes().len()))
 }
@@ -130,7 +130,7 @@ fn is_inside_block([x, y, z]: [f64; 3]) -> bool {
     x > 0.01 && x < 3.99 && y > 0.01 && y < 2.99 && z > -0.79 && z < -0.01
 }
 
-/// A uniform strain of the block of unstructured bricks: exact energy, and no force inside.
+/// Under a uniform strain the block of unstructured bricks has the exact energy, and no force inside.
 #[test]
 fn bricks_pass_the_patch_test() {
     let mesh = file().mesh(&parts()).unwrap();
@@ -276,31 +276,31 @@ fn fault<T: std::fmt::Debug>(result: basemat::Result<T>) -> (usize, FileFault) {
     }
 }
 
-/// Where and why parts of a mesh are refused.
+/// Line and text of the error of a part of a mesh.
 struct PartRefusal {
     line: usize,
     text: String,
 }
 
-/// Refusal of the mesh of `text` with these parts.
+/// Error of the mesh of `text` with these parts.
 fn refusal(text: &str, parts: &[(&str, GmshPart)]) -> PartRefusal {
     let (line, fault) = fault(read(text).unwrap().mesh(parts));
     PartRefusal { line, text: fault.to_string() }
 }
 
 #[test]
-fn bricks_are_turned_right_side_out() {
+fn inverted_bricks_are_reordered() {
     let mesh = read(BRICK_FILE).unwrap().mesh(&brick_parts()).unwrap();
-    let turned = BRICK_FILE.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
-    let back = read(&turned).unwrap().mesh(&brick_parts()).unwrap();
+    let inverted = BRICK_FILE.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
+    let reordered = read(&inverted).unwrap().mesh(&brick_parts()).unwrap();
     let last_nodes = mesh.elements().last().unwrap().nodes();
     assert_eq!(last_nodes, [0, 1, 2, 3, 4, 5, 6, 7]);
-    assert_eq!(back.elements().last().unwrap().nodes(), last_nodes);
+    assert_eq!(reordered.elements().last().unwrap().nodes(), last_nodes);
 }
 
 #[test]
-fn every_element_has_one_part_or_is_a_side() {
-    // The line on the edge needs none.
+fn elements_need_one_part_unless_they_are_sides() {
+    // The line on the edge needs no part.
     assert_eq!(read(BRICK_FILE).unwrap().mesh(&brick_parts()).unwrap().elements().len(), 3);
     let PartRefusal { line, text } = refusal(BRICK_FILE, &brick_parts()[1..]);
     assert!(line == 43 && text.contains("part for line 1 of the group 'mast'"), "{line} {text}");
@@ -324,7 +324,7 @@ fn every_element_has_one_part_or_is_a_side() {
 }
 
 #[test]
-fn elements_that_cannot_be_right_are_named_with_their_line() {
+fn invalid_elements_are_named_with_their_line() {
     let along = [
         brick_parts()[1],
         brick_parts()[2],
@@ -347,7 +347,7 @@ fn elements_that_cannot_be_right_are_named_with_their_line() {
 }
 
 #[test]
-fn elements_that_are_not_read_are_named_and_counted() {
+fn unsupported_elements_are_named_and_counted() {
     let kinds = [
         (4, "12 tetrahedra (type 4)", "extruded layers, recombined)"),
         (7, "12 pyramids (type 7)", "extruded layers, recombined)"),

@@ -1,5 +1,5 @@
-//! GOAL: Matrix Market files keep every bit and are refused with line and reason.
-//! SCENE: files of scipy, spellings in use, round trips, bad files.
+//! GOAL: Matrix Market files keep every bit; invalid files are refused with line and cause.
+//! SCENE: files of scipy, spellings in use, round trips, invalid files.
 //! REFERENCE: numbers that scipy and numpy give for the same files.
 
 use basemat::structure::Triplets;
@@ -26,10 +26,10 @@ fn parse(text: &str) -> basemat::Result<Triplets> {
     Triplets::from_matrix_market("text", text.as_bytes())
 }
 
-/// Files of scipy.io.mmwrite; what scipy.io.mmread and numpy say of them: entries that are not
-/// zero, two of them, and the sum of the logarithms of all.
+/// Files of scipy.io.mmwrite; results of scipy.io.mmread and numpy for them: number of
+/// nonzero entries, two of them, and the sum of all logarithms.
 #[test]
-fn files_of_scipy_mean_the_same() {
+fn files_of_scipy_are_read_as_by_scipy() {
     // Order, count, entries above and below the diagonal, sum of logarithms.
     const GENERAL_MATRIX: (usize, usize, [f64; 2], f64) =
         (6, 21, [-255_566.503_131_418_17, 0.0], 98.743_898_183_749);
@@ -73,7 +73,7 @@ fn round_trips_keep_every_bit() {
         matrix.to_matrix_market("memory", &mut file).unwrap();
         let text = String::from_utf8(file).unwrap();
         assert_eq!(text.lines().next().unwrap().ends_with("symmetric"), symmetric);
-        assert!(text.lines().all(|line| !line.ends_with(" 0e0")), "zeros are left out");
+        assert!(text.lines().all(|line| !line.ends_with(" 0e0")), "zeros in the file");
         let back = parse(&text).unwrap();
         assert_eq!(dense(&back), dense(&matrix));
         // And once more, byte by byte.
@@ -84,7 +84,7 @@ fn round_trips_keep_every_bit() {
 }
 
 #[test]
-fn spellings_that_occur_are_read() {
+fn spellings_in_use_are_read() {
     let text = "%%matrixmarket MATRIX Coordinate Real General\r\n% c\r\n\r\n 2 2 3 \r\n\
                 1 1 1.5D+3\r\n% between\r\n2  2\t-1e-3\r\n1 1 0.5\r\n\r\n";
     assert_eq!(dense(&parse(text).unwrap()), [1500.5, 0.0, 0.0, -1e-3]);
@@ -95,7 +95,7 @@ fn spellings_that_occur_are_read() {
 
 /// Editors may write a byte-order mark before the first line.
 #[test]
-fn a_byte_order_mark_is_passed_over() {
+fn a_byte_order_mark_is_skipped() {
     let text = "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 2.0\n";
     let marked = format!("\u{feff}{text}");
     assert_eq!(parse(&marked).unwrap(), parse(text).unwrap());
@@ -109,7 +109,7 @@ fn file_of_one(value: &str) -> String {
 }
 
 #[test]
-fn numbers_are_read_wholly_or_refused() {
+fn numbers_are_read_completely_or_refused() {
     for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
         assert_eq!(dense(&parse(&file_of_one(two)).unwrap()), [2.0], "{two}");
     }
@@ -127,17 +127,17 @@ fn numbers_are_read_wholly_or_refused() {
     }
 }
 
-/// File of the general matrix whose lines after the header are `lines`.
+/// Coordinate file of a general matrix with these lines after the header.
 fn coordinate(lines: &str) -> String {
     format!("%%MatrixMarket matrix coordinate real general\n{lines}")
 }
 
-/// File of the symmetric matrix whose lines after the header are `lines`.
+/// Coordinate file of a symmetric matrix with these lines after the header.
 fn symmetric(lines: &str) -> String {
     format!("%%MatrixMarket matrix coordinate real symmetric\n{lines}")
 }
 
-/// File of the dense matrix whose lines after the header are `lines`.
+/// Array file of a general matrix with these lines after the header.
 fn array(lines: &str) -> String {
     format!("%%MatrixMarket matrix array real general\n{lines}")
 }
@@ -175,7 +175,7 @@ fn wrong_entries(found: usize, needed: usize) -> FileFault {
     count("entries", found, &format!("{needed}, as the size line states"))
 }
 
-/// Fault of a matrix of `rows` rows that needs so many bytes.
+/// Fault of a matrix of `rows` rows that needs `bytes` bytes.
 fn too_large(rows: f64, bytes: f64) -> FileFault {
     FileFault::Memory(MemoryError {
         quantity: "rows of the matrix",
@@ -187,7 +187,7 @@ fn too_large(rows: f64, bytes: f64) -> FileFault {
 }
 
 #[test]
-fn bad_files_are_refused_with_line_and_reason() {
+fn invalid_files_are_refused_with_line_and_cause() {
     let long = "1".repeat(70_000);
     for (text, line, reason) in [
         (String::new(), 0, FileFault::Missing { quantity: "header".into() }),
@@ -256,7 +256,7 @@ fn bad_files_are_refused_with_line_and_reason() {
 }
 
 #[test]
-fn a_bad_matrix_leaves_the_file_as_it_was() {
+fn an_invalid_matrix_leaves_the_file_unchanged() {
     let path = std::env::temp_dir().join(format!("basemat_{}_kept.mtx", std::process::id()));
     let mut good = Triplets::new(2);
     good.add(0, 0, 1.0);

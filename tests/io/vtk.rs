@@ -1,5 +1,5 @@
-//! GOAL: files for ParaView hold the states they were written from.
-//! SCENE: a tower and deformed shapes that move, written as series.
+//! GOAL: files for ParaView contain the states they were written from.
+//! SCENE: a moving tower and deformed shapes, written as series.
 //! REFERENCE: the XML, parsed here, and the recorded states.
 
 use std::collections::BTreeMap;
@@ -46,7 +46,7 @@ pub(super) fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
     found
 }
 
-/// A run of the tower: its states, what the recorder has, and the shape that moves.
+/// States, recorded time series and deformed shape of a run of the tower.
 struct RecordedTower {
     states: Vec<State>,
     time_series: TimeSeries,
@@ -74,7 +74,7 @@ fn attribute<'a>(line: &'a str, key: &str) -> &'a str {
 }
 
 #[test]
-fn a_series_holds_the_states() {
+fn a_series_has_the_recorded_states() {
     let RecordedTower { states, time_series, shape } = recorded_tower();
     let folder = folder("series");
     assert_eq!(paraview::write_series(&folder, "tower", &shape, &time_series), Ok(12));
@@ -119,7 +119,7 @@ fn a_series_holds_the_states() {
 
 #[test]
 fn deformed_shapes_move_as_their_structures() {
-    // A building turns about the middle of its base; its floors sway relative to it.
+    // A building rotates about the middle of its base; its floors sway relative to the base.
     let storeys = [Storey::new(3.0, 1e4, 1e7), Storey::new(4.0, 1e4, 1e7)];
     let building = ShearBuilding::new(10.0, 1e4, 1e5, &storeys).unwrap();
     let building = building.centered_at(7.0).unwrap();
@@ -148,7 +148,7 @@ fn deformed_shapes_move_as_their_structures() {
     let moved = shape.displacements(&dofs).unwrap();
     assert_eq!(moved, [[0.0; 3], [0.0, 0.25, 0.0], [0.0; 3], [0.0; 3]]);
 
-    // Followers of a rigid link go with it.
+    // Followers of a rigid link move with its node.
     let mut mesh = Mesh::new();
     let places = [[0.0, 0.0], [0.0, 3.0], [-2.0, 0.0], [2.0, 0.0]];
     let nodes = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
@@ -164,7 +164,7 @@ fn deformed_shapes_move_as_their_structures() {
     let moved = DeformedShape::of_model(&model).displacements(&shift).unwrap();
     assert_eq!(moved, [[1.0, 0.0, 0.0]; 4]);
 
-    // P from a block: a rigid turn leaves all distances, to second order.
+    // A rigid rotation of a block keeps all distances, to second order.
     let shape = DeformedShape::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
     let moved = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();
     let moved_point = |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + moved[k][d]);
@@ -174,7 +174,7 @@ fn deformed_shapes_move_as_their_structures() {
 }
 
 #[test]
-fn bad_requests_are_errors() {
+fn invalid_requests_are_errors() {
     let RecordedTower { time_series, shape, .. } = recorded_tower();
     let folder = folder("errors");
     for name in ["", "a/b", "..", "a b", "\"x\""] {
@@ -194,7 +194,7 @@ fn bad_requests_are_errors() {
     let without = Recorder::new().start(&simulation).unwrap();
     let error = paraview::write_series(&folder, "a", &shape, &without).unwrap_err();
     assert!(matches!(error, Error::Scene { .. }));
-    // A folder that cannot be made.
+    // A folder that cannot be created.
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("file"), "").unwrap();
     let fault = paraview::write_series(folder.join("file/deeper"), "a", &shape, &time_series);

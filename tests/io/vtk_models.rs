@@ -1,4 +1,4 @@
-//! Models in space as ParaView's cells: bricks, shells, bars, masses, and a solid of another form.
+//! Models in space as cells of ParaView: bricks, shells, beams, masses, and a tetrahedron.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -78,7 +78,7 @@ fn model() -> FemModel {
 
 /// Two blocks of clay beside a mat of concrete, sheared by 1 % and compressed.
 #[test]
-fn state_of_soil_that_yields_is_cell_data() {
+fn states_of_yielding_solids_are_cell_data() {
     let clay = SharedMaterial::from(Iwan::hyperbolic(20.0e6, 40.0e3, 0.4, 0.49, 1900.0).unwrap());
     let concrete = SharedMaterial::from(Material::new(30.0e9, 0.2, 2400.0).unwrap());
     let mesh = Mesh::quad8_block(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0], |column, _| {
@@ -117,7 +117,7 @@ fn state_of_soil_that_yields_is_cell_data() {
     assert!(matches!(error, Error::Scene { .. }), "{error}");
 }
 
-/// Volume of a brick of VTK: positive if its second side lies where the first one faces, counter-clockwise.
+/// Volume of a brick of VTK; positive if the normal of its first face points to the second face.
 fn volume(points: &[[f64; 3]]) -> f64 {
     let [[a, b, c], [d, e, f], [g, h, i]] = [1, 3, 4].map(|corner| between(points, 0, corner));
     a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
@@ -137,7 +137,7 @@ fn assert_cells(grid: &BTreeMap<String, Vec<f64>>, model: &FemModel) {
     for brick in [&cells[..8], &cells[8..16]] {
         let corners: Vec<[f64; 3]> = brick.iter().map(|&corner| points[corner]).collect();
         assert!((volume(&corners) - 2.0 * 3.0).abs() < 1e-12, "{brick:?}");
-        // Both sides run the same way round.
+        // Both faces have the same order of corners.
         for k in 0..4 {
             assert_eq!(between(&corners, k, k + 4), between(&corners, 0, 4));
         }
@@ -147,7 +147,7 @@ fn assert_cells(grid: &BTreeMap<String, Vec<f64>>, model: &FemModel) {
 }
 
 #[test]
-fn a_model_in_space_is_written_by_its_elements() {
+fn models_in_space_are_written_as_cells() {
     let model = model();
     let shape = DeformedShape::of_model(&model);
     let ground = SpringGround::under(&model, 2, 4e7, 3e7).unwrap();

@@ -209,7 +209,7 @@ fn short_files_of_other_agencies_are_read() {
     }
 }
 
-/// GOAL: times rounded too coarsely for a time step are refused; the error asks for `time_step`.
+/// GOAL: times rounded too coarsely for a time step are refused; the error names `time_step`.
 #[test]
 fn times_that_are_rounded_too_coarsely_ask_for_the_step() {
     let columns = ColumnFormat::new(SI_UNIT);

@@ -14,12 +14,12 @@ use super::agency_files::{bytes, path};
 use super::{GRAVITY_UNIT, STANDARD_GRAVITY, error_at, read, refusal};
 
 /// Values along the lines, in g, every 10 ms.
-fn along() -> AlongLinesFormat {
+fn along_lines_in_g() -> AlongLinesFormat {
     AlongLinesFormat::new(GRAVITY_UNIT, 0.01)
 }
 
 /// One column of accelerations, in g, every 10 ms.
-fn column(column: usize) -> ColumnFormat {
+fn column_in_g(column: usize) -> ColumnFormat {
     let columns = ColumnFormat::equally_spaced(GRAVITY_UNIT, 0.01);
     ColumnFormat { acceleration_column: Some(column), ..columns }
 }
@@ -50,10 +50,10 @@ fn assert_series(record: &Record, expected: &[f64], factor: f64) {
 /// GOAL: all values of all lines are read, in whole and ragged lines and with any separator.
 #[test]
 fn all_values_of_a_line_are_read() {
-    let record = read(&bytes("eight_per_line.txt"), &along()).unwrap();
+    let record = read(&bytes("eight_per_line.txt"), &along_lines_in_g()).unwrap();
     assert_series(&record, &words("eight_per_line.txt", 0, 99), STANDARD_GRAVITY);
     assert_eq!((record.len(), record.duration()), (200, 1.99));
-    let record = read(&bytes("eight_per_line_ragged.txt"), &along()).unwrap();
+    let record = read(&bytes("eight_per_line_ragged.txt"), &along_lines_in_g()).unwrap();
     assert_series(&record, &words("eight_per_line_ragged.txt", 0, 99), STANDARD_GRAVITY);
     assert_eq!(record.len(), 27);
     // Separated by commas, semicolons and touching signs.
@@ -62,7 +62,7 @@ fn all_values_of_a_line_are_read() {
         "1.5; 2.5;-3.5;\n4.5;5.5;6.5;\n7.5\n",
         "1.5 2.5-3.5\n\n4.5 5.5 6.5\n# end\n7.5",
     ] {
-        let record = read(text, &along()).unwrap();
+        let record = read(text, &along_lines_in_g()).unwrap();
         assert_series(&record, &[1.5, 2.5, -3.5, 4.5, 5.5, 6.5, 7.5], STANDARD_GRAVITY);
     }
 }
@@ -72,11 +72,11 @@ fn all_values_of_a_line_are_read() {
 fn no_column_of_a_series_is_read() {
     for name in ["eight_per_line.txt", "shake91.acc"] {
         for number in [1, 2, 8] {
-            let format = ColumnFormat { header_lines: 1, ..column(number) };
+            let format = ColumnFormat { header_lines: 1, ..column_in_g(number) };
             assert!(read(&bytes(name), &format).is_err(), "{name} {number}");
         }
     }
-    let error = refusal(&bytes("eight_per_line.txt"), &column(1));
+    let error = refusal(&bytes("eight_per_line.txt"), &column_in_g(1));
     assert!(error.line == 1 && error.fault.to_string().contains("AlongLinesFormat"), "{error}");
     let single_column = ColumnFormat::equally_spaced(GRAVITY_UNIT, 0.01);
     let error = refusal(&bytes("eight_per_line.txt"), &single_column);
@@ -84,15 +84,15 @@ fn no_column_of_a_series_is_read() {
     // A sentence of eight words is no row of titles.
     let titled =
         [b"ground motion of a station in the hills\n", &bytes("eight_per_line.txt")[..]].concat();
-    assert!(read(&titled, &column(1)).is_err());
+    assert!(read(&titled, &column_in_g(1)).is_err());
     assert!(Record::read_all(path("eight_per_line.txt"), &single_column).is_err());
     // Lines of unequal length.
     for number in [1, 2, 3] {
-        let error = refusal(&bytes("eight_per_line_ragged.txt"), &column(number));
+        let error = refusal(&bytes("eight_per_line_ragged.txt"), &column_in_g(number));
         assert_eq!(error, error_at(4, count("columns", 3, "8, as before")), "{number}");
     }
     // A stated number of samples confirms columns.
-    let counted = ColumnFormat { samples: Some(25), ..column(1) };
+    let counted = ColumnFormat { samples: Some(25), ..column_in_g(1) };
     assert_eq!(read(&bytes("eight_per_line.txt"), &counted).unwrap().len(), 25);
 }
 
@@ -106,11 +106,11 @@ fn columns_without_titles_are_read_beside_times() {
         let second = f64::from(k * k % 13);
         writeln!(text, "{time:.3} {first:.4} {second:.4}").unwrap();
     }
-    let record = read(&text, &column(2)).unwrap();
+    let record = read(&text, &column_in_g(2)).unwrap();
     assert_eq!((record.len(), record.accelerations()[3]), (30, 9.0 * STANDARD_GRAVITY));
-    let error = refusal(&text, &along());
+    let error = refusal(&text, &along_lines_in_g());
     assert!(error.line == 1 && error.fault.to_string().contains("column 1"), "{error}");
-    let counted = AlongLinesFormat { samples: Some(90), ..along() };
+    let counted = AlongLinesFormat { samples: Some(90), ..along_lines_in_g() };
     assert_eq!(read(&text, &counted).unwrap().len(), 90);
 }
 
@@ -118,12 +118,12 @@ fn columns_without_titles_are_read_beside_times() {
 #[test]
 fn components_that_differ_are_columns() {
     let text = "0.1 0.2 0.3\n0.11 0.21 0.31\n0.12 0.22 0.32\n";
-    let record = read(text, &column(2)).unwrap();
+    let record = read(text, &column_in_g(2)).unwrap();
     assert_series(&record, &[0.2, 0.21, 0.22], STANDARD_GRAVITY);
     // Random numbers could be either.
     let random = "0.1 -0.7 0.4\n0.3 0.2 -0.6\n-0.2 0.5 0.1\n";
-    assert!(read(random, &column(2)).is_err());
-    let counted = ColumnFormat { samples: Some(3), ..column(2) };
+    assert!(read(random, &column_in_g(2)).is_err());
+    let counted = ColumnFormat { samples: Some(3), ..column_in_g(2) };
     assert_eq!(read(random, &counted).unwrap().len(), 3);
 }
 
@@ -135,16 +135,16 @@ fn a_lost_value_is_found() {
     let short = lines[11].rsplit_once(' ').unwrap().0;
     lines[11] = short;
     assert_eq!(
-        refusal(&lines.join("\n"), &along()),
+        refusal(&lines.join("\n"), &along_lines_in_g()),
         error_at(12, count("columns", 7, "8, as before"))
     );
     let long = format!("{short} 0.1 0.2");
     lines[11] = &long;
     assert_eq!(
-        refusal(&lines.join("\n"), &along()),
+        refusal(&lines.join("\n"), &along_lines_in_g()),
         error_at(12, count("columns", 9, "8, as before"))
     );
-    let one_more = AlongLinesFormat { samples: Some(201), ..along() };
+    let one_more = AlongLinesFormat { samples: Some(201), ..along_lines_in_g() };
     assert_eq!(refusal(&text, &one_more), error_at(25, count("samples", 200, "201")));
 }
 
@@ -152,7 +152,7 @@ fn a_lost_value_is_found() {
 #[test]
 fn cards_are_read_by_their_fortran_format() {
     let layout: FortranFormat = "8F9.6".parse().unwrap();
-    let with_header = AlongLinesFormat { header_lines: 1, ..along() };
+    let with_header = AlongLinesFormat { header_lines: 1, ..along_lines_in_g() };
     let with_layout = AlongLinesFormat { layout: Some(layout), ..with_header };
     let expected = words("shake91.acc", 1, 72);
     assert_eq!(expected.len(), 200);
@@ -163,9 +163,9 @@ fn cards_are_read_by_their_fortran_format() {
     // Without header and format, the number of the card would be taken for a value.
     let text = String::from_utf8(bytes("shake91.acc")).unwrap();
     let cards = text.split_once('\n').unwrap().1;
-    let error = refusal(cards, &along());
+    let error = refusal(cards, &along_lines_in_g());
     assert!(error.line == 1 && error.fault.to_string().contains("column 9"), "{error}");
-    let card_format = AlongLinesFormat { layout: Some(layout), ..along() };
+    let card_format = AlongLinesFormat { layout: Some(layout), ..along_lines_in_g() };
     assert_series(&read(cards, &card_format).unwrap(), &expected, STANDARD_GRAVITY);
     // Numbers ten wide, which touch: in columns of nine they are other numbers.
     let touching = words("shake_touch.acc", 1, 99);
@@ -184,7 +184,7 @@ fn cards_are_read_by_their_fortran_format() {
     }
     // Numbers without points, as Fortran reads them.
     let text = "    1    -2    30\n 12345     0";
-    let format = AlongLinesFormat { layout: Some("3F6.3".parse().unwrap()), ..along() };
+    let format = AlongLinesFormat { layout: Some("3F6.3".parse().unwrap()), ..along_lines_in_g() };
     let record = read(text, &format).unwrap();
     assert_series(&record, &[0.001, -0.002, 0.03, 12.345, 0.0], STANDARD_GRAVITY);
 }
@@ -232,17 +232,18 @@ fn words_of_list() -> Vec<f64> {
 #[test]
 fn units_and_headers_are_checked() {
     for header in ["Acceleration (cm/s2)", "# unit: gal"] {
-        let error = refusal(&format!("{header}\n0.1 0.2\n0.3 0.5\n0.1 0.6\n"), &along());
+        let error = refusal(&format!("{header}\n0.1 0.2\n0.3 0.5\n0.1 0.6\n"), &along_lines_in_g());
         assert!(error.fault.to_string().contains("title"), "{header}: {error}");
     }
-    let record = read("Acceleration (g)\n0.1 0.2\n0.3 0.5\n0.1 0.6\n", &along()).unwrap();
+    let record =
+        read("Acceleration (g)\n0.1 0.2\n0.3 0.5\n0.1 0.6\n", &along_lines_in_g()).unwrap();
     assert_eq!(record.len(), 6);
-    let error = refusal("Station 7\n0.1 0.2\n0.3 0.5\n", &along());
+    let error = refusal("Station 7\n0.1 0.2\n0.3 0.5\n", &along_lines_in_g());
     assert_eq!(error.line, 1);
     assert!(error.fault.to_string().contains("header_lines"), "{error}");
     for text in
         ["0.1 nan\n0.3 0.5\n", "0.1,,0.2\n0.3,0.5,0.1\n", "0,1 0,2\n0,3 0,5\n", "0.1 0.2\n0.3 x\n"]
     {
-        assert!(read(text, &along()).is_err(), "{text}");
+        assert!(read(text, &along_lines_in_g()).is_err(), "{text}");
     }
 }

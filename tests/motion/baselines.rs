@@ -113,14 +113,14 @@ fn baselines_remove_a_polynomial() {
     ] {
         let treated = drift.with_baseline(baseline).unwrap();
         let remainder = treated.peaks().acceleration;
-        // The normal equations of twice integrated polynomials cost four digits.
+        // The normal equations of twice integrated polynomials lose four digits.
         assert!(remainder < 1e-11, "{baseline:?}: {remainder:e}");
     }
 }
 
 /// GOAL: degrees out of range and records too short for them are refused.
 #[test]
-fn bad_baselines_are_refused() {
+fn invalid_baselines_are_refused() {
     let record = el_centro_1940();
     for baseline in [
         Baseline::VelocityPolynomial { degree: 0 },
@@ -142,7 +142,7 @@ fn bad_baselines_are_refused() {
 proptest! {
     /// GOAL: end conditions hold for arbitrary records.
     #[test]
-    fn baselines_hold_for_any_record(values in prop::collection::vec(-10.0..10.0_f64, 12..200)) {
+    fn end_conditions_hold_for_any_record(values in prop::collection::vec(-10.0..10.0_f64, 12..200)) {
         let record = Record::new(0.02, values).unwrap();
         let end = record.duration();
         for degree in 1..=8 {

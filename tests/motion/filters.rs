@@ -1,5 +1,5 @@
 //! GOAL: filters have the gain of their formula and no phase; a high-pass leaves no drift.
-//! SCENE: sines of 200 s, and an offset; corners and tapers out of range.
+//! SCENE: sines of 40 and 200 s, and an offset; corners and tapers out of range.
 //! REFERENCE: the gain 1/(1 + (f_c/f)^2n); typed errors.
 
 use basemat::Error;
@@ -53,7 +53,7 @@ fn high_pass_removes_an_offset() {
 
 /// GOAL: corners, orders and tapers out of range are refused.
 #[test]
-fn bad_filters_are_refused() {
+fn invalid_filters_are_refused() {
     let record = Record::new(TIME_STEP, vec![1.0; 2001]).unwrap().tapered(2.0, 2.0).unwrap();
     for corner in [0.0, -1.0, f64::NAN, f64::INFINITY, 50.0] {
         assert!(matches!(record.high_pass(corner, 2), Err(Error::Input { .. })), "{corner}");
@@ -74,7 +74,7 @@ fn bad_filters_are_refused() {
 
 /// GOAL: the low-pass filter has the gain of its formula; with the high-pass filter it adds up to the record.
 ///
-/// Of the gains: 1/(1 + r) + 1/(1 + 1/r) = 1.
+/// The gains are 1/(1 + r) and 1/(1 + 1/r), whose sum is 1.
 #[test]
 fn low_pass_has_the_gain_of_its_formula() {
     let corner = 4.0;

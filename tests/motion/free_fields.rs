@@ -18,14 +18,14 @@ fn free_fields_agree_with_their_sources() {
     let both =
         VerticalIncidence { horizontal: Some(record.clone()), vertical: Some(vertical.clone()) };
     let only_vertical = VerticalIncidence { horizontal: None, vertical: Some(vertical.clone()) };
-    let from = VerticalIncidence::from(record.clone());
+    let from_record = VerticalIncidence::from(record.clone());
     for k in -10..3000 {
         let time = f64::from(k) * 0.0123;
         let u = record.at(time).displacement;
         let w = vertical.at(time).displacement;
         assert_eq!(both.displacement(1e3, time), [u, w]);
         assert_eq!(only_vertical.displacement(0.0, time), [0.0, w]);
-        assert_eq!(from.displacement(0.0, time), [u, 0.0]);
+        assert_eq!(from_record.displacement(0.0, time), [u, 0.0]);
         assert_eq!(record.displacement(0.0, time), [u, 0.0]);
         assert_eq!(record.velocity(0.0, time), [record.at(time).velocity, 0.0]);
         let velocity = [record.at(time).velocity, vertical.at(time).velocity];
@@ -62,7 +62,7 @@ fn velocities_by_default_are_differences() {
             largest = largest.max(exact.abs());
             largest_error = largest_error.max((computed[0] - exact).abs());
         }
-        // The largest third derivative is 8.4/σ² times the largest velocity; and rounding.
+        // The largest third derivative is 8.4/σ² times the largest velocity; the second term bounds the rounding.
         let bound = (1e-5 / sigma).powi(2) * 8.5 / 6.0 * largest + 2.0 * 0.3 * 2e-11;
         println!("sigma {sigma}: {largest_error:e} m/s of {largest} m/s, bound {bound:e}");
         assert!(largest_error < bound);
@@ -82,7 +82,7 @@ fn velocities_by_default_are_differences() {
 
 /// GOAL: stresses of waves from below do not need an exact velocity.
 #[test]
-fn stresses_of_waves_with_a_difference() {
+fn stresses_of_waves_need_no_exact_velocity() {
     let soil = Soil::new(80.0e6, 0.25, 2000.0).unwrap();
     let pulse = RickerDisplacement::new(0.1, 0.1, 0.8).unwrap();
     let exact = VerticalWaves::new(soil, pulse, 20.0).unwrap();

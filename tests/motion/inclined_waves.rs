@@ -1,4 +1,4 @@
-//! GOAL: amplification of inclined waves and ellipses of Rayleigh waves; components that vanish are refused.
+//! GOAL: inclined waves have the right amplification, Rayleigh waves the right ellipses; components that vanish are refused.
 //! SCENE: plane SV and P waves over angle and ν.
 //! REFERENCE: a solution of 30 digits; Ewing, Jardetzky & Press 1957.
 
@@ -51,7 +51,7 @@ fn surface_motion_leaves_no_traction() {
 
 /// GOAL: waves from the left and from the right are mirror images.
 #[test]
-fn the_other_way_is_the_mirror_image() {
+fn waves_from_the_other_side_are_mirror_images() {
     // An incident P wave from the right pushes to the left.
     for (build, sign) in [(sv as fn(f64, f64) -> PlaneWave, 1.0), (p, -1.0)] {
         for angle in [0.3, 0.9] {
@@ -112,8 +112,8 @@ fn components_that_vanish_are_not_prescribed() {
         let critical = f64::sqrt(0.5 * (1.0 - 2.0 * poisson) / (1.0 - poisson)).asin();
         for offset in [0.0_f64, 1e-12, -1e-9, 1e-6, -1e-4, 1e-3] {
             let name = format!("nu {poisson}, {offset:e} rad off");
-            let near_right_angle = sv(poisson, FRAC_PI_4 + offset);
-            assert_refused(near_right_angle.field_from_horizontal(&record, 0.0), &name);
+            let near_45_degrees = sv(poisson, FRAC_PI_4 + offset);
+            assert_refused(near_45_degrees.field_from_horizontal(&record, 0.0), &name);
             if offset.abs() < 1e-9 && poisson != 0.0 {
                 let near_critical = sv(poisson, critical + offset);
                 assert_refused(near_critical.field_from_vertical(&record, 0.0), &name);
@@ -165,7 +165,7 @@ fn accepted_components_are_not_small() {
 
 /// GOAL: at 45°, where Rayleigh's function may vanish, amplitudes are finite or the angle is refused, for any modulus.
 #[test]
-fn amplitudes_at_the_double_critical_angle_are_finite_or_refused() {
+fn amplitudes_at_45_degrees_are_finite_or_refused() {
     for k in 0..2000 {
         let soil = Soil::new(1e6 * 1.01_f64.powi(k % 1000), 0.0, 1000.0 + f64::from(k)).unwrap();
         match PlaneWave::sv(soil, FRAC_PI_4) {
@@ -207,11 +207,11 @@ fn rayleigh_waves_are_retrograde_ellipses() {
     assert!(field.displacement(0.0, highest)[0].abs() < 0.05 / (omega * omega));
 }
 
-/// GOAL: speed and axes of Rayleigh waves, up to the limit ν = 1/2.
+/// GOAL: speed and axes of Rayleigh waves are right up to the limit ν = 1/2.
 /// REFERENCE: the root of Rayleigh's function (2 − q)² = 4 √(1−q) √(1−q c₂²/c₁²), q = c²/c₂², with 30 digits by mpmath:
 /// speed relative to shear waves, and ratio of the axes.
 #[test]
-fn rayleigh_waves_have_the_roots_of_other_precision() {
+fn rayleigh_waves_follow_roots_of_thirty_digits() {
     for (poisson, speed, ratio, tolerance) in [
         (0.0, 0.874_032_048_897_642_1, 1.272_019_649_514_069, 1e-12),
         (0.25, 0.919_401_686_761_966_1, 1.467_889_825_013_870_6, 1e-12),
@@ -232,7 +232,7 @@ fn rayleigh_waves_have_the_roots_of_other_precision() {
 
 /// GOAL: travelling waves are delayed by distance over velocity; velocities and origins out of range are refused.
 #[test]
-fn travelling_waves_are_late_and_refuse_nonsense() {
+fn travelling_waves_are_delayed_and_refuse_invalid_input() {
     for velocity in [0.0, f64::NAN, 1e-320] {
         assert!(TravellingWave::new(el_centro_1940(), velocity, 0.0).is_err());
     }

@@ -28,7 +28,7 @@ fn ricker_acceleration(x: f64) -> f64 {
     (x * x * (6.0 - x * x) - 3.0) * (-0.5 * x * x).exp()
 }
 
-/// GOAL: the late component of a pulse, also long before and after its record, which is cut shortly after the pulse.
+/// GOAL: the late component of a pulse is right, also long before and after its record, which ends shortly after the pulse.
 /// SCENE: a Gaussian, mainly of long period, whose transform decays as 1/t, and Ricker's pulse.
 /// REFERENCE: Hilbert transforms in closed form.
 #[test]
@@ -119,7 +119,7 @@ fn quiet_time_changes_nothing_but_the_start() {
 
 /// GOAL: a prescribed vertical component is led by the horizontal one, as it lags otherwise.
 #[test]
-fn either_component_may_be_given() {
+fn either_component_can_be_prescribed() {
     let record = el_centro_to_rest().padded(5.0, 0.0).unwrap();
     let wave = rayleigh();
     let factor = hilbert_factor(&wave);
@@ -153,7 +153,7 @@ fn records_that_do_not_end_at_rest_are_refused() {
     assert!(sv(0.25, 0.3).field_from_horizontal(&drifting, 0.0).is_ok());
 }
 
-/// GOAL: the transform of a windowed cosine is the windowed sine; twice the transform is minus the record.
+/// GOAL: the transform of a windowed cosine is the windowed sine; the transform of the transform is minus the record.
 #[test]
 fn hilbert_transforms_are_a_quarter_of_a_period_late() {
     let omega = 12.0_f64;

@@ -1,4 +1,4 @@
-//! GOAL: ground-motion records, their files, baselines, spectra and free fields.
+//! GOAL: ground-motion records, their files, baselines, spectra and free fields are right.
 //! SCENE: El Centro 1940, pulses, and any samples.
 //! REFERENCE: published values, closed forms, independent integrations.
 

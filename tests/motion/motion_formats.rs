@@ -1,5 +1,5 @@
 //! GOAL: files of the strong-motion databases are read in every layout in use, or refused with line and reason.
-//! SCENE: variants of PEER, COSMOS, CSMIP_TEXT and K-NET files, printed here in the layouts that `agency_files` reads;
+//! SCENE: variants of PEER, COSMOS, CSMIP and K-NET files, printed here in the layouts that `agency_files` reads;
 //! arbitrary bytes.
 //! REFERENCE: the samples that were printed.
 
@@ -48,7 +48,7 @@ fn peer_refusal(text: &str) -> FileError {
 
 /// GOAL: PEER files with another number of samples or another quantity than stated are refused.
 #[test]
-fn peer_files_that_do_not_hold_what_they_say_are_refused() {
+fn peer_files_that_contradict_their_header_are_refused() {
     for (samples, line, fault) in [
         ("1 2", 5, wrong_count(2, 3)),
         ("1 2\n3 4", 6, wrong_count(4, 3)),
@@ -138,7 +138,7 @@ fn k_net_counts_become_accelerations() {
     }
 }
 
-/// A CSMIP_TEXT file of two channels.
+/// A CSMIP file of two channels.
 const CSMIP_TEXT: &str = "Corrected accelerogram from Chan  1\n\
     3 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.3)\n\
     1.000-12345.678     3.000\n\
@@ -206,7 +206,7 @@ fn cosmos_text(interval: f64) -> String {
 
 /// GOAL: the interval of a COSMOS file is in its real header: the data's, or else the recorder's.
 #[test]
-fn cosmos_takes_the_interval_from_its_real_header() {
+fn the_interval_of_cosmos_files_is_in_the_real_header() {
     let text = cosmos_text(5.0);
     let format = CosmosFormat::default();
     let mut expected = [-4e-7; 10];
@@ -300,7 +300,7 @@ fn units_of_cosmos_files_are_words() {
 
 /// GOAL: El Centro, printed in each of the formats, is read back to the digits printed.
 #[test]
-fn el_centro_survives_all_formats() {
+fn el_centro_is_read_back_from_all_formats() {
     let record = el_centro_1940();
     let in_g: Vec<f64> = record.accelerations().iter().map(|a| a / STANDARD_GRAVITY).collect();
     let in_gal: Vec<f64> = record.accelerations().iter().map(|a| a * 100.0).collect();

@@ -29,7 +29,7 @@ const NEEDED_COLUMNS: &str = "1 (name the column of the acceleration, or read th
 
 /// GOAL: columns are read with any usual separator, comment, title, column order and number format.
 #[test]
-fn reader_takes_every_usual_layout() {
+fn reader_reads_every_usual_layout() {
     let expected = Record::new(0.02, vec![0.0, 1.5, -2.5e-1]).unwrap();
     for text in [
         "0,0\n0.02,1.5\n0.04,-0.25\n",
@@ -155,7 +155,7 @@ fn a_single_column_is_single() {
 
 /// GOAL: finite numbers whose record overflows are refused with the file's name.
 #[test]
-fn numbers_that_make_no_record_name_the_file() {
+fn errors_of_invalid_records_name_the_file() {
     let error = refusal(b"0 1e200\n1e200 1e200\n", &metric());
     assert_eq!(error.line, 0);
     let FileFault::Unusable(error) = error.fault else { panic!("{error}") };

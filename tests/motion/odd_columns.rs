@@ -12,7 +12,7 @@ fn pairs() -> ColumnFormat {
     ColumnFormat::new(SI_UNIT)
 }
 
-/// A column of accelerations single_column.
+/// One column of accelerations, every 20 ms.
 fn single_column() -> ColumnFormat {
     ColumnFormat::equally_spaced(SI_UNIT, 0.02)
 }
@@ -64,7 +64,7 @@ fn decimal_commas_are_refused() {
 
 /// GOAL: a first sample that is not a number is refused, as it would shift the record; a header is made of words.
 #[test]
-fn a_bad_first_sample_is_no_header() {
+fn an_invalid_first_sample_is_no_header() {
     for sample in [
         "*****",
         "1,5",
@@ -145,7 +145,7 @@ fn double_precision_is_read() {
 
 /// GOAL: control characters do not separate numbers: a lost line end would lose a sample.
 #[test]
-fn control_characters_do_not_part_numbers() {
+fn control_characters_do_not_separate_numbers() {
     for text in ["0 0\r0.02 1\n0.04 2\n0.08 2\n", "0 0\u{b}0.02 1\n0.04 2\n", "0 0\u{c}1\n0.02 1\n"]
     {
         let error = refusal(text, &pairs());
@@ -155,7 +155,7 @@ fn control_characters_do_not_part_numbers() {
 
 /// GOAL: an empty field between two tabs, which would shift the columns, is refused.
 #[test]
-fn an_empty_field_between_tabs_is_not_passed_over() {
+fn an_empty_field_between_tabs_is_not_skipped() {
     let text = "0.00\t1.5\t7\n0.02\t\t7\n0.04\t3.5\t7\n";
     let unequal = count("columns", 2, "3, as before");
     assert_eq!(refusal(text, &pairs()), error_at(2, unequal));
@@ -163,14 +163,14 @@ fn an_empty_field_between_tabs_is_not_passed_over() {
     assert_samples("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
 }
 
-/// Columns of time and acceleration pairs_after some lines of header.
+/// Columns of time and acceleration after some lines of header.
 fn pairs_after(header_lines: usize) -> ColumnFormat {
     ColumnFormat { header_lines, ..pairs() }
 }
 
 /// GOAL: stated numbers of header lines are skipped, and checked for titles.
 #[test]
-fn lines_of_header_are_passed_over() {
+fn lines_of_header_are_skipped() {
     let text = "Station 7\n1 2 3\n\nt a\n0 1\n0.02 2\n";
     for lines in [2, 3, 4] {
         assert_samples(text, &pairs_after(lines), &[1.0, 2.0]);

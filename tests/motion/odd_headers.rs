@@ -1,4 +1,4 @@
-//! GOAL: every number and unit in the header of a record file is understood wholly, or refused with its line.
+//! GOAL: every number and unit in the header of a record file is read completely, or refused with its line.
 //! SCENE: time steps, units and formats of PEER, CSMIP, COSMOS and K-NET files in usual and unclear spellings.
 //! REFERENCE: the quantity that was printed; the typed error.
 
@@ -140,8 +140,8 @@ fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
         "4 .02 DT, NPTS",
     ] {
         let error = refusal(&peer(header), &PeerFormat);
-        let typed = is_missing(&error.fault) || is_unclear(&error.fault);
-        assert!(error.line >= 3 && typed, "{header}: {error}");
+        let is_typed = is_missing(&error.fault) || is_unclear(&error.fault);
+        assert!(error.line >= 3 && is_typed, "{header}: {error}");
     }
 }
 
@@ -237,7 +237,7 @@ fn time_steps_of_csmip_files_are_whole_quantities() {
     }
 }
 
-/// GOAL: units and Fortran formats of CSMIP and COSMOS files are understood wholly, or refused.
+/// GOAL: units and Fortran formats of CSMIP and COSMOS files are read completely, or refused.
 #[test]
 fn units_and_formats_of_csmip_and_cosmos_are_whole() {
     let format = CosmosFormat { unit: Some(SI_UNIT), ..CosmosFormat::default() };
@@ -256,14 +256,14 @@ fn units_and_formats_of_csmip_and_cosmos_are_whole() {
         // A unit without `in` before it contradicts the one for files without a unit.
         ".01 sec, cm/sec2 (8f10.3)",
         ".01 sec. cm/sec/sec (8f10.3)",
-        // Formats that the reader does not know.
+        // Unsupported formats.
         ".01 sec, in g (8f10.3,2x)",
         ".01 sec, in g (2(4f10.3))",
         ".01 sec (8f10,3)",
     ] {
         let error = refusal(&csmip(title), &format);
-        let typed = is_no_acceleration(&error.fault) || is_unclear(&error.fault);
-        assert!(error.line == 2 && typed, "{title}: {error}");
+        let is_typed = is_no_acceleration(&error.fault) || is_unclear(&error.fault);
+        assert!(error.line == 2 && is_typed, "{title}: {error}");
     }
     for (title, factor) in [
         (".01 sec, in cm/sec2. (8f10.3)", 0.01),
@@ -290,7 +290,7 @@ fn in_columns(format: &str, body: &str) -> String {
 
 /// GOAL: a field without a point has the number of decimals of the format.
 #[test]
-fn fields_without_a_point_have_fortrans() {
+fn fields_without_a_point_have_the_decimals_of_their_format() {
     let format = CosmosFormat::default();
     let expected = [0.123_45, -0.023_45, 0.03, 0.0];
     for (layout, body) in [
@@ -362,7 +362,7 @@ fn k_net(frequency: &str, duration: &str, scale: &str) -> String {
     )
 }
 
-/// GOAL: frequency, duration and scale factor of K-NET files are understood wholly, or refused.
+/// GOAL: frequency, duration and scale factor of K-NET files are read completely, or refused.
 #[test]
 fn quantities_of_k_net_are_whole() {
     let expected = [0.01, 0.02, 0.03, 0.04];

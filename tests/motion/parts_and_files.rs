@@ -1,4 +1,4 @@
-//! GOAL: parts of records, and records written and read back.
+//! GOAL: parts of records have their samples; written records are read back.
 //! SCENE: El Centro, arbitrary samples at arbitrary time steps.
 //! REFERENCE: the samples themselves, bit for bit.
 

@@ -1,4 +1,4 @@
-//! GOAL: integrals, peaks and intensities of a record, between and outside its samples.
+//! GOAL: integrals, peaks and intensities of a record are right, also between and outside its samples.
 //! SCENE: El Centro, ramps, arbitrary samples.
 //! REFERENCE: values tabulated with the record, and exact integrals.
 
@@ -12,7 +12,7 @@ use basemat_problems::{assert_close, table};
 
 /// GOAL: samples, time steps and factors out of range are refused.
 #[test]
-fn bad_samples_and_steps_are_refused() {
+fn invalid_samples_and_steps_are_refused() {
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(Record::new(step, vec![0.0; 3]), Err(Error::Input { .. })), "{step}");
         assert!(matches!(el_centro_1940().resampled(step), Err(Error::Input { .. })), "{step}");
@@ -42,7 +42,7 @@ fn assert_significant_times(record: &Record, from: f64, to: f64, tolerance: f64)
     assert!((times[0] - from).abs() < tolerance && (times[1] - to).abs() < tolerance, "{times:?}");
 }
 
-/// GOAL: significant times of a constant, a ramp and El Centro.
+/// GOAL: significant times of a constant, a ramp and El Centro are right.
 /// REFERENCE: intensities that grow evenly and as the cube of time; an independent sum.
 #[test]
 fn significant_times_are_where_the_intensity_is_reached() {
@@ -58,9 +58,9 @@ fn significant_times_are_where_the_intensity_is_reached() {
     assert!(Record::new(1.0, vec![0.0; 3]).unwrap().significant_times(0.05, 0.95).is_err());
 }
 
-/// GOAL: peaks, end values and Arias intensity of El Centro, as tabulated with the record.
+/// GOAL: peaks, end values and Arias intensity of El Centro are those tabulated with the record.
 #[test]
-fn el_centro_1940_peaks() {
+fn el_centro_1940_has_its_tabulated_peaks() {
     let columns = ["npts", "dt", "dur", "pga_g", "t_pga", "pgv", "v_end", "d_end", "arias"];
     let [count, step, duration, peak, peak_time, velocity, v_end, d_end, arias] =
         table("summary_records.csv").row("file", "elcentro1940_NS_peknold_0319g.csv", columns);
@@ -89,9 +89,9 @@ fn el_centro_1940_peaks() {
     assert!(largest(fine.velocities()) <= record.peaks().velocity + 1e-14);
 }
 
-/// GOAL: peaks of velocity and displacement between samples, in closed form.
+/// GOAL: peaks of velocity and displacement between samples have their closed forms.
 #[test]
-fn peaks_between_samples() {
+fn peaks_between_samples_have_closed_forms() {
     // a = 1 − t on [0, 2]: v = t − t²/2 peaks at t = 1 with 1/2; u = t²/2 − t³/6 rises to 2/3.
     let record = Record::new(2.0, vec![1.0, -1.0]).unwrap();
     assert_eq!(record.peaks().velocity, 0.5);
@@ -105,7 +105,7 @@ fn peaks_between_samples() {
 
 /// GOAL: a record is at rest before its start and moves with constant velocity after its end.
 #[test]
-fn motion_outside_the_record() {
+fn motion_outside_a_record_is_rest_or_constant_velocity() {
     let record = Record::new(1.0, vec![2.0, 2.0]).unwrap();
     for time in [-1.0, 0.0, f64::NEG_INFINITY, f64::NAN] {
         assert_eq!(record.at(time).velocity, 0.0);

@@ -50,7 +50,7 @@ fn el_centro_agrees_with_a_published_table() {
         let missed =
             1.0 + phase_step * phase_step / 8.0 * (1.0 + ground) * (1.0 + 0.05 * phase_step);
         let ratio = point.pseudo_acceleration / STANDARD_GRAVITY / expected;
-        // Of the digits printed.
+        // Rounding of the printed digits.
         let rounding = 5e-7 / expected;
         let limits = 1.0 - rounding..missed + rounding;
         assert!(limits.contains(&ratio), "{}: {ratio}", point.period);
@@ -59,7 +59,7 @@ fn el_centro_agrees_with_a_published_table() {
 
 /// GOAL: a suddenly applied constant acceleration doubles deflection and total acceleration of an undamped oscillator.
 #[test]
-fn step_load_doubles() {
+fn a_step_load_doubles_the_response() {
     let record = Record::new(0.013, vec![2.0; 400]).unwrap();
     for period in [0.031, 0.2, 1.7] {
         let point = record.response_spectrum(&[period], 0.0, &mut unobserved).unwrap()[0];
@@ -81,7 +81,7 @@ fn stiff_oscillators_follow_the_ground_and_soft_ones_stay() {
 
 /// GOAL: periods and damping ratios out of range are refused.
 #[test]
-fn bad_input_is_refused() {
+fn invalid_input_is_refused() {
     let record = el_centro_1940();
     for period in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12, 1e300, 1e-300] {
         let refused = record.response_spectrum(&[1.0, period], 0.05, &mut unobserved);

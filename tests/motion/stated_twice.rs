@@ -42,7 +42,7 @@ fn assert_refused(name: &str, format: &dyn RecordFormat, changes: &[FileChange])
 
 /// GOAL: the time step, number of points and peak of a CSMIP file agree.
 #[test]
-fn csmip_files_agree_with_themselves() {
+fn contradictions_in_csmip_files_are_refused() {
     let step = "time step of the title (s) is …, as the file states elsewhere";
     assert_refused(
         "csmip.v2",
@@ -63,7 +63,7 @@ fn csmip_files_agree_with_themselves() {
 
 /// GOAL: interval, duration, unit and peak of a COSMOS file agree.
 #[test]
-fn cosmos_files_agree_with_themselves() {
+fn contradictions_in_cosmos_files_are_refused() {
     assert_refused(
         "cosmos.v2c",
         &CosmosFormat::default(),
@@ -87,7 +87,7 @@ fn cosmos_files_agree_with_themselves() {
 
 /// GOAL: frequency, duration, unit and peak of K-NET files agree; duration and frequency give the number of samples.
 #[test]
-fn k_net_files_agree_with_themselves() {
+fn contradictions_in_k_net_files_are_refused() {
     assert_refused(
         "k_net.ns",
         &KNetFormat,
@@ -119,7 +119,7 @@ fn k_net_files_agree_with_themselves() {
 
 /// GOAL: interval, duration, number of samples, unit and peak of an ESM file agree.
 #[test]
-fn esm_files_agree_with_themselves() {
+fn contradictions_in_esm_files_are_refused() {
     assert_refused(
         "esm_hne.asc",
         &EsmFormat,
@@ -137,7 +137,7 @@ fn esm_files_agree_with_themselves() {
 
 /// GOAL: number of samples, peaks, columns and units of an AFAD file agree; the unit may stand in either title.
 #[test]
-fn afad_files_agree_with_themselves() {
+fn contradictions_in_afad_files_are_refused() {
     assert_refused(
         "afad_three.txt",
         &AfadFormat::default(),
@@ -184,7 +184,7 @@ fn afad_files_agree_with_themselves() {
 
 /// GOAL: peaks, their time and the kind of data of an SMC file agree.
 #[test]
-fn smc_files_agree_with_themselves() {
+fn contradictions_in_smc_files_are_refused() {
     assert_refused(
         "smc.smc",
         &SmcFormat,
@@ -206,7 +206,7 @@ fn smc_files_agree_with_themselves() {
 
 /// GOAL: time step, number of points, duration, peak and unit of a GeoNet file agree.
 #[test]
-fn geonet_files_agree_with_themselves() {
+fn contradictions_in_geonet_files_are_refused() {
     assert_refused(
         "geonet.v2a",
         &GeoNetFormat::default(),

@@ -200,7 +200,7 @@ fn the_energy_of_springs_returns_in_the_mid_step_form_only() {
 }
 
 /// Whether a run warns that its ground is of first order.
-fn warns(ground: impl Ground + 'static) -> bool {
+fn warns_of_first_order(ground: impl Ground + 'static) -> bool {
     let mut simulation = oscillator(ground, TIME_STEP);
     let run = simulation.run(10, |_| {}).unwrap();
     run.warnings.contains(&Warning::Mistake(Mistake::FirstOrderGround))
@@ -208,16 +208,16 @@ fn warns(ground: impl Ground + 'static) -> bool {
 
 #[test]
 fn a_run_warns_of_the_form_of_first_order_only() {
-    assert!(warns(CompliantSprings::new(1.0)));
-    assert!(!warns(CompliantSprings::new(2.0)));
+    assert!(warns_of_first_order(CompliantSprings::new(1.0)));
+    assert!(!warns_of_first_order(CompliantSprings::new(2.0)));
     // The implicit rule by choice in the spring ground, and in a ground of a user.
     let implicit = damped_springs(0.0).with_theta(1.0).unwrap();
-    assert!(!warns(implicit.clone()));
-    assert!(!warns(Box::new(implicit.clone()) as Box<dyn Ground>));
-    assert!(warns(MinimalGround(implicit)));
+    assert!(!warns_of_first_order(implicit.clone()));
+    assert!(!warns_of_first_order(Box::new(implicit.clone()) as Box<dyn Ground>));
+    assert!(warns_of_first_order(MinimalGround(implicit)));
     // In a step of twice the relaxation time springs lose their displacement, as springs of the wrong form do.
     for steps in [0.0, 1e-3, 0.1, 0.3, 0.45, 0.5, 0.55, 1.0, 10.0, 64.0, 1e3] {
-        assert!(!warns(MinimalGround(damped_springs(steps * TIME_STEP))), "{steps}");
+        assert!(!warns_of_first_order(MinimalGround(damped_springs(steps * TIME_STEP))), "{steps}");
     }
 }
 

@@ -13,11 +13,11 @@ use basemat::{Observer, Result, unobserved};
 
 use super::scene::soil;
 
-/// Convolution weights of the half-plane that count what is requested from them.
+/// Convolution weights of the half-plane that count the requested coefficients.
 #[derive(Clone, Default)]
 struct CountingWeights {
     has_late_weights: bool,
-    /// Number of coefficients of one kind, of all classes together.
+    /// Number of requested coefficients of one kind, in all classes together.
     computed: Arc<AtomicUsize>,
     /// Largest number of lags to prepare.
     prepared_lags: Arc<AtomicUsize>,
@@ -87,7 +87,7 @@ struct Requests {
     method: HistoryMethod,
 }
 
-/// Requests of so many steps, whose number may be known before the first.
+/// Requests of a run of `steps` steps, whose number may be known before the first step.
 fn requests(has_late_weights: bool, steps: usize, is_known: bool) -> Requests {
     let source = CountingWeights { has_late_weights, ..CountingWeights::default() };
     let elements = Strip::uniform(-2.0..2.0, 4).unwrap().elements();

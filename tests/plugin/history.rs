@@ -16,21 +16,21 @@ use basemat_problems::block_on_springs::block;
 struct PlainSum {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Tractions of all past steps.
-    past: Vec<Vec<f64>>,
+    past_tractions: Vec<Vec<f64>>,
 }
 
 impl PlainSum {
     fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
-        Self { kernel, past: Vec::new() }
+        Self { kernel, past_tractions: Vec::new() }
     }
 
     /// Weights zz, xx and zx of each class for the lags from 2 on.
     fn late_weights(&self) -> Result<Vec<[Vec<f64>; 3]>> {
-        let past = self.past.len();
+        let step_count = self.past_tractions.len();
         let mut weights = Vec::new();
         for class in 0..self.kernel.classes().count() {
-            let mut lists = [vec![0.0; past], vec![0.0; past], vec![0.0; past]];
-            if past > 0 {
+            let mut lists = [vec![0.0; step_count], vec![0.0; step_count], vec![0.0; step_count]];
+            if step_count > 0 {
                 let mut values = lists.each_mut().map(Vec::as_mut_slice);
                 self.kernel.coefficients(class, 2, &mut values)?;
             }
@@ -42,11 +42,11 @@ impl PlainSum {
 
 impl ConvolutionHistory for PlainSum {
     fn steps(&self) -> usize {
-        self.past.len()
+        self.past_tractions.len()
     }
 
     fn prepare(&mut self, steps: usize, _: &mut Observer<'_>) -> Result<()> {
-        self.past.reserve(steps.saturating_sub(self.past.len()));
+        self.past_tractions.reserve(steps.saturating_sub(self.past_tractions.len()));
         Ok(())
     }
 
@@ -54,8 +54,8 @@ impl ConvolutionHistory for PlainSum {
         displacement.fill(0.0);
         let count = self.kernel.classes().elements().len();
         let weights = self.late_weights()?;
-        for (step, traction) in self.past.iter().enumerate() {
-            let lag = self.past.len() - 1 - step;
+        for (step, traction) in self.past_tractions.iter().enumerate() {
+            let lag = self.past_tractions.len() - 1 - step;
             for (p, pairs) in self.kernel.classes().pairs().chunks(count).enumerate() {
                 for (q, pair) in pairs.iter().enumerate() {
                     let weight = [0, 1, 2].map(|k| pair.scale * weights[pair.class][k][lag]);
@@ -71,7 +71,7 @@ impl ConvolutionHistory for PlainSum {
 
     fn push(&mut self, traction: &[f64]) {
         assert_eq!(traction.len(), 2 * self.kernel.classes().elements().len());
-        self.past.push(traction.to_vec());
+        self.past_tractions.push(traction.to_vec());
     }
 }
 

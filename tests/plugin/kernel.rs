@@ -27,7 +27,7 @@ impl FadingWeights {
         Self { classes, last_coupling_lag, spectra: None }
     }
 
-    fn at(&self, class: usize, lag: usize) -> [f64; 3] {
+    fn weights_at(&self, class: usize, lag: usize) -> [f64; 3] {
         let [source, receiver] = self.classes.representative(class).unwrap();
         let distance = receiver.center()[0] - source.center()[0];
         let weight = source.length() * receiver.length() / (1.0 + distance * distance);
@@ -51,7 +51,7 @@ impl ConvolutionWeights for FadingWeights {
     ) -> Result<()> {
         let [normal, tangential, coupling] = by_kind(values)?;
         for i in 0..normal.len() {
-            [normal[i], tangential[i], coupling[i]] = self.at(class, first_lag + i);
+            [normal[i], tangential[i], coupling[i]] = self.weights_at(class, first_lag + i);
         }
         Ok(())
     }
@@ -87,7 +87,7 @@ impl ConvolutionWeights for BlockwiseWeights {
     fn prepare(&self, lags: usize, _: &mut Observer<'_>) -> Result<()> {
         for (class, weights) in self.computed.lock().unwrap().iter_mut().enumerate() {
             for lag in weights.len() + 1..=lags.next_power_of_two() {
-                weights.push(self.kernel.at(class, lag));
+                weights.push(self.kernel.weights_at(class, lag));
             }
         }
         Ok(())
@@ -117,16 +117,18 @@ fn traction(step: usize, size: usize) -> Vec<f64> {
 
 /// Displacements of all steps by a history.
 ///
-/// `hints`: steps before which a number of lags is prepared, with that number.
+/// `preparations`: pairs of a step and of the number of lags that are prepared before it.
 fn displacements(
     mut history: impl ConvolutionHistory,
     steps: usize,
-    hints: &[(usize, usize)],
+    preparations: &[(usize, usize)],
 ) -> Vec<f64> {
     let mut all = Vec::new();
     let mut displacement = vec![f64::NAN; 20];
     for step in 0..steps {
-        for (_, lags) in hints.iter().filter(|(hint_step, _)| *hint_step == step) {
+        for (_, lags) in
+            preparations.iter().filter(|(preparation_step, _)| *preparation_step == step)
+        {
             history.prepare(*lags, &mut unobserved).unwrap();
         }
         displacement.fill(f64::NAN);
@@ -143,8 +145,11 @@ pub(super) fn ten_elements(grading: Grading) -> Vec<ContactElement> {
 
 const STEP_COUNT: usize = 1100;
 
-fn by_transforms(weights: Arc<dyn ConvolutionWeights>, hints: &[(usize, usize)]) -> Vec<f64> {
-    displacements(RelaxedFftHistory::new(weights), STEP_COUNT, hints)
+fn by_transforms(
+    weights: Arc<dyn ConvolutionWeights>,
+    preparations: &[(usize, usize)],
+) -> Vec<f64> {
+    displacements(RelaxedFftHistory::new(weights), STEP_COUNT, preparations)
 }
 
 fn by_direct_sum(weights: Arc<dyn ConvolutionWeights>) -> Vec<f64> {
@@ -170,9 +175,9 @@ fn exact_histories_of_a_user_s_weights_agree() {
             // Neither hints nor shared spectra nor the computation of the weights changes a bit.
             let spectra = Some(SharedSpectra::default());
             let with_spectra = Arc::new(FadingWeights { spectra, ..weights.clone() });
-            for hints in [&[(0, STEP_COUNT)][..], &[(0, 33), (50, 340)], &[(64, 1000)]] {
-                let repeated = by_transforms(with_spectra.clone(), hints);
-                assert_eq!(repeated, transforms, "{label} {hints:?}");
+            for preparations in [&[(0, STEP_COUNT)][..], &[(0, 33), (50, 340)], &[(64, 1000)]] {
+                let repeated = by_transforms(with_spectra.clone(), preparations);
+                assert_eq!(repeated, transforms, "{label} {preparations:?}");
             }
             if last_coupling_lag.is_none() {
                 let blockwise = Arc::new(BlockwiseWeights::new(weights));

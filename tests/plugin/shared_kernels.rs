@@ -1,5 +1,5 @@
-//! GOAL: a store of kernels answers its sources and other threads while it makes a kernel, without deadlock.
-//! SCENE: sources that take kernels from the store that keeps theirs; two threads.
+//! GOAL: while a store makes a kernel, its sources and other threads can use it without deadlock.
+//! SCENE: sources that request kernels from the store of their own kernel; up to sixteen threads.
 //! REFERENCE: the number of kernels made; an end within ten seconds.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -63,12 +63,12 @@ impl WeightsSource for DependentSource {
     }
 }
 
-/// Results of `works`, each in a new thread, within ten seconds.
-fn results_in_time<T: Send + 'static>(works: Vec<Box<dyn FnOnce() -> T + Send>>) -> Vec<T> {
+/// Results of `tasks`, each in a new thread, within ten seconds.
+fn results_in_time<T: Send + 'static>(tasks: Vec<Box<dyn FnOnce() -> T + Send>>) -> Vec<T> {
     let mut receivers = Vec::new();
-    for work in works {
+    for task in tasks {
         let (sender, receiver) = mpsc::channel();
-        std::thread::spawn(move || sender.send(work()));
+        std::thread::spawn(move || sender.send(task()));
         receivers.push(receiver);
     }
     let mut results = Vec::new();
@@ -115,12 +115,12 @@ fn a_source_that_requests_itself_is_refused() {
 fn a_kernel_that_another_thread_makes_is_shared() {
     let kernels = SharedKernels::default();
     let source = DependentSource::new(&kernels, 1.0);
-    let mut works: Vec<Box<dyn FnOnce() -> Result<()> + Send>> = Vec::new();
+    let mut tasks: Vec<Box<dyn FnOnce() -> Result<()> + Send>> = Vec::new();
     for _ in 0..16 {
         let source = source.clone();
-        works.push(Box::new(move || source.prepare()));
+        tasks.push(Box::new(move || source.prepare()));
     }
-    assert!(results_in_time(works).iter().all(Result::is_ok));
+    assert!(results_in_time(tasks).iter().all(Result::is_ok));
     assert_eq!(source.made.load(Ordering::Relaxed), 1);
     assert_eq!(kernels.count(), 1);
 }

@@ -1,5 +1,5 @@
 //! GOAL: interface laws may have state variables for each element.
-//! SCENE: friction that falls with the distance slid, a bond that breaks once, pads that soften; under blocks.
+//! SCENE: blocks on friction that decreases with the distance slid, on a bond that breaks once, and on pads that soften.
 //! REFERENCE: the rigid block integrated here with small steps; Coulomb's law with a tensile strength, which ends at the
 //! first opening; the energy ½ c t² of every pad.
 
@@ -26,15 +26,15 @@ const BLOCK_PRESSURE: f64 = 3.0 * 2000.0 * GRAVITY_ACCELERATION;
 
 const SLIP_WEAKENING: SlipWeakening = SlipWeakening { first: 0.4, residual: 0.15, distance: 0.3 };
 
-/// SlideDistances at the end of the shaking.
+/// Slip and sliding distance at the end of the shaking.
 #[derive(Debug)]
 struct SlideDistances {
     slip: f64,
     distance: f64,
 }
 
-/// SlideDistances of a rigid block on rigid ground, explicitly with steps of a microsecond.
-fn rigid_block(friction: impl Fn(f64) -> f64) -> SlideDistances {
+/// Slip and sliding distance of a rigid block on rigid ground, by explicit steps of a microsecond.
+fn slide_of_rigid_block(friction: impl Fn(f64) -> f64) -> SlideDistances {
     let step = 1e-6;
     let mut slip = 0.0;
     let mut distance = 0.0;
@@ -45,7 +45,7 @@ fn rigid_block(friction: impl Fn(f64) -> f64) -> SlideDistances {
         let limit = friction(distance) * GRAVITY_ACCELERATION;
         let previous_velocity = velocity;
         if velocity == 0.0 {
-            // At rest while friction can drag it along.
+            // The block moves with the ground as long as friction can accelerate it.
             velocity -= step * (ground - ground.clamp(-limit, limit));
         } else {
             velocity -= step * (ground + limit * velocity.signum());
@@ -84,9 +84,9 @@ fn block_on_stiff_springs(law: impl InterfaceLaw + 'static, time_step: f64) -> S
 
 #[test]
 fn friction_falls_with_the_distance_slid() {
-    let expected = rigid_block(|distance| SLIP_WEAKENING.friction(distance));
+    let expected = slide_of_rigid_block(|distance| SLIP_WEAKENING.friction(distance));
     for coefficient in [SLIP_WEAKENING.first, SLIP_WEAKENING.residual] {
-        let constant = rigid_block(|_| coefficient);
+        let constant = slide_of_rigid_block(|_| coefficient);
         println!("friction {coefficient}: {constant:?}");
         assert!((constant.distance / expected.distance - 1.0).abs() > 0.1, "{constant:?}");
     }

@@ -36,8 +36,8 @@ struct BoucWenIsolator {
     drift: f64,
     /// z of the last committed step.
     z: f64,
-    /// Drift at which the plate ends, m.
-    plate_size: f64,
+    /// Largest drift on the plate, m.
+    plate_reach: f64,
 }
 
 /// Hysteretic variable z and its slope dz/dd.
@@ -92,9 +92,9 @@ impl Structure for BoucWenIsolator {
 impl NonlinearForce for BoucWenIsolator {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         let drift = drift(u);
-        let plate_size = self.plate_size;
-        if drift.abs() > plate_size {
-            let reason = format!("{drift:.4} m is off its plate of {plate_size} m");
+        let plate_reach = self.plate_reach;
+        if drift.abs() > plate_reach {
+            let reason = format!("{drift:.4} m is off its plate of {plate_reach} m");
             return Err(Error::part("isolator", reason));
         }
         let z = self.state_at(drift).z;
@@ -128,10 +128,10 @@ impl NonlinearForce for BoucWenIsolator {
     }
 }
 
-/// The isolator on a plate of this size on rock under El Centro.
-fn isolator_on_rock(plate_size: f64, time_step: f64) -> Simulation {
+/// The isolator on a plate of this reach on rock under El Centro.
+fn isolator_on_rock(plate_reach: f64, time_step: f64) -> Simulation {
     Simulation::builder(time_step)
-        .structure(BoucWenIsolator { plate_size, ..BoucWenIsolator::default() })
+        .structure(BoucWenIsolator { plate_reach, ..BoucWenIsolator::default() })
         .ground(SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap())
         .interface(Bonded)
         .motion(el_centro_1940())
@@ -232,7 +232,7 @@ fn an_isolator_off_its_plate_ends_the_step_with_its_reason() {
     let mut on_large_plate = isolator_on_rock(1.0, 0.005);
     on_large_plate.run(accepted_steps, |_| {}).unwrap();
     assert_eq!(on_small_plate.state(), on_large_plate.state());
-    let moved_isolator = BoucWenIsolator { plate_size: 1.0, ..isolator(&on_small_plate) };
+    let moved_isolator = BoucWenIsolator { plate_reach: 1.0, ..isolator(&on_small_plate) };
     assert_eq!(moved_isolator, isolator(&on_large_plate));
     let mut resumed = isolator_on_rock(1.0, 0.005);
     resumed.resume(&on_small_plate.checkpoint().unwrap()).unwrap();

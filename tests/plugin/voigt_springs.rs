@@ -1,5 +1,5 @@
 //! GOAL: convolution weights of a user support a structure, with every history and in shared stores.
-//! SCENE: springs with dashpots as convolution weights, with exponentials for late lags; the half-plane from outside.
+//! SCENE: springs with dashpots as convolution weights, with exponentials for late lags; the half-plane by public types.
 //! REFERENCE: the closed form of creep; the crate's spring ground and half-plane; typed errors.
 
 use std::sync::Arc;
@@ -48,7 +48,7 @@ impl VoigtWeights {
     }
 
     /// Displacement under a unit traction at a lag.
-    fn at(&self, lag: usize) -> f64 {
+    fn weight_at(&self, lag: usize) -> f64 {
         -(-self.rate).exp_m1() / self.springs.stiffness * (-self.rate * (lag - 1) as f64).exp()
     }
 }
@@ -68,7 +68,7 @@ impl ConvolutionWeights for VoigtWeights {
         let [source, receiver] = self.classes.representative(class)?;
         let length = if source == receiver { receiver.length() } else { 0.0 };
         for (i, value) in normal.iter_mut().enumerate() {
-            *value = length * self.at(first_lag + i);
+            *value = length * self.weight_at(first_lag + i);
         }
         tangential.copy_from_slice(normal);
         coupling.fill(0.0);
@@ -98,7 +98,7 @@ impl LateWeights for VoigtWeights {
             let mut function = vec![0.0; elements.len()];
             function[index] = 1.0;
             functions.push(function);
-            let weights = vec![self.at(window + 1) / element.length()];
+            let weights = vec![self.weight_at(window + 1) / element.length()];
             let normal = weights.clone();
             products.push(TailProduct { functions: [index; 2], normal, tangential: weights });
         }
@@ -231,7 +231,7 @@ fn half_plane() -> ElasticGround {
 
 /// A ground of the half-plane's weights has the same bits as the half-plane.
 #[test]
-fn a_weights_ground_is_what_the_half_plane_is_made_of() {
+fn a_ground_of_half_plane_weights_has_the_bits_of_the_half_plane() {
     let elements = half_plane().elements().to_vec();
     let by_weights = WeightsGround::new(HalfPlaneSource(half_plane()), elements).unwrap();
     let computed = run_block(by_weights, 5e-3, 300).simulation;
@@ -258,7 +258,7 @@ fn kernels_are_shared_by_type_and_identity() {
     assert_eq!(kernels_after_preparing(&kernels, without_identity, 5e-3), 3);
 }
 
-/// Weights that do not tell where their coupling ends.
+/// Weights without the last lag of their coupling.
 struct UnknownCoupling(VoigtWeights);
 
 impl ConvolutionWeights for UnknownCoupling {

@@ -27,9 +27,9 @@ fn half_plane(soil: Soil, half_width: f64, elements: usize, grading: Grading) ->
 
 /// Static state of a tilted strip.
 struct TiltedStrip {
-    /// Radians, counter-clockwise.
+    /// Tilt in radians, counter-clockwise.
     tilt: f64,
-    /// Of a strip of half width 1.
+    /// Length of contact of a strip of half width 1.
     contact_length: f64,
 }
 
@@ -68,10 +68,10 @@ fn punch_error_limits(grading: Grading, eccentricity: f64) -> [f64; 3] {
 }
 
 /// GOAL: static contact with partial uplift: tilt, contact length, and the tilt's order.
-/// SCENE: smooth rigid strip under a load at eccentricity e, through the preload.
+/// SCENE: frictionless rigid strip under a load at eccentricity e, through the preload.
 /// REFERENCE: inclined punch (Muskhelishvili 1953): contact over 4(b − e), M/(Pb) = 1 − θ_u/(2θ).
 #[test]
-fn muskhelishvili_1953_tilted_punch() {
+fn a_tilted_punch_has_the_contact_of_muskhelishvili_1953() {
     for poisson in [0.0, 1.0 / 3.0] {
         let strip = NoTensionStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0, 0.0).unwrap();
         let lift_off = (1.0 - poisson) / PI;
@@ -84,7 +84,7 @@ fn muskhelishvili_1953_tilted_punch() {
                         Grading::Uniform => 2.0 / elements as f64,
                         _ => PI / elements as f64,
                     };
-                    // The edge of contact is one of the nodes next to the true one.
+                    // The edge of contact is one of the nodes next to the exact place.
                     let edge_error = (contact_length - exact.length()).abs();
                     assert!(edge_error <= longest, "contact over {contact_length}");
                     let theta = -tilt;
@@ -93,7 +93,7 @@ fn muskhelishvili_1953_tilted_punch() {
                     } else {
                         theta / (2.0 * lift_off)
                     };
-                    // d(moment)/dθ: the moment of this tilt is off by at most half its error.
+                    // d(moment)/dθ: the error of the moment is at most half that of the tilt.
                     let error = (tilt / exact.tilt - 1.0).abs();
                     assert!((moment - e).abs() <= 0.5 * error, "M/(Pb) {moment}, e {e}");
                     error
@@ -115,11 +115,11 @@ fn muskhelishvili_1953_tilted_punch() {
 
 /// Slip of a block under El Centro.
 struct BlockSlide {
-    /// Relative error of the history.
-    history_error: f64,
-    /// Metres.
+    /// Relative error of the time series.
+    series_error: f64,
+    /// Largest magnitude, m.
     largest_slip: f64,
-    /// Metres.
+    /// At the end, m.
     residual_slip: f64,
 }
 
@@ -150,23 +150,23 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
         .unwrap();
     assert_eq!(run.whole.uplifted_fraction.largest().value, 0.0);
     assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
-    assert!(run.energy_balance.contact > 0.0, "friction must take energy");
+    assert!(run.energy_balance.contact > 0.0, "friction dissipates energy");
     BlockSlide {
-        history_error: error.relative(),
+        series_error: error.relative(),
         largest_slip: largest,
         residual_slip: run.whole.residual_slip,
     }
 }
 
 /// GOAL: friction under a real record.
-/// SCENE: low block (4 m × 0.4 m) on ever stiffer soil under El Centro, friction 0.1 and 0.2.
+/// SCENE: low block (4 m × 0.4 m) on soil of increasing stiffness under El Centro, friction 0.1 and 0.2.
 /// REFERENCE: Newmark 1965 on rigid ground, event by event, and `sliding_rigid_block.csv`.
 ///
-/// On soft soil block and ground do not move alike. On stiff soil the error of the time step remains: starts, stops and
-/// reversals fall on steps, which leaves the speed after one of them off by up to friction·g·Δt. First order, and not
-/// smooth in Δt.
+/// On soft soil block and ground move differently. On stiff soil the error of the time step remains: starts, stops and
+/// reversals fall on steps, so that the speed after one of them has an error of up to friction·g·Δt. The error is of first
+/// order, and not smooth in Δt.
 #[test]
-fn newmark_1965_sliding_on_stiff_soil() {
+fn a_block_on_stiff_soil_slides_as_newmarks_1965() {
     let table = table("sliding_rigid_block.csv");
     for (friction, limits, tolerance) in [
         (0.1, [1.5e-2, 3.5e-2, 4.5e-2, 2.7e-2, 3.6e-3], [8e-6, 4e-4]),
@@ -174,7 +174,7 @@ fn newmark_1965_sliding_on_stiff_soil() {
     ] {
         let runs =
             [(100.0, 0.0025), (400.0, 0.0025), (1600.0, 0.01), (1600.0, 0.0025), (1600.0, 0.00125)];
-        let errors = runs.map(|(speed, step)| sliding(speed, friction, step, 7.0).history_error);
+        let errors = runs.map(|(speed, step)| sliding(speed, friction, step, 7.0).series_error);
         let names = ["100 m/s", "400 m/s", "1600 m/s: 10 ms", "2.5 ms", "1.25 ms"];
         assert_within(&format!("sliding, friction {friction}"), &names, &errors, &limits);
 
@@ -195,10 +195,10 @@ fn newmark_1965_sliding_on_stiff_soil() {
 /// Quarter periods of free rocking, s.
 struct QuarterPeriods {
     computed: f64,
-    /// On Housner's rigid base.
+    /// Quarter period on Housner's rigid base.
     rigid_base: f64,
-    /// On soil that yields under the corner.
-    yielding_soil: f64,
+    /// Quarter period on soil that deforms under the corner.
+    deformable_soil: f64,
 }
 
 /// Pushes a block over, and lets it rock freely.
@@ -245,7 +245,7 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
     let turned = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
     let upright = (peak..tilts.len() - 1).find(|&k| tilts[k + 1] < 0.0).unwrap();
     let crossed = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
-    // Pressure on the last element acts at its middle: the block turns about that point.
+    // Pressure on the last element acts at its middle: the block rotates about that point.
     let slenderness = (b - 0.5 * edge) / h;
     let rate = (weight * h / inertia).sqrt();
     let housner = (1.0 / (1.0 - tilt * h / b)).acosh() / rate;
@@ -254,7 +254,7 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
     QuarterPeriods {
         computed: (crossed - turned) * time_step,
         rigid_base: housner,
-        yielding_soil: yielding,
+        deformable_soil: yielding,
     }
 }
 
@@ -263,10 +263,10 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
 /// REFERENCE: Housner 1963, quarter period (1/p) arcosh(1/(1 − θ₀/α)) with the constants of small
 /// rotations (p² = N h/I, α = b/h); and the same motion on a quasi-static half-plane.
 ///
-/// The block rocks more slowly than Housner's: the soil yields under the corner, and pressure acts
+/// The block rocks more slowly than Housner's: the soil deforms under the corner, and pressure acts
 /// at the middle of the last element, not at its end. Both are in the second reference.
 #[test]
-fn housner_1963_quarter_period() {
+fn quarter_periods_on_stiff_soil_are_close_to_housner_1963() {
     for (speed, elements, housner, yielding) in [
         (100.0, 16, 2.1e-2, 6.2e-3),
         (200.0, 16, 8.5e-3, 6e-3),
@@ -274,10 +274,10 @@ fn housner_1963_quarter_period() {
         (400.0, 32, 2.4e-3, 1.7e-3),
         (800.0, 16, 7.5e-3, 9e-4),
     ] {
-        let QuarterPeriods { computed, rigid_base, yielding_soil } = rocking(speed, elements);
-        let errors = [computed / rigid_base - 1.0, (computed / yielding_soil - 1.0).abs()];
+        let QuarterPeriods { computed, rigid_base, deformable_soil } = rocking(speed, elements);
+        let errors = [computed / rigid_base - 1.0, (computed / deformable_soil - 1.0).abs()];
         assert!(errors[0] > 0.0, "faster than on a rigid base: {:e}", errors[0]);
         let scene = format!("rocking, {speed} m/s, cosine {elements}");
-        assert_within(&scene, &["Housner", "yielding soil"], &errors, &[housner, yielding]);
+        assert_within(&scene, &["Housner", "deformable soil"], &errors, &[housner, yielding]);
     }
 }

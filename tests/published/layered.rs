@@ -1,4 +1,4 @@
-//! GOAL: structures on layered ground move as another program says.
+//! GOAL: structures on layered ground move as another program computes.
 //! SCENE: rigid block on a layer over rock, elastic and damped, and on a rigid base; bonded,
 //! vertically incident SV Ricker pulse; 16 graded elements.
 //! REFERENCE: `td_block_SV_*`, synthesis of Laplace transforms.
@@ -16,7 +16,7 @@ fn ground(profile: SoilProfile, elements: usize) -> ElasticGround {
 }
 
 #[test]
-fn td_block_on_layers_under_sv_pulse() {
+fn blocks_on_layers_move_as_in_the_tables_td_block() {
     let names = ["u_base", "theta", "u_roof", "V", "M"];
     let kjartansson = Kjartansson::new(0.05, 0.3).unwrap();
     for (name, profile, limits) in [

@@ -223,11 +223,11 @@ fn check_impedances(bonded: bool) {
     }
 }
 
-/// GOAL: the soil operator alone, all components, is the half-plane's, and converges to it.
+/// GOAL: the soil operator alone, all components, converges to that of the half-plane.
 /// SCENE: massless rigid strip, bonded; a Ricker pulse of each rigid motion, Fourier transformed.
 /// REFERENCE: impedances over a₀, the problem of Luco & Westmann 1972, by a spectral method.
 #[test]
-fn luco_westmann_1972_bonded_strip() {
+fn impedances_of_bonded_strips_are_those_of_luco_westmann_1972() {
     check_impedances(true);
     let file = "strip_bonded_nu0333_xi00.csv";
     let errors = impedance_errors(file, 1.0 / 3.0, UNIFORM_32, true);
@@ -236,10 +236,10 @@ fn luco_westmann_1972_bonded_strip() {
 }
 
 /// GOAL: as above for the diagonal parts of the operator, without their coupling.
-/// SCENE: the strip presses without friction, or drags without pressure.
+/// SCENE: the strip transmits pressure without shear, or shear without pressure.
 /// REFERENCE: relaxed impedances, the problem of Karasudhi, Keer & Lee 1968.
 #[test]
-fn karasudhi_keer_lee_1968_relaxed_strip() {
+fn impedances_of_relaxed_strips_are_those_of_karasudhi_keer_lee_1968() {
     check_impedances(false);
 }
 
@@ -251,7 +251,7 @@ fn gauss_pulse(t: f64) -> f64 {
 /// SCENE: massless rigid strip under a Gaussian or Ricker pulse of each force.
 /// REFERENCE: `td_strip_*`, Fourier syntheses of the impedances, in time.
 #[test]
-fn td_strip_force_pulses() {
+fn strips_under_force_pulses_move_as_in_the_tables_td_strip() {
     let names = ["uy_Fy", "ux_Fx", "th_M", "th_Fx", "ux_M"];
     let order = [0, 1, 4, 2, 3];
     for (kind, count) in [("bonded", 5), ("relaxed", 3)] {
@@ -287,7 +287,7 @@ fn td_strip_force_pulses() {
 /// SCENE: rigid blocks of three slendernesses, bonded, vertically incident SV Ricker pulse.
 /// REFERENCE: `td_block_SV_*`, frequency domain; forces as their means over the step.
 #[test]
-fn td_block_under_sv_pulse() {
+fn blocks_under_an_sv_pulse_move_as_in_the_tables_td_block() {
     let names = ["u_base", "theta", "u_roof", "V", "M"];
     let third = 1.0 / 3.0;
     for (name, poisson, height, density, limits) in [
@@ -324,7 +324,7 @@ fn td_block_under_sv_pulse() {
 /// SCENE: Euler–Bernoulli cantilever (8 beams) on a bonded rigid base, SV Ricker pulse.
 /// REFERENCE: `td_EBcantilever_SV_nu0333.csv`, exact beam functions in the frequency domain.
 #[test]
-fn td_cantilever_under_sv_pulse() {
+fn a_cantilever_under_an_sv_pulse_moves_as_in_its_table() {
     let names = ["u_base", "theta", "u_top", "V_beam", "V", "M"];
     let limits = [3.8e-3, 6.9e-3, 6.1e-3, 3.6e-3, 3.2e-3, 1.3e-2];
     assert_within("cantilever cosine 16", &names, &cantilever_errors(COSINE_16, 8), &limits);
@@ -334,7 +334,7 @@ fn td_cantilever_under_sv_pulse() {
 /// SCENE: three storeys on a massive bonded base, SV Ricker pulse.
 /// REFERENCE: `td_shearbuilding3_SV_nu0333_sig1.csv`, frequency domain.
 #[test]
-fn td_shear_building_under_sv_pulse() {
+fn a_shear_building_under_an_sv_pulse_moves_as_in_its_table() {
     let names = ["u_base", "theta", "v1", "v3", "V1", "V", "M"];
     let limits = [3.3e-3, 4.5e-3, 3.8e-3, 7.6e-3, 3.4e-3, 2.1e-3, 1.15e-2];
     assert_within("shear building cosine 16", &names, &building_errors(COSINE_16), &limits);

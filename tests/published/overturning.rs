@@ -58,7 +58,7 @@ fn shifted([tilt, rate]: [f64; 2], time: f64, rates: [f64; 2]) -> [f64; 2] {
     [tilt + time * rates[0], rate + time * rates[1]]
 }
 
-/// A step by Runge and Kutta.
+/// A step of Runge–Kutta integration.
 fn rocking_step(state: [f64; 2], angle: f64, p: f64, step: f64) -> [f64; 2] {
     let a = rocking_rates(state, angle, p);
     let b = rocking_rates(shifted(state, 0.5 * step, a), angle, p);
@@ -74,7 +74,7 @@ fn overturned_by_two(block: &RockingBlock, size: f64, velocity: f64, delay: f64)
     let p = block.frequency_parameter();
     let step = 1e-3 / p;
     let jump = 0.75 * velocity * angle.cos() / size;
-    // To the first impact, where only the rate counts: its time is twice that of the rise.
+    // Up to the largest tilt; the time to the first impact is twice that.
     let mut first = [0.0, jump];
     let mut fall = 0.0;
     while first[1] > 0.0 && first[0] < angle {
@@ -84,19 +84,19 @@ fn overturned_by_two(block: &RockingBlock, size: f64, velocity: f64, delay: f64)
     let pushed = 2.0 * fall * delay;
     let mut state = [0.0, jump];
     let mut time = 0.0;
-    let mut back = false;
+    let mut has_jumped_back = false;
     let mut side = 1.0;
     loop {
-        if !back && time >= pushed {
+        if !has_jumped_back && time >= pushed {
             state[1] -= side * jump;
-            back = true;
+            has_jumped_back = true;
         }
         let mut next = rocking_step(state, angle, p, step);
         if next[0] < 0.0 {
-            // An impact: the block turns on with what is left of the rate.
+            // An impact: the block rotates about the other corner at the reduced rate.
             side = -side;
             next = [0.0, -next[1] * block.restitution()];
-            if back && next[1] < 1e-3 * p {
+            if has_jumped_back && next[1] < 1e-3 * p {
                 return false;
             }
         }

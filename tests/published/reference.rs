@@ -1,5 +1,5 @@
-//! GOAL: closed forms of blocks and strips are in equilibrium, symmetric and right in their limits, and refuse bad
-//! input.
+//! GOAL: closed forms of blocks and strips are in equilibrium, symmetric and exact in their limits, and refuse
+//! invalid input.
 //! SCENE: rocking and sliding blocks, tilted strips.
 //! REFERENCE: statics, differential equations, integration in small steps.
 
@@ -21,13 +21,13 @@ pub(super) fn soil() -> Soil {
 }
 
 #[track_caller]
-#[expect(clippy::needless_pass_by_value, reason = "takes results as they come")]
+#[expect(clippy::needless_pass_by_value, reason = "accepts results by value")]
 pub(super) fn refused<T: std::fmt::Debug>(outcome: Result<T, Error>) {
     assert!(matches!(outcome, Err(Error::Input { .. })), "{outcome:?}");
 }
 
 #[test]
-fn bad_inputs_are_refused() {
+fn invalid_inputs_are_refused() {
     let strip = NoTensionStrip::new(soil(), 2.0, 0.3).unwrap();
     let springs = WinklerStrip::new(1.0, 1.0).unwrap();
     for bad in INVALID_NUMBERS {
@@ -77,9 +77,9 @@ fn rocking_amplitudes_out_of_range_are_refused() {
     refused(RockingBlock::new(2.0, 1.0, 9.81).unwrap().impact_times(0.1, 3));
 }
 
-/// The exact forms tend to Housner's for slender blocks and small tilts, with all digits left.
+/// The exact forms tend to Housner's for slender blocks and small tilts, without loss of digits.
 #[test]
-fn slender_blocks_rock_as_housner_says() {
+fn slender_blocks_have_the_periods_and_peaks_of_housner() {
     let block = RockingBlock::new(1e-3, 1.0, 9.81).unwrap();
     for ratio in [1e-12, 1e-6, 0.1, 0.5, 0.9, 0.999] {
         let amplitude = ratio * block.slenderness_angle();
@@ -97,7 +97,7 @@ fn slender_blocks_rock_as_housner_says() {
     }
 }
 
-/// The uplift law with α = 6 is the strip on springs, with α = 4 the smooth strip on the half-plane.
+/// The uplift law with α = 6 is the strip on springs, with α = 4 the frictionless strip on the half-plane.
 #[test]
 fn uplift_laws_are_exact_on_springs_and_on_the_half_plane() {
     let load = 1.3;
@@ -152,8 +152,8 @@ fn power_spectrum(power: i32, value: f64) -> Vec<SpectralOrdinate> {
     spectrum
 }
 
-/// Spectra of constant displacement give it back; of constant velocity v, the slip v²/(2 μₑ g) of a block whose ground
-/// jumps to this velocity.
+/// Of spectra of constant displacement the slip is that displacement; of constant velocity v it is the slip v²/(2 μₑ g)
+/// of a block whose ground jumps to this velocity.
 #[test]
 fn slip_of_a_spectrum_is_that_of_a_velocity_pulse() {
     let estimate = SlidingEstimate::new(0.3, 2.5, 10.0).unwrap();
@@ -167,7 +167,7 @@ fn slip_of_a_spectrum_is_that_of_a_velocity_pulse() {
     let block_slip = SlidingBlock::new(0.3 * 0.9, 10.0).unwrap().slide(&jump).minimum();
     let slip = estimate.slip(&power_spectrum(1, velocity)).unwrap().unwrap();
     assert_close("velocity", slip, -block_slip, 0.0, 1e-4);
-    // The longest period of several counts.
+    // The longest of several periods is decisive.
     let mut twice = power_spectrum(2, 0.4);
     twice[1].pseudo_acceleration = 0.1;
     assert_close("last", estimate.slip(&twice).unwrap().unwrap(), 0.4, 1e-14, 0.0);
@@ -190,7 +190,7 @@ fn slip_of_a_spectrum_is_that_of_a_velocity_pulse() {
     assert!(estimate.slip(&power_spectrum(2, 0.4)[..1]).is_err());
 }
 
-/// ∫ f dx over the contact, by a substitution that tames both ends.
+/// ∫ f dx over the contact, by a substitution that removes the singularities at both ends.
 fn integral(strip: &NoTensionStrip, eccentricity: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let contact = strip.contact(5.0, eccentricity).unwrap();
     let middle = f64::midpoint(contact.left, contact.right);
@@ -241,7 +241,7 @@ fn mirrored_strips_tilt_the_other_way() {
         assert_close("tilt", a.tilt, -b.tilt, 1e-15, 1e-14);
         assert_close("left", a.left, -b.right, 1e-14, 0.0);
     }
-    // small tilts: the smooth strip is as stiff as the static limit says
+    // at small tilts the frictionless strip has the stiffness of the static limit
     let smooth = NoTensionStrip::new(soil(), 2.0, 0.0).unwrap();
     let stiffness = RigidStrip::new(soil(), 2.0).unwrap().smooth_rocking_stiffness();
     assert_close("stiffness", smooth.moment(1.0, 1e-3).unwrap(), 1e-3 * stiffness, 0.0, 1e-13);
@@ -266,43 +266,43 @@ fn slip_by_steps(record: &Record, yield_acceleration: f64, substeps: u32) -> f64
 }
 
 #[test]
-fn sliding_agrees_with_small_steps() {
+fn slip_agrees_with_integration_in_small_steps() {
     let record = el_centro_1940();
     for friction in [0.02, 0.13] {
-        let history = SlidingBlock::new(friction, 9.81).unwrap().slide(&record);
+        let slide = SlidingBlock::new(friction, 9.81).unwrap().slide(&record);
         let found = slip_by_steps(&record, friction * 9.81, 400);
-        assert_close("residual", history.residual(), found, 2e-5, 0.0);
+        assert_close("residual", slide.residual(), found, 2e-5, 0.0);
     }
 }
 
 proptest! {
     #[test]
-    fn sliding_mirrors_scales_and_ends_at_rest(
+    fn slip_is_mirrored_and_scaled_with_the_record_and_ends_at_rest(
         values in prop::collection::vec(prop_oneof![Just(0.0), Just(1.0), -4.0..4.0_f64], 2..40),
         factor in 0.1..10.0_f64,
     ) {
         let record = Record::new(0.5, values).unwrap();
-        let history = SlidingBlock::new(0.1, 10.0).unwrap().slide(&record);
+        let slide = SlidingBlock::new(0.1, 10.0).unwrap().slide(&record);
         let mirror = SlidingBlock::new(0.1, 10.0).unwrap().slide(&record.scaled(-1.0).unwrap());
-        prop_assert!((history.residual() + mirror.residual()).abs() < 1e-10);
-        prop_assert!((history.maximum() + mirror.minimum()).abs() < 1e-10);
+        prop_assert!((slide.residual() + mirror.residual()).abs() < 1e-10);
+        prop_assert!((slide.maximum() + mirror.minimum()).abs() < 1e-10);
         let larger =
             SlidingBlock::new(0.1, 10.0 * factor).unwrap().slide(&record.scaled(factor).unwrap());
-        let scale = history.maximum().max(-history.minimum()).max(1.0);
-        let error = larger.residual() - factor * history.residual();
+        let scale = slide.maximum().max(-slide.minimum()).max(1.0);
+        let error = larger.residual() - factor * slide.residual();
         prop_assert!(error.abs() < 1e-9 * scale * factor, "{}", error);
-        prop_assert_eq!(history.slip_velocity(1e4), 0.0);
-        prop_assert_eq!(history.slip(1e4), history.residual());
-        prop_assert!(history.minimum() <= history.residual());
-        prop_assert!(history.maximum() >= history.residual());
+        prop_assert_eq!(slide.slip_velocity(1e4), 0.0);
+        prop_assert_eq!(slide.slip(1e4), slide.residual());
+        prop_assert!(slide.minimum() <= slide.residual());
+        prop_assert!(slide.maximum() >= slide.residual());
         // slip and velocity are continuous, and stay within the extremes
         let largest_acceleration = record.peaks().acceleration + 1.0;
         for k in 0..2000 {
             let time = f64::from(k) * 0.01;
-            let jump = history.slip_velocity(time + 0.01) - history.slip_velocity(time);
+            let jump = slide.slip_velocity(time + 0.01) - slide.slip_velocity(time);
             prop_assert!(jump.abs() <= 0.01 * largest_acceleration + 1e-9);
-            let slip = history.slip(time);
-            prop_assert!(slip >= history.minimum() - 1e-9 && slip <= history.maximum() + 1e-9);
+            let slip = slide.slip(time);
+            prop_assert!(slip >= slide.minimum() - 1e-9 && slip <= slide.maximum() + 1e-9);
         }
     }
 }

@@ -12,7 +12,7 @@ use basemat_problems::{assert_close, table};
 
 /// Housner 1963: periods and next amplitudes of the block 1 m × 4 m.
 #[test]
-fn housner_1963_periods_and_peaks() {
+fn periods_and_peaks_of_housners_block_are_the_tabulated_ones() {
     let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
     assert_close("alpha", block.slenderness_angle(), 0.244_978_663_126_864, 1e-15, 0.0);
     assert_close("p", block.frequency_parameter(), 1.889_156_352_028_5, 0.0, 1e-13);
@@ -44,7 +44,7 @@ fn housner_1963_periods_and_peaks() {
 
 /// Housner 1963: 44 impacts after release, and the amplitudes between them.
 #[test]
-fn housner_1963_free_rocking() {
+fn impacts_of_housners_block_are_the_tabulated_ones() {
     let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
     let start = 0.6 * block.slenderness_angle();
     let table = table("housner_free.csv");
@@ -75,7 +75,7 @@ fn housner_1963_free_rocking() {
 
 /// Newmark 1965: sine shaking, events and slip against the exact solution for the sine itself.
 #[test]
-fn newmark_1965_sine() {
+fn slip_of_newmarks_block_under_sines_is_the_tabulated_one() {
     for (file, amplitude, frequency, friction) in [
         ("newmark_sine_A0.3g_f0.5_mu0.25.csv", 0.3, 0.5, 0.25),
         ("newmark_sine_A0.4g_f1.0_mu0.2.csv", 0.4, 1.0, 0.2),
@@ -88,20 +88,20 @@ fn newmark_1965_sine() {
             .map(|k| amplitude * gravity * (omega * f64::from(k) * step).sin())
             .collect();
         let record = Record::new(step, samples).unwrap();
-        let history = SlidingBlock::new(friction, gravity).unwrap().slide(&record);
+        let slide = SlidingBlock::new(friction, gravity).unwrap().slide(&record);
         let table = table(file);
-        // the table's events go on past its last row at 10 s, so 10.4 s;
-        // the polygon departs from the sine by A (ω Δt)²/8, 2e-7 of it at 2 Hz; slip velocities
+        // the table has events after its last row at 10 s, hence 10.4 s;
+        // the polygon differs from the sine by A (ω Δt)²/8, 2e-7 of it at 2 Hz; slip velocities
         // and slips then by that over the duration
         for [time, velocity, slip] in table.rows(["t", "v_rel", "d_rel"]) {
-            assert_close(file, history.slip_velocity(time), velocity, 2e-6, 0.0);
-            assert_close(file, history.slip(time), slip, 2e-6, 0.0);
+            assert_close(file, slide.slip_velocity(time), velocity, 2e-6, 0.0);
+            assert_close(file, slide.slip(time), slip, 2e-6, 0.0);
         }
         let words = table.words_after("exact events:");
-        assert!(words.len() >= 20 && history.events().len() >= words.len());
-        for (word, event) in words.iter().zip(history.events()) {
+        assert!(words.len() >= 20 && slide.events().len() >= words.len());
+        for (word, event) in words.iter().zip(slide.events()) {
             let (time, kind) = word.split_once(':').unwrap();
-            // the table calls every zero of the slip velocity a stop
+            // in the table every zero of the slip velocity is a stop
             let found = match (*event, kind) {
                 (SlidingEvent::Slip { time }, "slip")
                 | (SlidingEvent::Stop { time } | SlidingEvent::Reversal { time }, "stop") => time,
@@ -114,7 +114,7 @@ fn newmark_1965_sine() {
 
 /// Newmark 1965: slip under El Centro for eight friction coefficients.
 #[test]
-fn newmark_1965_el_centro() {
+fn slip_of_newmarks_block_under_el_centro_is_the_tabulated_one() {
     let table = table("sliding_rigid_block.csv");
     let columns = ["mu", "slip_max_m", "slip_min_m", "slip_residual_m", "max_abs_slip_m"];
     let records = table.text("record");
@@ -123,21 +123,21 @@ fn newmark_1965_el_centro() {
     let mut count = 0;
     for ([friction, maximum, minimum, residual, largest], _) in rows {
         let block = SlidingBlock::new(*friction, STANDARD_GRAVITY).unwrap();
-        let history = block.slide(&el_centro_1940());
+        let slide = block.slide(&el_centro_1940());
         // the sub-steps of the table leave 2e-6 m
-        assert_close("maximum", history.maximum(), *maximum, 2.5e-6, 0.0);
-        assert_close("minimum", history.minimum(), *minimum, 2.5e-6, 0.0);
-        assert_close("residual", history.residual(), *residual, 2.5e-6, 0.0);
-        let found = history.maximum().max(-history.minimum());
+        assert_close("maximum", slide.maximum(), *maximum, 2.5e-6, 0.0);
+        assert_close("minimum", slide.minimum(), *minimum, 2.5e-6, 0.0);
+        assert_close("residual", slide.residual(), *residual, 2.5e-6, 0.0);
+        let found = slide.maximum().max(-slide.minimum());
         assert_close("largest", found, *largest, 2.5e-6, 0.0);
         count += 1;
     }
     assert_eq!(count, 8);
 }
 
-/// Tilted rigid strip on the half-plane, smooth and fully sliding, with and without uplift.
+/// Tilted rigid strip on the half-plane, frictionless and fully sliding, with and without uplift.
 #[test]
-fn half_plane_no_tension_strip() {
+fn strips_without_tension_on_the_half_plane_have_the_tabulated_contact() {
     let table = table("halfplane_tilted_punch.csv");
     let columns = ["nu", "f", "e", "g", "contact_length", "x_left", "x_right", "theta"];
     let rows = table.rows(columns);
@@ -159,7 +159,7 @@ fn half_plane_no_tension_strip() {
 
 /// Rigid strip on springs without tension.
 #[test]
-fn winkler_no_tension_strip() {
+fn strips_without_tension_on_springs_have_the_tabulated_moments() {
     let stiffness = 3e7;
     let half_width = 2.5;
     let load = 4e5;
@@ -184,7 +184,7 @@ fn winkler_no_tension_strip() {
 
 /// Static and high-frequency limits of the strip against the ends of its impedance tables.
 #[test]
-fn rigid_strip_limits() {
+fn limits_of_rigid_strips_are_those_of_the_impedance_tables() {
     for (name, poisson) in [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)] {
         let strip = RigidStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0).unwrap();
         let relaxed = table(&format!("strip_relaxed_nu{name}_xi00.csv"));
@@ -193,8 +193,8 @@ fn rigid_strip_limits() {
             (&relaxed, strip.smooth_rocking_stiffness()),
             (&bonded, strip.bonded_rocking_stiffness()),
         ] {
-            // the departure goes with a₀² ln a₀: below 4e-4 at a₀ = 0.01, and the larger one at
-            // 0.05 says that it tends to zero
+            // the difference is in proportion to a₀² ln a₀: below 4e-4 at a₀ = 0.01, and far
+            // larger at 0.05
             let compliance = table.column("re_crr");
             assert_close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
             let near = compliance[0] * rocking - 1.0;
@@ -219,7 +219,7 @@ fn rigid_strip_limits() {
                 assert_close(column, table.column(column)[last] / frequency, dashpot, 0.0, 0.03);
             }
         }
-        // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which turns its sign
+        // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which changes the sign
         let coupling = bonded.column("re_chr")[0] / bonded.column("re_crr")[0];
         assert_close("coupling", coupling, strip.bonded_coupling_length(), 0.0, 1e-3);
     }

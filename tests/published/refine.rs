@@ -1,4 +1,4 @@
-//! GOAL: the error that `refine` estimates is the one that the scene has.
+//! GOAL: errors estimated by `refine` are within a factor of two of the true errors.
 //! SCENE: bonded blocks, a building and a cantilever under a pulse, three meshes and steps.
 //! REFERENCE: `td_*`, frequency domain.
 
@@ -12,7 +12,7 @@ use basemat_problems::series::{RelativeError, TabledSeries, nearest_integer};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
-/// Estimated over true error of the base shear's time series, for each setting.
+/// Ratios of the estimated to the true error of the base shear's time series, for each setting.
 fn estimates<S: Structure + 'static>(
     file: &str,
     poisson: f64,
@@ -36,7 +36,7 @@ fn estimates<S: Structure + 'static>(
     .unwrap();
     let expected: Vec<f64> = (0..steps)
         .map(|k| {
-            // Simpson's rule over many parts: steps may be longer than the table's.
+            // Simpson's rule over many parts: steps may be longer than those of the table.
             let part = COARSE_TIME_STEP / 8.0;
             (1..=8)
                 .map(|j| {

@@ -1,4 +1,4 @@
-//! GOAL: closed forms of loads on soil and on plates satisfy their equations and refuse bad input.
+//! GOAL: closed forms of loads on soil and on plates satisfy their equations and refuse invalid input.
 //! SCENE: line loads, point loads in the full plane, rectangles, plates on springs.
 //! REFERENCE: statics, differential equations, sums of point loads and of waves.
 
@@ -13,7 +13,7 @@ use super::reference::{INVALID_NUMBERS, refused, soil};
 use basemat_problems::assert_close;
 
 #[test]
-fn bad_inputs_of_line_loads_and_point_loads_are_refused() {
+fn invalid_inputs_of_line_loads_and_point_loads_are_refused() {
     for bad in INVALID_NUMBERS {
         refused(flamant_relative_settlement(soil(), 1.0, bad, 1.0));
         refused(flamant_relative_settlement(soil(), 1.0, 1.0, bad));
@@ -33,10 +33,10 @@ fn bad_inputs_of_line_loads_and_point_loads_are_refused() {
     refused(kelvin_relative_displacement(soil(), [1.0, 0.0], [0.0, 0.0], 1.0));
 }
 
-/// Flamant: the radial stress carries the load, and the surface slope is in proportion to it.
+/// Flamant's radial stress balances the load, and the surface slope is in proportion to it.
 #[test]
 fn line_loads_satisfy_equilibrium() {
-    // Radial stress over a half circle carries the load.
+    // Radial stress over a half circle balances the load.
     let count = 1000;
     let radius = 0.7;
     let load = 3.0;
@@ -68,7 +68,8 @@ fn inverse_distance([x, y]: [f64; 2], i: i32, j: i32, count: i32) -> f64 {
     1.0 / (along - x).hypot(away - y)
 }
 
-/// The settlement under a loaded rectangle is a sum of point loads, by rays from a point inside and by cells outside.
+/// The settlement under a loaded rectangle is a sum of point loads, integrated along rays from a point inside and over
+/// cells outside.
 #[test]
 fn loaded_rectangles_settle_as_point_loads_do() {
     let unit = (1.0 - 0.3) / (2.0 * std::f64::consts::PI * 3.0);
@@ -114,7 +115,7 @@ fn second_derivatives(beside: [[f64; 2]; 2], middle: [f64; 2], h: f64) -> [f64; 
 
 /// Kelvin's solution satisfies Navier's equation (by differences) and reciprocity.
 #[test]
-fn kelvin_satisfies_navier() {
+fn kelvins_solution_satisfies_naviers_equation() {
     let h = 1e-3;
     let u = |x: f64, y: f64| kelvin_displacement([1.0, 2.0], [x, y]);
     let x = 0.8;
@@ -136,9 +137,9 @@ fn kelvin_satisfies_navier() {
     assert_eq!(by_horizontal[1], by_vertical[0]);
 }
 
-/// Waves on an infinite plate on springs, summed: ∫ P κ dκ/(2π (D κ⁴ + k)), with κ = l⁻¹ tan φ, l⁴ = D/k.
+/// Integral over the waves on an infinite plate on springs: ∫ P κ dκ/(2π (D κ⁴ + k)), with κ = l⁻¹ tan φ, l⁴ = D/k.
 #[test]
-fn hertz_plates_settle_as_their_waves_do() {
+fn hertz_settlements_are_integrals_over_waves() {
     for (force, rigidity, bed) in [(3.0, 2.0, 5.0), (-1.0, 1e9, 2e7)] {
         let per_length = f64::powf(bed / rigidity, 0.25);
         let count = 20_000;
@@ -165,11 +166,11 @@ fn hertz_plates_settle_as_their_waves_do() {
     refused(hertz_plate_settlement(f64::NAN, 1.0, 1.0));
 }
 
-/// At high frequency a rigid base sends plane waves down, with dashpots ρ c per area.
+/// At high frequency a rigid base radiates plane waves, with dashpots ρ c per area.
 ///
 /// The rocking springs fall, and all impedances grow with the sides.
 #[test]
-fn rectangles_of_pais_and_kausel_send_plane_waves_at_high_frequency() {
+fn impedances_of_pais_and_kausel_are_plane_wave_dashpots_at_high_frequency() {
     let frequency = 1e4;
     for ([width, length], poisson) in [([2.0, 2.0], 0.25), ([3.0, 7.5], 0.1), ([1.0, 4.0], 0.45)] {
         let soil = Soil::new(3.0, poisson, 1.7).unwrap();
@@ -187,7 +188,7 @@ fn rectangles_of_pais_and_kausel_send_plane_waves_at_high_frequency() {
         assert_close("rocking", found[3].im, waves * second * pressure, 0.0, 1e-6);
         assert!(found[3].re < 0.5 * at_rest[3].re);
         assert!(at_rest.iter().all(|impedance| impedance.im == 0.0));
-        // Stiffer along the shorter side, and less than n squares beside each other.
+        // Stiffer along the shorter side, and softer than n squares beside each other.
         let square = pais_kausel_impedances(soil, [width, width], 0.0).unwrap();
         let count = length / width;
         assert!(at_rest[0].re >= at_rest[1].re);

@@ -1,4 +1,4 @@
-//! GOAL: files of cases that a program runs itself: rows survive the process, columns grow, warnings stay.
+//! GOAL: a file of cases that a program runs itself keeps its rows when the process ends, grows columns, and has warnings.
 //! SCENE: six cases by formula, one of which fails, in files that are closed, cut and opened again.
 //! REFERENCE: the cells that were appended; the table of the same cases in one process.
 
@@ -13,7 +13,7 @@ fn path(name: &str) -> PathBuf {
     folder.join("cases.csv")
 }
 
-fn part(path: &Path) -> PathBuf {
+fn part_file(path: &Path) -> PathBuf {
     path.with_file_name("cases.csv.part")
 }
 
@@ -56,7 +56,7 @@ fn value_bits(row: &CaseRow<'_>, name: &str) -> Option<u64> {
 }
 
 #[test]
-fn rows_survive_the_process_in_any_order() {
+fn interrupted_tables_continue_with_rows_in_any_order() {
     let expected = finished_table("expected");
     for first in [vec![], vec![2], vec![5, 0, 2], vec![0, 2, 1, 3], vec![5, 4, 3, 2, 1, 0]] {
         let path = path("resumed");
@@ -65,9 +65,9 @@ fn rows_survive_the_process_in_any_order() {
             append(&mut file, case);
         }
         drop(file);
-        // A row within which the process was killed.
-        let text = std::fs::read_to_string(part(&path)).unwrap();
-        std::fs::write(part(&path), format!("{text}4,0.3,\"a,")).unwrap();
+        // The process was killed within this row.
+        let text = std::fs::read_to_string(part_file(&path)).unwrap();
+        std::fs::write(part_file(&path), format!("{text}4,0.3,\"a,")).unwrap();
         let mut file = sweep().open(&path).unwrap();
         let missing: Vec<_> = (0..6).filter(|case| !first.contains(case)).collect();
         assert_eq!(file.missing(), missing);
@@ -76,8 +76,8 @@ fn rows_survive_the_process_in_any_order() {
             append(&mut file, case);
         }
         let table = file.finish().unwrap();
-        assert!(!part(&path).exists());
-        // Columns are in the order in which results came.
+        assert!(!part_file(&path).exists());
+        // Columns are in the order of the results.
         for (row, other) in table.rows().zip(expected.rows()) {
             assert_eq!((row.index, row.warnings), (other.index, other.warnings));
             assert_eq!(row.results.err(), other.results.err());
@@ -116,7 +116,7 @@ fn a_case_twice_and_a_table_with_holes_are_refused() {
     assert!(
         matches!(&missing, Err(Error::Sweep(SweepError::Missing { cases, .. })) if *cases == [1, 5])
     );
-    // Another grid does not take the rows.
+    // A sweep of another grid cannot use the rows.
     let other = Sweep::grid([Parameter::numbers("friction", [0.1, 0.2, 0.3])]).unwrap();
     assert!(matches!(other.open(&path), Err(Error::File(_))));
 }

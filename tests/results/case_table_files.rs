@@ -1,6 +1,6 @@
-//! GOAL: files of sweeps: damage is refused, a killed sweep goes on, every bit comes back.
+//! GOAL: damaged files of sweeps are refused, a killed sweep continues, and every bit is read back.
 //! SCENE: the cases by formula of `case_tables`; files that are cut, edited and deleted.
-//! REFERENCE: the whole_table table, to the last bit; the `csv` crate; the cells that were written.
+//! REFERENCE: the whole table, to the last bit; the `csv` crate; the cells that were written.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -45,7 +45,7 @@ fn edited_fault(text: &str, from: &str, to: &str) -> (usize, FileFault) {
 }
 
 #[test]
-fn spoilt_files_are_refused() {
+fn damaged_files_are_refused() {
     let text = whole_table().csv();
     // Cut anywhere: the check sum is that of all rows.
     let path = folder("cut").join("cases.csv");
@@ -59,7 +59,7 @@ fn spoilt_files_are_refused() {
         refused(sweep().merge([&path])),
         Error::File(FileError { fault: FileFault::Format { needed, .. }, .. }) if needed == "UTF-8"
     ));
-    // A byte-order mark is passed over, and so are line ends of Windows.
+    // A byte-order mark and line ends of Windows are accepted.
     std::fs::write(&path, format!("\u{feff}{text}")).unwrap();
     assert_eq!(sweep().merge([&path]).unwrap(), whole_table());
     let doubled = sweep_of_two().table(["y"], |case| Result::Ok([2.0 * case.value("x")?])).unwrap();
@@ -118,7 +118,7 @@ impl KeptSweep {
         }
     }
 
-    /// The table, of the cases in the file and those that are missing there.
+    /// Table of the cases in the file and of the missing cases, which are run.
     fn table(&self) -> Result<CaseTable> {
         self.runs.store(0, Ordering::Relaxed);
         sweep().table_in(&self.path, RESULT_COLUMNS, |case| {
@@ -127,14 +127,14 @@ impl KeptSweep {
         })
     }
 
-    /// Cases that the last table ran.
+    /// Number of cases that the last table ran.
     fn runs(&self) -> usize {
         self.runs.load(Ordering::Relaxed)
     }
 }
 
 #[test]
-fn a_killed_sweep_goes_on() {
+fn a_killed_sweep_continues() {
     let kept = KeptSweep::new(&folder("resumed"));
     let KeptSweep { path, part, .. } = &kept;
     // As a whole, and again.
@@ -178,7 +178,7 @@ fn a_killed_sweep_goes_on() {
     assert_eq!((kept.runs(), part.exists()), (0, false));
 }
 
-/// A row that is deleted is run again; progress tells of it alone.
+/// A deleted row is run again; progress is reported for this row only.
 #[test]
 fn a_deleted_row_is_run_again() {
     let kept = KeptSweep::new(&folder("deleted_row"));
@@ -208,7 +208,7 @@ fn a_deleted_row_is_run_again() {
     assert_eq!((again.unwrap(), reports.load(Ordering::Relaxed)), (whole_table(), 1));
 }
 
-/// Files of another sweep are not taken, nor overwritten; a file that cannot be written is known before anything runs.
+/// Files of another sweep are neither used nor overwritten; a file that cannot be written is refused before a case runs.
 #[test]
 fn files_that_a_sweep_cannot_use_are_refused() {
     let folder = folder("unusable");
@@ -244,7 +244,7 @@ fn sweep_of_texts(name: &str, texts: &[String]) -> Sweep<'static> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Any texts and any bits come back, and another reader sees the same cells.
+    /// Any texts and any bits are read back, and another reader reads the same cells.
     #[test]
     fn files_keep_every_bit(
         texts in proptest::collection::btree_set("[a-z,\"\n\r µ']{1,8}", 1..4),

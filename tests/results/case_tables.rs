@@ -1,4 +1,4 @@
-//! GOAL: tables of sweeps: shards and their merger, failed cases, the printed form.
+//! GOAL: tables of sweeps are right: shards and their merger, failed cases, the printed form.
 //! SCENE: cases by formula, with errors, panics, NaN and infinities; blocks on springs.
 //! REFERENCE: the whole table, to the last bit.
 
@@ -32,7 +32,7 @@ pub(super) fn sweep() -> Sweep<'static> {
     .unwrap()
 }
 
-/// Results that a formula gives, and every kind of trouble.
+/// Results of a case by a formula; some cases fail, panic or have results that are not finite.
 pub(super) fn compute(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
     let friction = case.value("friction").unwrap();
     let width = case.value("width_m").unwrap();
@@ -157,7 +157,7 @@ fn merged_shards_are_the_whole() {
     let merged = half.merge(&paths).unwrap();
     let half = sweep().shard(1, 2).unwrap();
     assert_eq!(merged, half.table(RESULT_COLUMNS, compute).unwrap());
-    // One bit less is another table.
+    // A table that differs in one bit is not equal.
     let other = sweep().table(RESULT_COLUMNS, |case| {
         let results = compute(case)?;
         let slip = results[1];

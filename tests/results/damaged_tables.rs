@@ -1,8 +1,8 @@
-//! GOAL: no row of a file of cases is taken with other contents than were written, none is lost
-//! without a word, and a disk that is full ends a sweep with what was computed.
-//! SCENE: tables of a formula, every bit of their files flipped, quotation marks put in anywhere,
-//! files that may not grow.
-//! REFERENCE: the table as it was computed; the check sum worked out from the cells.
+//! GOAL: rows of a file of cases are used only as they were written; none is lost without an error; a full disk ends a sweep
+//! with the rows that were computed.
+//! SCENE: tables of a formula, with every bit of their files flipped or a quotation mark inserted anywhere; files that
+//! cannot grow.
+//! REFERENCE: the table as it was computed; the check sum computed from the cells.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -20,7 +20,7 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// A file anew: some systems flush one that is cut to nothing and written again.
+/// Writes a new file, since some systems flush a file that is truncated and written again.
 fn write(path: &Path, content: &[u8]) {
     let _ = std::fs::remove_file(path);
     std::fs::write(path, content).unwrap();
@@ -96,7 +96,7 @@ fn every_damaged_byte_is_refused() {
     assert!(refused > 7 * text.len(), "{refused}");
 }
 
-/// Digits that stay digits: the damage that a reader of numbers cannot see.
+/// Changed digits are damage that a parser of numbers cannot detect.
 #[test]
 fn edited_digits_are_refused() {
     let table = finished_table(4);
@@ -118,7 +118,7 @@ fn edited_digits_are_refused() {
                     assert_eq!(fault, FileFault::Damaged { quantity: "the table".into() });
                     damaged += 1;
                 }
-                // The seventeenth digit may be another without another number.
+                // Another seventeenth digit may stand for the same number.
                 merged => assert_eq!(merged.unwrap(), table, "byte {at} of case {case}"),
             }
         }
@@ -135,7 +135,7 @@ fn plain_results(case: &SweepCase<'_>) -> [f64; 2] {
     [1.0 / 3.0, case.index as f64]
 }
 
-/// In rows with quoted cells, which end what the mark began, and in rows without any, which do not.
+/// The mark stands in rows with quoted cells, which close it, and in rows without any, which do not.
 #[test]
 fn a_stray_quotation_mark_drops_no_rows() {
     for (name, sweep, compute) in [
@@ -151,9 +151,9 @@ fn a_stray_quotation_mark_drops_no_rows() {
         let mut taken = 0;
         let mut refused = 0;
         for at in (0..text.len()).filter(|&at| text.is_char_boundary(at)) {
-            let spoilt = format!("{}\"{}", &text[..at], &text[at..]);
+            let damaged_text = format!("{}\"{}", &text[..at], &text[at..]);
             let _ = std::fs::remove_file(&path);
-            write(&part, spoilt.as_bytes());
+            write(&part, damaged_text.as_bytes());
             runs.store(0, Ordering::Relaxed);
             let found = sweep().table_in(&path, RESULT_COLUMNS, |case| {
                 runs.fetch_add(1, Ordering::Relaxed);
@@ -166,7 +166,11 @@ fn a_stray_quotation_mark_drops_no_rows() {
                     taken += 1;
                 }
                 Err(Error::File(_)) => {
-                    assert_eq!(std::fs::read_to_string(&part).unwrap(), spoilt, "{name}, {at}");
+                    assert_eq!(
+                        std::fs::read_to_string(&part).unwrap(),
+                        damaged_text,
+                        "{name}, {at}"
+                    );
                     refused += 1;
                 }
                 Err(other) => panic!("{name}, {at}: {other}"),
@@ -184,7 +188,7 @@ fn index_results(case: &SweepCase<'_>) -> [f64; 2] {
     [case.index as f64, 0.5]
 }
 
-/// Runs in a separate process whose files may have 2 or 4 kB: `ulimit` counts in blocks.
+/// Runs in a separate process whose files are limited to 2 or 4 kB: `ulimit` counts in blocks.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_ends_the_sweep_with_its_rows() {
@@ -203,7 +207,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
             panic!("{error}")
         };
         assert_eq!((*computed, computed + left), (runs.load(Ordering::Relaxed), 400), "{error}");
-        // Nothing is begun after the first row that found no place.
+        // No case starts after the first row that could not be written.
         assert!(*computed < 150, "{error}");
         assert!(!error.to_string().contains("El Centro"), "{error}");
         println!("{begin}{rows}{end}");
@@ -225,7 +229,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
     let rows = text.split_once(begin).unwrap().1.split_once(end).unwrap().0;
     let whole = sweep(FRICTION_COUNT);
     let whole = whole.table(RESULT_COLUMNS, |case| Result::Ok(index_results(case))).unwrap();
-    // From the file that was cut, and from the rows handed over.
+    // The sweep continues from the truncated file, and from the rows in the error.
     for saved_rows in [std::fs::read_to_string(&part).unwrap(), rows.to_owned()] {
         let _ = std::fs::remove_file(&path);
         write(&part, saved_rows.as_bytes());
@@ -245,7 +249,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
 }
 
 #[test]
-fn many_values_are_compared_in_no_time() {
+fn many_values_are_compared_quickly() {
     let clock = std::time::Instant::now();
     let count = 300_000;
     let numbers = Parameter::numbers("x", (0..count).map(f64::from));
@@ -256,6 +260,6 @@ fn many_values_are_compared_in_no_time() {
     let repeated = Error::DuplicateName { quantity: "value", name: "7".to_owned() };
     let item = "parameter 'x'".to_owned();
     assert_eq!(Sweep::grid([twice]).unwrap_err(), Error::Item { item, source: Box::new(repeated) });
-    // A comparison of each with each takes 4.5e10 comparisons.
+    // Comparing every pair of values would take 4.5e10 comparisons.
     assert!(clock.elapsed().as_secs_f64() < 3.0, "{:?}", clock.elapsed());
 }

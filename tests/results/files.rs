@@ -1,6 +1,6 @@
-//! GOAL: time_series, contact, envelopes and spectra as files, read back as they were.
-//! SCENE: the block of `main`; probes whose names collide or are no names of columns.
-//! REFERENCE: the numbers themselves, through a reader of CSV that is not the crate's.
+//! GOAL: files of time series, contact, envelopes and spectra have the recorded values.
+//! SCENE: the block of `results`; probes whose names collide or are no names of columns.
+//! REFERENCE: the numbers themselves, through the reader of CSV files of another crate.
 
 use basemat::coupled::Probe;
 use basemat::interface::{Coulomb, Mode};
@@ -39,13 +39,13 @@ fn number(cell: &str) -> f64 {
 }
 
 #[track_caller]
-fn same(cell: &str, value: f64) {
+fn assert_same_bits(cell: &str, value: f64) {
     let found = number(cell);
     assert!(found.to_bits() == value.to_bits() || (found.is_nan() && value.is_nan()), "{cell}");
 }
 
 #[test]
-fn histories_have_a_column_for_every_series() {
+fn time_series_have_a_column_for_every_quantity() {
     let Recorded { time_series, .. } = recorded(Recorder::new().every(3));
     let CsvTable { heading, rows } = table(&time_series.csv());
     let mut expected = vec!["time_s".to_owned()];
@@ -55,19 +55,19 @@ fn histories_have_a_column_for_every_series() {
     assert_eq!(heading, expected);
     assert_eq!(rows.len(), time_series.times().len());
     for (k, row) in rows.iter().enumerate() {
-        same(&row[0], time_series.times()[k]);
+        assert_same_bits(&row[0], time_series.times()[k]);
         for (cell, quantity) in row[1..].iter().zip(Quantity::recorded(false)) {
-            same(cell, time_series.series(quantity)[k]);
+            assert_same_bits(cell, time_series.series(quantity)[k]);
         }
-        same(&row[14], time_series.probe("top").unwrap()[k]);
-        same(&row[16], time_series.energy_balances()[k].input);
+        assert_same_bits(&row[14], time_series.probe("top").unwrap()[k]);
+        assert_same_bits(&row[16], time_series.energy_balances()[k].input);
     }
-    // At the start nothing shears: the factor of safety is infinite.
+    // At the start there is no base shear: the factor of safety is infinite.
     assert_eq!(rows[0][12], "inf");
 }
 
 #[test]
-fn what_is_not_known_is_an_empty_cell() {
+fn missing_values_are_empty_cells() {
     let mut simulation = scene(SI_UNITS, 0.6)
         .structure(block(SI_UNITS))
         .interface(Coulomb::uplift_only())
@@ -124,23 +124,23 @@ fn contact_has_a_row_for_every_frame_and_element() {
         let e = k % count;
         let element = time_series.elements()[e];
         let contact = state.contact[e];
-        same(&row[0], state.time);
+        assert_same_bits(&row[0], state.time);
         assert_eq!(row[1], e.to_string());
-        same(&row[2], element.left());
-        same(&row[3], element.right());
+        assert_same_bits(&row[2], element.left());
+        assert_same_bits(&row[3], element.right());
         assert_eq!(row[4].parse::<Mode>(), Ok(state.modes[e]));
         let values = [contact.gap, contact.slip, contact.pressure, contact.shear];
-        row[5..].iter().zip(values).for_each(|(cell, value)| same(cell, value));
+        row[5..].iter().zip(values).for_each(|(cell, value)| assert_same_bits(cell, value));
         modes.insert(row[4].clone());
     }
     assert!(modes.len() > 2, "{modes:?}");
-    // Without frames the heading is all.
+    // Without frames there is only the heading.
     let empty = table(&recorded(Recorder::new()).time_series.contact_csv());
     assert!(empty.rows.is_empty());
 }
 
 #[test]
-fn envelopes_and_spectra() {
+fn envelopes_and_spectra_have_their_values() {
     let Recorded { time_series, run, .. } = recorded(Recorder::new());
     let envelopes = table(&run.envelope_csv());
     assert_eq!((envelopes.heading.len(), envelopes.rows.len()), (15, run.envelope.len()));
@@ -155,14 +155,14 @@ fn envelopes_and_spectra() {
             ("slip_time_s", envelope.slip.time),
             ("open_s", envelope.open),
         ] {
-            same(&row[envelopes.column(name)], value);
+            assert_same_bits(&row[envelopes.column(name)], value);
         }
     }
     let spectrum = time_series.floor_spectrum("top acceleration", &[0.2, 0.5], 0.05).unwrap();
     let CsvTable { heading, rows } = table(&spectrum_csv(&spectrum));
     assert_eq!(heading[3], "pseudo_acceleration_m_per_s2");
-    same(&rows[1][3], spectrum[1].pseudo_acceleration);
-    same(&rows[0][4], spectrum[0].acceleration);
+    assert_same_bits(&rows[1][3], spectrum[1].pseudo_acceleration);
+    assert_same_bits(&rows[0][4], spectrum[0].acceleration);
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("files");
     run.envelope_csv().save(folder.join("envelope.csv")).unwrap();

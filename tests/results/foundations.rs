@@ -1,4 +1,4 @@
-//! GOAL: a run tells of each foundation what a run of that foundation alone tells.
+//! GOAL: a run has the same results of each foundation as a run of this foundation alone.
 //! SCENE: a tower and a block on independent springs.
 //! REFERENCE: each of them alone.
 
@@ -13,12 +13,12 @@ fn block() -> RigidBlock {
     RigidBlock::new(3.0, 3.0, 1800.0).unwrap()
 }
 
-/// On springs, where structures on different foundations do not interact.
+/// Runs a structure on springs, where structures on different foundations do not interact.
 fn march(structure: impl Structure + 'static) -> Run {
     march_on(structure, &[0.35; 2])
 }
 
-/// The same with a friction coefficient for each foundation.
+/// Runs a structure on springs with a friction coefficient for each foundation.
 fn march_on(structure: impl Structure + 'static, friction: &[f64]) -> Run {
     let ground = SpringGround::under(&structure, 8, 2e7, 1e7).unwrap();
     let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
@@ -36,20 +36,20 @@ fn march_on(structure: impl Structure + 'static, friction: &[f64]) -> Run {
 }
 
 #[track_caller]
-fn same(a: Peak, b: Peak, scale: f64) {
+fn assert_same_peak(a: Peak, b: Peak, scale: f64) {
     assert!((a.value - b.value).abs() < 1e-9 * scale, "{a:?} {b:?}");
     assert!((a.time - b.time).abs() < 1e-9, "{a:?} {b:?}");
 }
 
 #[track_caller]
-fn alike(a: Extremes, b: Extremes) {
+fn assert_same_extremes(a: Extremes, b: Extremes) {
     let scale = a.largest().value.abs();
-    same(a.lowest, b.lowest, scale);
-    same(a.highest, b.highest, scale);
+    assert_same_peak(a.lowest, b.lowest, scale);
+    assert_same_peak(a.highest, b.highest, scale);
 }
 
 #[test]
-fn each_foundation_is_summed_up_by_itself() {
+fn each_foundation_has_separate_results() {
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 10.0).unwrap();
     let both = march(group);
     let alone = [march(tower()), march(block())];
@@ -60,18 +60,22 @@ fn each_foundation_is_summed_up_by_itself() {
         assert!(
             (foundation.static_normal_force / alone.whole.static_normal_force - 1.0).abs() < 1e-9
         );
-        alike(alone.whole.base_shear, foundation.base_shear);
-        alike(alone.whole.base_moment, foundation.base_moment);
-        alike(alone.whole.normal_force, foundation.normal_force);
-        alike(alone.whole.base_rotation, foundation.base_rotation);
-        same(alone.whole.uplifted_fraction.highest, foundation.uplifted_fraction.highest, 1.0);
-        same(alone.whole.mean_slip.largest(), foundation.mean_slip.largest(), 1e-3);
+        assert_same_extremes(alone.whole.base_shear, foundation.base_shear);
+        assert_same_extremes(alone.whole.base_moment, foundation.base_moment);
+        assert_same_extremes(alone.whole.normal_force, foundation.normal_force);
+        assert_same_extremes(alone.whole.base_rotation, foundation.base_rotation);
+        assert_same_peak(
+            alone.whole.uplifted_fraction.highest,
+            foundation.uplifted_fraction.highest,
+            1.0,
+        );
+        assert_same_peak(alone.whole.mean_slip.largest(), foundation.mean_slip.largest(), 1e-3);
         assert!((alone.whole.residual_slip - foundation.residual_slip).abs() < 1e-9);
         let sliding = [alone.whole.sliding_safety.lowest, foundation.sliding_safety.lowest];
         assert!(sliding.iter().all(|peak| peak.value >= 1.0 - 1e-9));
         let overturning = foundation.overturning_safety.lowest.value;
         assert!((alone.whole.overturning_safety.lowest.value - overturning).abs() < 1e-9);
-        // A single foundation is all there is, but for the point that moments are about.
+        // A single foundation has the results of the whole base, except for moments, which are about another point.
         let [only] = &alone.foundations[..] else { panic!("one foundation") };
         for quantity in Quantity::ALL_QUANTITIES {
             if quantity == Quantity::BaseMoment {
@@ -81,7 +85,7 @@ fn each_foundation_is_summed_up_by_itself() {
         }
         assert_eq!((only.uplift, &only.sliding), (alone.whole.uplift, &alone.whole.sliding));
     }
-    // They are not alike, so nothing above holds by chance; the tower rocks.
+    // The foundations differ, so that no check above holds by chance; the tower rocks.
     let [tower, block] = &both.foundations[..] else { unreachable!() };
     assert!(tower.uplifted_fraction.largest().value > 0.2);
     assert!(tower.base_rotation.magnitude() > 2.0 * block.base_rotation.magnitude());
@@ -90,7 +94,7 @@ fn each_foundation_is_summed_up_by_itself() {
     println!("{page}");
     assert!(page.contains("-2.00 to 2.00") && page.contains("8.50 to 11.50"), "{page}");
     assert!(!alone[0].to_string().contains("-2.00 to 2.00"));
-    // Not all 16 elements are printed, which is said; that with the largest pressure is.
+    // The page says that not all 16 elements are printed; the element with the largest pressure is.
     assert!(page.contains("of 16 elements"));
     let (element, peak) = both.largest_pressure().unwrap();
     let line = page.lines().find(|line| {

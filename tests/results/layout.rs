@@ -1,4 +1,4 @@
-//! Places of the texts of an SVG: none may leave the sheet or touch another.
+//! Layout of the texts of an SVG picture: no text may leave the sheet or touch another one.
 
 /// A text and its box: left, top, right, bottom.
 type PlacedText = (String, [f64; 4]);
@@ -15,16 +15,20 @@ pub(crate) fn assert_readable(svg: &str, name: &str) {
     assert!(!texts.is_empty(), "{name}: no texts");
     for (k, (text, place)) in texts.iter().enumerate() {
         let [left, top, right, bottom] = *place;
-        let inside = left >= 0.0 && top >= 0.0 && right <= width && bottom <= height;
-        assert!(inside, "{name}: {text:?} at {place:?} leaves {width} by {height}");
+        let is_inside = left >= 0.0 && top >= 0.0 && right <= width && bottom <= height;
+        assert!(is_inside, "{name}: {text:?} at {place:?} leaves {width} by {height}");
         for (other, [l, t, r, b]) in &texts[..k] {
-            let apart = right <= *l || *r <= left || bottom <= *t || *b <= top;
-            assert!(apart, "{name}: {text:?} at {place:?} touches {other:?} at {:?}", [l, t, r, b]);
+            let is_apart = right <= *l || *r <= left || bottom <= *t || *b <= top;
+            assert!(
+                is_apart,
+                "{name}: {text:?} at {place:?} touches {other:?} at {:?}",
+                [l, t, r, b]
+            );
         }
     }
 }
 
-/// As the renderer of PNG files lays it out, in a font that is wider than the one of those files.
+/// Texts as the renderer of PNG files lays them out, in a font wider than the one of those files.
 #[cfg(feature = "png")]
 fn sheet(svg: &str) -> PictureTexts {
     use resvg::usvg::{Group, Node, Options, TextChunk, TextSpan, Tree};
@@ -65,7 +69,7 @@ fn number(tag: &str, name: &str) -> Option<f64> {
     attribute(tag, name).and_then(|text| text.parse().ok())
 }
 
-/// By the attributes that plotters and the animation write, 0.6 of the font's size for a letter.
+/// Texts by the attributes of the SVG file, with 0.6 of the font's size for the width of a letter.
 #[cfg(not(feature = "png"))]
 fn sheet(svg: &str) -> PictureTexts {
     let opening_tag = svg.split('>').next().unwrap();

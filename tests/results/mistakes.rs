@@ -1,4 +1,4 @@
-//! Numbers and steps that are probably mistakes warn, at the point where their mistake begins, and usual ones do not.
+//! GOAL: numbers and steps that are probably mistakes cause warnings, and usual ones do not.
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{Mistake, Warning};
@@ -46,7 +46,7 @@ fn coulomb() -> Coulomb {
     Coulomb::new(0.4).unwrap()
 }
 
-/// The first of the numbers that `read` takes from a run's warnings.
+/// The first number that `read` finds in a run's warnings.
 fn first_warning<T>(run: &Run, read: impl Fn(&Warning) -> Option<T>) -> Option<T> {
     run.warnings.iter().find_map(read)
 }
@@ -114,7 +114,7 @@ fn is_heavy(warning: &Warning) -> bool {
 
 /// Reference: the weight by hand over 8 m, and G = ρ c² = 118.75 MPa.
 #[test]
-fn a_weight_that_no_soil_carries() {
+fn weights_beyond_the_resistance_of_soil_cause_a_warning() {
     for (factor, expected) in [(1.0, false), (5.0, false), (20.0, true), (100.0, true)] {
         let run = run(0.005, building(factor), coulomb(), el_centro_1940(), 0.1);
         assert_eq!(warns(&run, is_heavy), expected, "{factor}: {:?}", run.warnings);
@@ -128,7 +128,7 @@ fn a_weight_that_no_soil_carries() {
     }
 }
 
-/// A building as matrices, whose vertical mass is this one.
+/// Matrices of a building with this vertical mass.
 fn matrices(vertical: f64) -> MatrixModel {
     let masses = [50e3, vertical, 400e3, 20e3, 20e3, 20e3, 20e3, 20e3];
     let mass = Triplets::from_entries(8, masses.iter().enumerate().map(|(i, m)| (i, i, *m)));
@@ -153,14 +153,14 @@ fn unequal_masses(vertical: f64) -> Option<[f64; 2]> {
 }
 
 #[test]
-fn floors_that_the_vertical_mass_lacks() {
+fn missing_vertical_mass_causes_a_warning() {
     assert_eq!(unequal_masses(150e3), None);
     let [vertical, horizontal] = unequal_masses(50e3).unwrap();
     assert!((vertical - 50e3).abs() < 1e-3 && (horizontal - 150e3).abs() < 1e-3);
     assert!(unequal_masses(300e3).is_some());
 }
 
-/// A raft of shells under a block of the same density.
+/// A raft of shells with sides of 6 m.
 fn raft(density: f64, thickness: f64) -> FemModel {
     let concrete = Material::new(30e9, 0.2, density).unwrap();
     let mut mesh = Mesh::in_space();
@@ -192,7 +192,7 @@ fn unusual_density(run: &Run) -> Option<f64> {
 }
 
 #[test]
-fn densities_that_no_material_has() {
+fn densities_of_no_material_cause_a_warning() {
     for density in [25.0, 2.5, 25_000.0] {
         assert_eq!(unusual_density(&shaken_raft(raft(density, 1.0))), Some(density));
     }
@@ -203,10 +203,10 @@ fn densities_that_no_material_has() {
     let group = StructureGroup::new().with(raft(2500.0, 1.0), 0.0).unwrap();
     let group = group.with(raft(25.0, 1.0), 20.0).unwrap();
     assert_eq!(group.description().densities, Some([25.0, 2500.0]));
-    // A wall of a kilometre is told by its weight.
+    // A raft one kilometre thick is recognised by its weight.
     let thick = shaken_raft(raft(2500.0, 1000.0));
     assert!(warns(&thick, is_heavy));
-    // Reduction keeps what the model tells.
+    // A reduced model has the description of its model.
     let reduced = CraigBampton::new(3).reduce(raft(25.0, 1.0)).unwrap();
     assert_eq!(reduced.description().densities, Some([25.0; 2]));
 }
@@ -232,7 +232,7 @@ fn motion_warnings(record: Record) -> MotionWarnings {
 }
 
 #[test]
-fn motions_stronger_than_two_g_and_records_that_drift() {
+fn motions_above_two_g_and_drifting_records_cause_warnings() {
     let record = el_centro_1940();
     let usual = MotionWarnings { is_strong: false, drift_velocity: None };
     assert_eq!(motion_warnings(record.clone()), usual);
@@ -265,7 +265,7 @@ fn weak_bond(tension: f64, cohesion: f64) -> Option<[f64; 2]> {
 }
 
 #[test]
-fn strengths_in_kilopascals() {
+fn strengths_in_kilopascals_cause_a_warning() {
     assert_eq!(weak_bond(0.0, 0.0), None);
     assert_eq!(weak_bond(50e3, 100e3), None);
     let [strength, pressure] = weak_bond(10.0, 20.0).unwrap();

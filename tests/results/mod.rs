@@ -1,4 +1,4 @@
-//! GOAL: time series, peaks, envelopes, factors of safety, spectra, pages and pictures of a run.
+//! GOAL: time series, peaks, envelopes, factors of safety, spectra, pages and pictures of a run are right.
 //! SCENE: a block on the half-plane that rocks and slides.
 //! REFERENCE: the states they were made of, and statics.
 

@@ -1,5 +1,5 @@
-//! GOAL: histories as an archive of arrays that NumPy reads.
-//! SCENE: the block of `main` with contact and motion frames, and without.
+//! GOAL: an archive of time series has arrays that NumPy reads.
+//! SCENE: the block of `results` with contact and motion frames, and without.
 //! REFERENCE: the numbers themselves; `tests/data/read_npz.py` compares what is saved here with
 //! NumPy's own reader.
 
@@ -113,20 +113,24 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
 }
 
 #[test]
-fn arrays_are_what_was_kept() {
+fn arrays_have_the_recorded_values() {
     let recorder = Recorder::new().every(2).contact(5).motion(8);
     let Recorded { time_series, states, .. } = recorded(recorder);
     let archive = SavedArchive { arrays: arrays(&time_series), time_series };
     let time_series = &archive.time_series;
-    let kept = STEP_COUNT / 2 + 1;
-    archive.assert_holds("time_s", &[kept], time_series.times());
+    let recorded_count = STEP_COUNT / 2 + 1;
+    archive.assert_holds("time_s", &[recorded_count], time_series.times());
     for quantity in Quantity::recorded(false) {
-        archive.assert_holds(&quantity.column(false), &[kept], time_series.series(quantity));
+        archive.assert_holds(
+            &quantity.column(false),
+            &[recorded_count],
+            time_series.series(quantity),
+        );
     }
-    archive.assert_holds("top_m", &[kept], time_series.probe("top").unwrap());
+    archive.assert_holds("top_m", &[recorded_count], time_series.probe("top").unwrap());
     let acceleration = time_series.probe("top acceleration").unwrap();
-    archive.assert_holds("top_acceleration_m_per_s2", &[kept], acceleration);
-    assert_eq!(time_series.energy_balances().len(), kept);
+    archive.assert_holds("top_acceleration_m_per_s2", &[recorded_count], acceleration);
+    assert_eq!(time_series.energy_balances().len(), recorded_count);
     archive.assert_holds_energy("kinetic_energy_j_per_m", |l| l.kinetic);
     archive.assert_holds_energy("strain_energy_j_per_m", |l| l.strain);
     archive.assert_holds_energy("hysteresis_energy_j_per_m", |l| l.hysteresis);

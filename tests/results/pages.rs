@@ -1,6 +1,6 @@
-//! GOAL: pages, tables and units as they are printed and written.
-//! SCENE: probes with and without units; cases that do not compare.
-//! REFERENCE: the values themselves; files stay in SI_UNITS.
+//! GOAL: pages and tables have the values of a run in the right units.
+//! SCENE: probes with and without units; cases that cannot be compared.
+//! REFERENCE: the values themselves; files stay in SI units.
 
 use basemat::Error;
 use basemat::coupled::Probe;
@@ -11,7 +11,7 @@ use basemat::structure::RigidBlock;
 use super::{FRICTION_COEFFICIENT, Recorded, STEP_COUNT, recorded};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
-/// Values stay SI_UNITS in files and are converted to the engineers' units where they are printed; an
+/// Values stay in SI units in files and are converted to the engineers' units where they are printed; an
 /// unknown label stays.
 #[test]
 fn probes_come_with_their_unit() {
@@ -95,7 +95,7 @@ fn cases_with_other_probes_or_units_have_no_common_rows() {
 }
 
 #[test]
-fn pages_and_tables() {
+fn pages_and_tables_have_all_values() {
     let Recorded { time_series, run, .. } = recorded(Recorder::new());
     let page = run.to_string();
     println!("{page}");
@@ -142,7 +142,7 @@ fn pages_and_tables() {
 }
 
 #[test]
-fn a_page_says_where_most_of_the_base_opens() {
+fn a_page_warns_if_most_of_the_base_opens() {
     let mut opened = Vec::new();
     let bonded = scene(SI_UNITS, 2.5).structure(block(SI_UNITS)).interface(Bonded);
     let rubbing = scene(SI_UNITS, 2.5).structure(block(SI_UNITS)).interface(friction(0.8));

@@ -1,6 +1,6 @@
 //! GOAL: pictures are well-formed and legible, show what they must, and refuse what cannot be
 //! shown.
-//! SCENE: every picture, with odd values, long words and distant foundations.
+//! SCENE: every picture, with usual and odd values.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 
 use basemat::analyses::interaction;
@@ -109,7 +109,7 @@ fn every_picture_has_title_labels_units_and_legend() {
     shows(&svg, &["Shape", "displacements × 20", "at rest", "t = 0.10 s", "t = 0.40 s", "y, m"]);
     let svg = plot::animation("A < B & C", &shape, &time_series, 20.0, 1.0).unwrap();
     shows(&svg, &["A &lt; B &amp; C"]);
-    // Path, bar of time and 40 times; no base, for its frames are others than the structure's.
+    // The path, the bar of time and 40 times move. The base does not: its frames are not those of the structure.
     assert_eq!(svg.as_str().matches("<animate ").count(), 2 + 40);
     shows(&svg, &["t = 0.00 s", "t = 0.49 s", "structure: 2 m", "displacements: 100 mm", "× 20"]);
     let PlottedRun { time_series, shape, .. } = rocking_block(Recorder::new().contact(5).motion(5));
@@ -198,7 +198,7 @@ fn odd_values_are_pictures_or_errors() {
     }
 }
 
-/// A block that has just begun, with a probe.
+/// Time series of a block with a probe, before its first step.
 fn recorded_probe(probe: Probe) -> TimeSeries {
     let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(friction(0.35));
     let simulation = builder.probe(probe).build().unwrap();
@@ -206,7 +206,7 @@ fn recorded_probe(probe: Probe) -> TimeSeries {
 }
 
 #[test]
-fn bad_requests_are_errors() {
+fn invalid_requests_are_errors() {
     let PlottedRun { time_series, shape, .. } = rocking_block(Recorder::new());
     assert!(matches!(plot::mode_map("T", &time_series), Err(Error::Scene { .. })));
     let fault = plot::deformed_shapes("T", &shape, &time_series, &[0.1], 1.0);
@@ -237,12 +237,11 @@ fn bad_requests_are_errors() {
     assert!(plot::deformed_shapes("T", &shape, &time_series, &[f64::NAN], 1.0).is_err());
     let fault = plot::deformed_shapes("T", &shape, &time_series, &[0.4], f64::MAX);
     assert!(matches!(fault, Err(Error::Input { .. })));
-    // Far away is the nearest instant.
+    // A distant time stands for the nearest instant.
     assert!(plot::deformed_shapes("T", &shape, &time_series, &[1e9], 1.0).is_ok());
 }
 
-/// GOAL: with infinite friction nothing is shown to slide; what the law's modes of slip are there
-/// for, touching without a pressure, is.
+/// GOAL: with infinite friction no element is shown to slide; modes of slip are shown as touching without pressure.
 #[test]
 fn nothing_slides_with_infinite_friction() {
     let law = Coulomb::uplift_only();

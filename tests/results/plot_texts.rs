@@ -77,9 +77,9 @@ fn every_text_can_be_read_whatever_is_drawn() {
     }
 }
 
-/// The row with the numbers of its degrees of freedom raised.
-fn raised_row(row: &DofCombination, by: usize) -> DofCombination {
-    row.into_iter().map(|(unknown, weight)| (unknown + by, *weight)).collect()
+/// The row with `offset` added to the numbers of its degrees of freedom.
+fn raised_row(row: &DofCombination, offset: usize) -> DofCombination {
+    row.into_iter().map(|(dof, weight)| (dof + offset, *weight)).collect()
 }
 
 /// Blocks of 4 m at these distances from the first.
@@ -147,7 +147,7 @@ fn foundations_far_apart_leave_no_sheet_blank() {
     assert!(heights.fold(0.0, f64::max) > 40.0);
 }
 
-/// Control characters that XML does not know come from names in other programs' files.
+/// Names in files of other programs contain control characters that XML does not allow.
 #[test]
 fn control_characters_leave_a_picture_valid() {
     let signs: String =

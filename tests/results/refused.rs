@@ -14,12 +14,12 @@ fn record(state: &State, time_series: &mut TimeSeries, run: &mut Run) {
 }
 
 #[test]
-fn bad_requests_are_errors() {
+fn invalid_requests_are_errors() {
     // The series of a loop that leaves steps out has no spectrum.
-    let mut forgetful = simulation();
-    let mut time_series = Recorder::new().start(&forgetful).unwrap();
+    let mut skipping = simulation();
+    let mut time_series = Recorder::new().start(&skipping).unwrap();
     for step in 0..200 {
-        let state = forgetful.step().unwrap();
+        let state = skipping.step().unwrap();
         if step % 2 == 1 {
             time_series.record(state).unwrap();
         }
@@ -56,23 +56,23 @@ fn bad_requests_are_errors() {
     other.time += 1.0;
     other.contact.pop();
     record(&other, &mut time_series, &mut run);
-    // Those that somebody has meddled with.
-    let spoil: [&dyn Fn(&mut State); 3] = [
+    // States that a caller has damaged.
+    let damage: [&dyn Fn(&mut State); 3] = [
         &|state| state.foundations[0].elements = 0..100,
         &|state| state.foundations.clear(),
         &|state| state.modes.truncate(1),
     ];
-    for spoil in spoil {
+    for damage in damage {
         let mut other = state.clone();
         other.time += 1.0;
-        spoil(&mut other);
+        damage(&mut other);
         record(&other, &mut time_series, &mut run);
     }
     assert_eq!(time_series.times().len(), 2);
     assert_eq!((run.steps, run.end), (1, state.time));
 }
 
-/// States of another simulation of the same sizes are not taken for the next ones of this.
+/// States of another simulation of the same sizes are not recorded.
 #[test]
 fn states_of_another_simulation_are_ignored() {
     let mut first = simulation();
@@ -89,8 +89,9 @@ fn states_of_another_simulation_are_ignored() {
     assert_eq!((time_series.times(), run.steps), (&[0.0, first.time_step()][..], 1));
 }
 
-/// Time series and snapshots of more steps than the limit of memory allows are an error before the run, which names
-/// the memory that they would take: as much a step as a recorded step takes.
+/// Time series and snapshots that exceed the limit of memory are an error before the run.
+///
+/// The error names the memory that they would need: the memory of one recorded step for each step.
 #[test]
 fn time_series_beyond_the_limit_of_memory_are_an_error() {
     let mut simulation = simulation();

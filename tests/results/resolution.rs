@@ -1,4 +1,4 @@
-//! Warnings of time steps and elements that miss what structure and ground do.
+//! GOAL: time steps and elements that are too coarse for the structure or the ground motion cause warnings.
 
 use std::f64::consts::PI;
 
@@ -50,7 +50,7 @@ pub(super) fn bonded_run(
         assert!(run.to_string().contains(&line));
         assert!(line.chars().count() <= 100, "{line}");
     }
-    // These bonded bases are pulled up; here is looked at resolution.
+    // These bonded bases are pulled up, but only the warnings of resolution are tested here.
     run.warnings.retain(|warning| !matches!(warning, Warning::Tension { .. }));
     run
 }
@@ -64,9 +64,9 @@ fn shaken_storeys(elements: usize, time_step: f64) -> Run {
     bonded_run(three_storeys(), el_centro_1940(), soil(250.0), elements, time_step)
 }
 
-/// The frequency is the record's, though none of these steps resolves it; a run with the recommended step is right.
+/// The warning has the frequency of the record, which none of these steps resolves. The recommended step resolves it.
 #[test]
-fn steps_that_miss_the_record() {
+fn steps_that_miss_the_record_cause_a_warning() {
     for time_step in [0.1, 0.2, 0.5, 1.0] {
         let run = shaken_storeys(12, time_step);
         let error = (run.whole.base_shear.magnitude() / THREE_STOREY_BASE_SHEAR - 1.0).abs();
@@ -93,7 +93,7 @@ fn pushed_slender_block(time_step: f64) -> Run {
 
 /// A pulse of 1 Hz is resolved by ten steps a second, the rocking that follows it is not.
 #[test]
-fn steps_that_miss_the_structure() {
+fn steps_that_miss_the_structure_cause_a_warning() {
     let fine = pushed_slender_block(2.5e-3);
     assert_eq!(fine.warnings, []);
     let coarse = pushed_slender_block(0.1);
@@ -109,10 +109,10 @@ fn steps_that_miss_the_structure() {
     assert_eq!(resolved.warnings, []);
 }
 
-/// After its motion a ground drifts at most, through zero after El Centro: differences of its displacement are
-/// rounding, and tell no step.
+/// After its motion the ground moves with a constant velocity at most: changes of this velocity are rounding and cause no
+/// warning. After El Centro the displacement passes through zero.
 #[test]
-fn rest_after_the_motion() {
+fn rest_after_the_motion_causes_no_warning() {
     let samples = (0..=100).map(|k| f64::sin(f64::from(k))).collect();
     for motion in [Record::new(0.02, samples).unwrap(), el_centro_1940()] {
         let block = RigidBlock::new(6.0, 9.0, 1000.0).unwrap();
@@ -191,9 +191,9 @@ fn stiff_structures_need_no_fine_steps() {
     assert_eq!(coarse.warnings, []);
 }
 
-/// A run recorded by single steps is judged by the motion at these steps.
+/// A run that is recorded step by step has the warnings of the motion at these steps.
 #[test]
-fn recorded_by_hand() {
+fn runs_recorded_step_by_step_have_warnings() {
     let structure = three_storeys();
     let mut simulation = Simulation::builder(0.5)
         .ground(
@@ -242,9 +242,9 @@ fn lowest_pressure(element: &ElementEnvelope) -> f64 {
     element.pressure.lowest.value
 }
 
-/// A bonded base under weight that is pulled up says so, with the numbers of its envelope.
+/// A bonded base under weight that is pulled up causes a warning with the numbers of its envelope.
 #[test]
-fn bonded_bases_that_are_pulled_up() {
+fn bonded_bases_that_are_pulled_up_cause_a_warning() {
     let run = shaken_slender_block(Box::new(Bonded), 1.0, 9.81);
     let pulled = run
         .envelope
@@ -280,9 +280,9 @@ fn uncovered_base(half: f64) -> Option<Warning> {
         .find(|warning| matches!(warning, Warning::UncoveredBase { .. }))
 }
 
-/// A base of 8 m on elements that end 2 m within it; one that ends within an element of theirs passes.
+/// A base of 8 m extends 2 m beyond its elements. A base that extends by less than an element's length causes no warning.
 #[test]
-fn a_base_beyond_the_elements() {
+fn a_base_beyond_the_elements_causes_a_warning() {
     let half = 4.0;
     let warning = uncovered_base(0.5 * half);
     let Some(Warning::UncoveredBase { foundation: 0, reach, axis: None }) = warning else {
@@ -293,9 +293,9 @@ fn a_base_beyond_the_elements() {
     assert_eq!(uncovered_base(half), None);
 }
 
-/// Rocking on one element meets no stiffness, on two too little of it.
+/// One element does not resist rocking, and two resist it too little.
 #[test]
-fn too_few_elements() {
+fn too_few_elements_cause_a_warning() {
     let fine = shaken_storeys(12, 5e-3).whole.base_shear.magnitude();
     for elements in [1, 2, 3] {
         let found = shaken_storeys(elements, 5e-3).warnings;
@@ -323,7 +323,7 @@ fn raft_under_pulse(elements: usize) -> Run {
 
 /// A pulse of 8 Hz that runs along a raft of 40 m with the soil's shear wave speed.
 #[test]
-fn elements_longer_than_waves() {
+fn elements_longer_than_waves_cause_a_warning() {
     let fine = raft_under_pulse(40);
     assert_eq!(fine.warnings, []);
     let coarse = raft_under_pulse(5);

@@ -1,5 +1,5 @@
-//! GOAL: settlement, rocking work and equivalent damping of each foundation, in series, files and limits.
-//! SCENE: blocks on springs under a vertical force, a slow moment or an earthquake, in the plane and in plan; two footings.
+//! GOAL: settlement, rocking work and equivalent damping of each foundation are right, in time series and in files.
+//! SCENE: blocks on springs under a vertical force, a slow moment or an earthquake, in the plane and in space; two footings.
 //! REFERENCE: F/K, ½ k θ², the terms of the energy balance, ½ sin φ; the states of the run.
 
 use std::f64::consts::{PI, TAU};
@@ -65,7 +65,7 @@ fn settlement_is_the_added_force_over_the_stiffness() {
     assert!(page.contains("Settlement\n  up to 1.87"), "{page}");
 }
 
-/// A linear bed gives all work back.
+/// Linear springs return all the work.
 #[test]
 fn springs_store_half_the_stiffness_times_the_square_of_the_rotation() {
     let moment = |time: f64| 2.0e5 * (TAU * time / 20.0).sin();
@@ -86,7 +86,7 @@ fn springs_store_half_the_stiffness_times_the_square_of_the_rotation() {
     assert!(damping.equivalent_damping().unwrap().abs() < 1e-3);
 }
 
-/// Work of normal and shear forces on the soil against the static state, by the motion of the block's base.
+/// Work on the soil of the changes of normal and shear force from the static state, by the motion of the base.
 fn work_beside_rocking(states: &[State]) -> f64 {
     let mut work = 0.0;
     for pair in states.windows(2) {
@@ -98,7 +98,7 @@ fn work_beside_rocking(states: &[State]) -> f64 {
 }
 
 #[test]
-fn soil_that_yields_takes_the_rocking_work() {
+fn soil_that_yields_dissipates_the_rocking_work() {
     for (bearing_pressure, yields) in [(1.5e5, true), (1e9, false)] {
         let half = 0.5 * BASE_WIDTH;
         let ground = SpringGround::new(-half..half, 40, BEDDING_MODULUS, BEDDING_MODULUS).unwrap();
@@ -111,12 +111,13 @@ fn soil_that_yields_takes_the_rocking_work() {
         let RecordedRun { time_series, run, states } = recorded(&mut simulation, 1200);
         assert!(run.whole.sliding.path == 0.0 && run.energy_error < 1e-9);
         let energy_balance = run.energy_balance;
-        let booked = energy_balance.soil + energy_balance.contact + energy_balance.static_contact;
+        let balance_work =
+            energy_balance.soil + energy_balance.contact + energy_balance.static_contact;
         let work = time_series.series(Quantity::RockingWork)[1200];
         let found = work + work_beside_rocking(&states);
         let largest = run.whole.rocking_work.magnitude();
-        assert!((found - booked).abs() < 1e-9 * largest, "{found} {booked}");
-        // Soil that does not yield gives the work back.
+        assert!((found - balance_work).abs() < 1e-9 * largest, "{found} {balance_work}");
+        // Soil that does not yield returns the work.
         assert!((work > 0.5 * largest) == yields, "{work} {largest}");
         assert!((energy_balance.contact > work) == yields, "{energy_balance}");
         let settlement = run.whole.residual_settlement;
@@ -146,27 +147,27 @@ impl FreeField for Pulse {
 
 /// Rocking about either axis and in the plane is the same motion.
 #[test]
-fn plan_equals_plane() {
+fn rocking_in_space_equals_rocking_in_the_plane() {
     const BODY_DEPTH: f64 = BASE_WIDTH;
     let half = 0.5 * BASE_WIDTH;
     let law = || Coulomb::new(0.8).unwrap();
     let mut plane = on_springs(law()).motion(Pulse { is_across: false }).build().unwrap();
     let RecordedRun { time_series: plane, run, .. } = recorded(&mut plane, 200);
     assert!(run.whole.uplifted_fraction.highest.value > 0.3);
-    for across in [false, true] {
+    for is_across in [false, true] {
         let plan = Plan::rectangle(-half..half, -half..half, ELEMENT_COUNT).unwrap();
         let mut simulation = Simulation::builder(0.01)
             .structure(RigidBody::cuboid([BASE_WIDTH, BODY_DEPTH, 5.0], 2000.0).unwrap())
             .ground(SpringGround::in_plan(plan, [BEDDING_MODULUS; 3]).unwrap())
             .interface(law())
-            .motion(Pulse { is_across: across })
+            .motion(Pulse { is_across: is_across })
             .build()
             .unwrap();
         let RecordedRun { time_series: series, run, .. } = recorded(&mut simulation, 200);
-        let rocking = if across { series.rocking_across(0) } else { series.rocking(0) }.unwrap();
+        let rocking = if is_across { series.rocking_across(0) } else { series.rocking(0) }.unwrap();
         let in_plane = plane.rocking(0).unwrap();
         // A rise to the right is a negative rotation about y, and a rise away a positive one about x.
-        let sign = if across { 1.0 } else { -1.0 };
+        let sign = if is_across { 1.0 } else { -1.0 };
         for (found, expected, factor) in [
             (rocking.rotation, in_plane.rotation, sign),
             (rocking.moment, in_plane.moment, sign * BODY_DEPTH),
@@ -180,11 +181,11 @@ fn plan_equals_plane() {
                 assert!(error.abs() < 1e-6 * factor.abs() * scale, "{found} {expected}");
             }
         }
-        let other = if across { series.rocking(0) } else { series.rocking_across(0) }.unwrap();
+        let other = if is_across { series.rocking(0) } else { series.rocking_across(0) }.unwrap();
         let largest = other.work.iter().fold(0.0_f64, |largest, work| largest.max(work.abs()));
         assert!(largest < 1e-6 * run.whole.extremes(Quantity::Settlement).magnitude());
         let residual = [run.whole.residual_rotation, run.whole.residual_rotation_across];
-        assert_eq!(residual[usize::from(across)], rocking.rotation[200]);
+        assert_eq!(residual[usize::from(is_across)], rocking.rotation[200]);
     }
 }
 
@@ -230,7 +231,7 @@ fn springs_and_dashpots_have_the_damping_of_their_ratio() {
 }
 
 #[test]
-fn what_is_no_cycle_is_refused() {
+fn series_that_are_no_cycle_are_refused() {
     let [rotation, moment] = ellipse(400, 0.3);
     let refused =
         |rotation: &[f64], moment: &[f64]| equivalent_damping(rotation, moment).unwrap_err();

@@ -1,5 +1,5 @@
-//! GOAL: pictures of rocking have units and a key, show measured points beside the paths, and refuse what has no one unit.
-//! SCENE: a block on springs that yield under a slow moment; a body in plan; measured points, some of them not finite.
+//! GOAL: pictures of rocking have units and a key, show measured points beside the paths, and refuse mixed units.
+//! SCENE: a block on springs that yield under a slow moment; a body in space; measured points, some of them not finite.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 
 use basemat::bem::SpringGround;
@@ -30,7 +30,7 @@ fn settling_block() -> TimeSeries {
     time_series
 }
 
-fn body_in_plan() -> TimeSeries {
+fn body_in_space() -> TimeSeries {
     let plan = Plan::rectangle(-2.0..2.0, -1.0..1.0, 2).unwrap();
     let mut simulation = Simulation::builder(0.01)
         .structure(RigidBody::cuboid([4.0, 2.0, 3.0], 2000.0).unwrap())
@@ -92,8 +92,8 @@ fn mark_height(svg: &Svg, mark: &str) -> f64 {
 }
 
 #[test]
-fn moments_in_plan_are_of_the_whole_body() {
-    let time_series = body_in_plan();
+fn moments_in_space_are_those_of_the_whole_body() {
+    let time_series = body_in_space();
     let across = time_series.rocking_across(0).unwrap();
     let picture = plot::moment_rotation("Mat", &[("about x", across)], &[]).unwrap();
     let texts = words(&picture);
@@ -104,7 +104,7 @@ fn moments_in_plan_are_of_the_whole_body() {
 #[test]
 fn pictures_of_rocking_refuse_mixed_units_and_nothing() {
     let plane_series = settling_block();
-    let plan_series = body_in_plan();
+    let plan_series = body_in_space();
     let plane = plane_series.rocking(0).unwrap();
     let plan = plan_series.rocking(0).unwrap();
     for picture in [plot::moment_rotation, plot::settlement_rotation] {

@@ -1,4 +1,4 @@
-//! GOAL: factors of safety against sliding and overturning.
+//! GOAL: factors of safety against sliding and overturning follow from statics.
 //! SCENE: pushed blocks, two foundations, elements with and without friction.
 //! REFERENCE: statics, μW/H and Wb/(Hh).
 
@@ -16,9 +16,9 @@ use basemat_problems::law_from;
 use basemat_problems::scenes::{SI_UNITS, block, scene, soil};
 use basemat_problems::wrapped::StructureWithForce;
 
-/// Pushed with H at height h, a block of weight W and width 2b stands with μW/H and Wb/(Hh).
+/// A block of weight W and width 2b pushed with H at height h has the factors μW/H and Wb/(Hh).
 #[test]
-fn statics_of_a_pushed_block() {
+fn factors_of_a_pushed_block_follow_from_statics() {
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let weight = STANDARD_GRAVITY * block.total_mass();
     // The second one uplifts: eccentricity h/4 = 1.25 > b/3. The third stands by tension only.
@@ -49,7 +49,7 @@ fn statics_of_a_pushed_block() {
     }
 }
 
-/// GOAL: of two blocks the page tells of the one that is closer to falling over.
+/// GOAL: of two blocks, the factors are those of the block that is closer to overturning.
 #[test]
 fn factors_of_safety_are_those_of_the_worst_foundation() {
     let group = StructureGroup::new()
@@ -86,10 +86,10 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
     assert!(smallest_overturning < 1.3);
 }
 
-/// A user's law whose coefficient is nonsense.
-struct Nonsense(Coulomb);
+/// A law of a user whose friction coefficient is NaN.
+struct NanFriction(Coulomb);
 
-impl InterfaceLaw for Nonsense {
+impl InterfaceLaw for NanFriction {
     law_from!(0);
 
     fn friction_coefficient(&self) -> Option<f64> {
@@ -99,7 +99,7 @@ impl InterfaceLaw for Nonsense {
 
 type Laws = Vec<Box<dyn InterfaceLaw>>;
 
-/// A run of 20 steps; the builder is told these coefficients.
+/// A run of 20 steps with these friction coefficients for the factor of safety.
 fn march(laws: Laws, safety_friction: Vec<f64>) -> Result<(Run, TimeSeries), Error> {
     let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interfaces(laws);
     let mut simulation = builder.safety_friction(safety_friction).build()?;
@@ -129,10 +129,10 @@ fn partly_bonded_laws(coefficients: &[f64]) -> Laws {
     laws
 }
 
-/// GOAL: the factor of safety is made of the coefficients of the laws, element by element, unless the
-/// builder is told others; a base with an element that has none has no factor.
+/// GOAL: the factor of safety has the friction coefficient of each element's law, unless the builder has other coefficients;
+/// a base with an element without a coefficient has no factor.
 #[test]
-fn friction_is_that_of_the_laws() {
+fn friction_coefficients_are_those_of_the_laws() {
     let count = simulation().ground().elements().len();
     let graded: Vec<f64> = (0..count).map(|e| 0.3 + 0.01 * e as f64).collect();
     let factors = sliding_factors(coulomb_laws(&graded), Vec::new());
@@ -148,15 +148,15 @@ fn friction_is_that_of_the_laws() {
     }
     let unlimited = sliding_factors(vec![Box::new(Coulomb::uplift_only())], Vec::new());
     assert!(unlimited.iter().all(|factor| *factor == f64::INFINITY));
-    // One bonded element: none, unless told.
+    // With one bonded element there is no factor, unless the builder has coefficients.
     let without = sliding_factors(partly_bonded_laws(&graded), Vec::new());
     assert!(without.iter().all(|factor| factor.is_nan()));
     let run = march(partly_bonded_laws(&graded), Vec::new()).unwrap().0;
     assert!(run.whole.sliding_safety.lowest.value.is_nan());
-    let told = sliding_factors(partly_bonded_laws(&graded), graded.clone());
-    assert!(told.iter().all(|factor| factor.is_finite()));
-    let nonsense = Nonsense(Coulomb::new(0.3).unwrap());
-    let refused = march(vec![Box::new(nonsense) as Box<dyn InterfaceLaw>], Vec::new());
+    let with_coefficients = sliding_factors(partly_bonded_laws(&graded), graded.clone());
+    assert!(with_coefficients.iter().all(|factor| factor.is_finite()));
+    let nan_friction = NanFriction(Coulomb::new(0.3).unwrap());
+    let refused = march(vec![Box::new(nan_friction) as Box<dyn InterfaceLaw>], Vec::new());
     assert!(matches!(refused.err().unwrap(), Error::Input { .. }));
     for coefficient in [-0.1, f64::NAN, f64::NEG_INFINITY] {
         let refused = march(partly_bonded_laws(&graded), vec![coefficient]);

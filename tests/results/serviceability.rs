@@ -1,4 +1,4 @@
-//! GOAL: limits of serviceability: verdict, margin, first excess, in the run, its page and its table.
+//! GOAL: checks of serviceability have the right verdict, margin and first excess, in the run, its page and its table.
 //! SCENE: a block that rocks and slides under El Centro.
 //! REFERENCE: the states of the run.
 
@@ -68,8 +68,8 @@ fn verdicts_are_those_of_the_states() {
             rotation: Some(factor * peaks[3]),
             settlement: Some(factor * peaks[4]),
         };
-        let CheckedRun { run, states: again } = checked_run(limits);
-        assert_eq!(again.len(), states.len());
+        let CheckedRun { run, states: repeated_states } = checked_run(limits);
+        assert_eq!(repeated_states.len(), states.len());
         assert_eq!(run.whole.base_shear, free.whole.base_shear);
         assert_eq!(run.serviceability.len(), 5);
         for ((check, criterion), peak) in run.serviceability.iter().zip(criteria).zip(peaks) {
@@ -104,7 +104,7 @@ fn build(limits: Serviceability) -> Result<(), Error> {
 
 /// GOAL: invalid limits are refused by name.
 #[test]
-fn bad_limits() {
+fn invalid_limits_are_refused() {
     let none = Serviceability::default();
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let refused = [

@@ -1,4 +1,4 @@
-//! GOAL: in-structure (floor) response spectra, and broadened ones.
+//! GOAL: floor response spectra and their broadening are right.
 //! SCENE: a light block on stiff ground; a triangular peak.
 //! REFERENCE: the spectrum of the ground; the wording of the guide.
 
@@ -10,7 +10,7 @@ use basemat::results::{Recorder, broadened, log_spaced};
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil, unobserved};
 
-/// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
+/// A light block bonded to stiff ground moves with the ground, and has its response spectrum.
 #[test]
 fn floors_of_a_light_rigid_block_move_as_the_ground() {
     let ground = ElasticGround::new(
@@ -56,13 +56,13 @@ fn triangle(period: f64) -> f64 {
     3.0 - period.ln().abs()
 }
 
-/// As the guide words it: the peak at f_j is as wide as 0.85 f_j to 1.15 f_j, and its slopes go on
-/// from there, every point of them moved as the peak is.
+/// As in the guide, the peak at f_j extends from 0.85 f_j to 1.15 f_j, and every point of its slopes is shifted like
+/// the peak.
 #[test]
 fn broadened_peaks_are_plateaus() {
     let periods = log_spaced(0.1, 10.0, 401).unwrap();
     let spectrum: Vec<_> = periods.iter().map(|&t| ordinate(t, triangle(t))).collect();
-    for (wide, &period) in broadened(&spectrum, 0.15).unwrap().iter().zip(&periods) {
+    for (broadened_point, &period) in broadened(&spectrum, 0.15).unwrap().iter().zip(&periods) {
         let frequency = 1.0 / period;
         let expected = if (0.85..=1.15).contains(&frequency) {
             3.0
@@ -72,19 +72,19 @@ fn broadened_peaks_are_plateaus() {
         } else {
             triangle(1.15 / frequency)
         };
-        assert!((wide.displacement - expected).abs() < 1e-12, "{frequency}");
-        assert_eq!(wide.acceleration, 4.0 * wide.displacement);
+        assert!((broadened_point.displacement - expected).abs() < 1e-12, "{frequency}");
+        assert_eq!(broadened_point.acceleration, 4.0 * broadened_point.displacement);
     }
-    // A peak of one period: where it is seen.
-    let mut lonely: Vec<_> = periods.iter().map(|&t| ordinate(t, 0.0)).collect();
+    // A peak at one period extends over the same range.
+    let mut single_peak: Vec<_> = periods.iter().map(|&t| ordinate(t, 0.0)).collect();
     let spike = 200;
-    lonely[spike] = ordinate(periods[spike], 1.0);
-    for (wide, &period) in broadened(&lonely, 0.15).unwrap().iter().zip(&periods) {
+    single_peak[spike] = ordinate(periods[spike], 1.0);
+    for (broadened_point, &period) in broadened(&single_peak, 0.15).unwrap().iter().zip(&periods) {
         let fraction = periods[spike] / period;
         if (0.851..1.149).contains(&fraction) {
-            assert_eq!(wide.displacement, 1.0, "{fraction}");
+            assert_eq!(broadened_point.displacement, 1.0, "{fraction}");
         } else if !(0.83..1.17).contains(&fraction) {
-            assert_eq!(wide.displacement, 0.0, "{fraction}");
+            assert_eq!(broadened_point.displacement, 0.0, "{fraction}");
         }
     }
     assert_eq!(broadened(&spectrum, 0.0).unwrap(), spectrum);

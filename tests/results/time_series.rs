@@ -1,6 +1,6 @@
-//! GOAL: recorded series, peaks and envelopes.
-//! SCENE: the block of `main`, recorded in full and thinned.
-//! REFERENCE: the states, by other means.
+//! GOAL: recorded series, peaks and envelopes are those of the states.
+//! SCENE: the block of `results`, recorded in full and in every seventh step.
+//! REFERENCE: the states, evaluated here.
 
 use basemat::Error;
 use basemat::coupled::{EnergyTerm, State};
@@ -16,7 +16,7 @@ fn largest(states: &[State], value: fn(&State) -> f64) -> f64 {
     states.iter().map(value).fold(f64::MIN, f64::max)
 }
 
-/// The recorded series and the peaks are those of the states.
+/// Checks the recorded series and the peaks.
 fn assert_series(recorded: &Recorded) {
     let Recorded { states, time_series, run, .. } = recorded;
     let times: Vec<f64> = states.iter().map(|s| s.time).collect();
@@ -66,7 +66,7 @@ fn assert_envelopes(recorded: &Recorded) {
     }
 }
 
-/// Stretches of uplift as runs in a string.
+/// Checks the intervals of uplift, by runs of letters in a string.
 fn assert_uplift(recorded: &Recorded) {
     let Recorded { simulation, states, run, .. } = recorded;
     let letters: String = states[1..]
@@ -82,7 +82,7 @@ fn assert_uplift(recorded: &Recorded) {
     assert!((uplift.longest - dt * *stretches.iter().max().unwrap() as f64).abs() < 1e-9);
 }
 
-/// Slip events as runs of letters for the direction.
+/// Checks the slip events, by runs of letters for the direction.
 fn assert_slip_events(recorded: &Recorded) {
     let Recorded { simulation, states, run, .. } = recorded;
     let dt = simulation.time_step();
@@ -105,13 +105,13 @@ fn assert_slip_events(recorded: &Recorded) {
     let slid = letters.iter().filter(|&&letter| letter != ' ').count();
     assert!((sliding.duration - dt * slid as f64).abs() < 1e-9);
     assert_eq!(run.whole.residual_slip, states[STEP_COUNT].mean_slip);
-    let way: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
-    assert!((way / sliding.path - 1.0).abs() < 1e-12);
+    let sliding_distance: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
+    assert!((sliding_distance / sliding.path - 1.0).abs() < 1e-12);
     let peak = states.iter().fold(0.0_f64, |m, s| m.max(s.mean_slip.abs()));
     assert_eq!(run.whole.mean_slip.magnitude(), peak);
 }
 
-/// Safety from the resultants of the state.
+/// Checks the factors of safety, by the resultants of the states.
 fn assert_safety(recorded: &Recorded) {
     let Recorded { states, time_series, run, .. } = recorded;
     let half = 2.0;
@@ -134,7 +134,7 @@ fn assert_safety(recorded: &Recorded) {
     assert!((lowest.value - 1.0).abs() < 1e-9);
 }
 
-/// Fractions of the last energy balance, which close.
+/// Checks the last energy balance and the sum of its fractions.
 fn assert_energy(recorded: &Recorded) {
     let Recorded { states, run, .. } = recorded;
     let energy_balance = states[STEP_COUNT].energy_balance;
@@ -147,9 +147,9 @@ fn assert_energy(recorded: &Recorded) {
     assert!(soil > 0.05 && contact > 0.05);
 }
 
-/// Everything once more, from the states and by other means.
+/// All results are computed again from the states.
 #[test]
-fn histories_and_peaks_are_those_of_the_states() {
+fn series_and_peaks_are_those_of_the_states() {
     let recorded = recorded(Recorder::new().contact(1));
     assert_series(&recorded);
     assert_envelopes(&recorded);
@@ -165,7 +165,7 @@ fn histories_and_peaks_are_those_of_the_states() {
 }
 
 #[test]
-fn thinned_histories_are_every_seventh_state() {
+fn thinned_series_are_every_seventh_state() {
     let Recorded { states, time_series, .. } =
         recorded(Recorder::new().every(7).contact(20).motion(50));
     let all = recorded(Recorder::new()).time_series;

@@ -1,4 +1,4 @@
-//! Numbers in another unit earn a warning of the run, and usual numbers none; every page states its ground motion.
+//! GOAL: numbers in another unit cause a warning of the run, and usual numbers none; every page states its ground motion.
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{Mistake, SimulationBuilder, Warning};
@@ -14,7 +14,7 @@ fn soil(speed: f64) -> Soil {
     Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap()
 }
 
-/// Five storeys of this height (m) and mass (kg/m) under a record.
+/// Five storeys of this height (m) and mass (kg/m).
 fn building(height: f64, mass: f64) -> ShearBuilding {
     let storeys = [Storey::new(height, mass, 2e3 * mass); 5];
     let building = ShearBuilding::new(10.0, 2.5 * mass, 20.0 * mass, &storeys).unwrap();
@@ -34,73 +34,73 @@ fn scene(
 
 fn run(scene: SimulationBuilder, steps: usize) -> Run {
     let run = scene.build().unwrap().run(steps, |_| {}).unwrap();
-    for warning in run.warnings.iter().filter(|warning| of_units(warning)) {
+    for warning in run.warnings.iter().filter(|warning| is_of_units(warning)) {
         let line = format!("warning: {warning}");
         assert!(run.to_string().contains(&line) && line.chars().count() <= 100, "{line}");
     }
     run
 }
 
-fn of_units(warning: &Warning) -> bool {
+fn is_of_units(warning: &Warning) -> bool {
     matches!(warning, Warning::Mistake(_) | Warning::EndsEarly { .. } | Warning::PeakAtEnd { .. })
 }
 
-/// The warnings of units, of which there must be one with these words.
+/// Asserts a warning of units with these words.
 #[track_caller]
-fn warned(run: &Run, words: &str) {
+fn assert_warning(run: &Run, words: &str) {
     let mut texts =
-        run.warnings.iter().filter(|warning| of_units(warning)).map(ToString::to_string);
+        run.warnings.iter().filter(|warning| is_of_units(warning)).map(ToString::to_string);
     assert!(texts.any(|text| text.contains(words)), "{words}: {:?}", run.warnings);
 }
 
-/// Of a storey, kg/m.
+/// Mass of a storey, kg/m.
 const FLOOR_MASS: f64 = 20e3;
 /// Steps of 0.01 s to the end of El Centro.
 const EL_CENTRO_STEPS: usize = 3118;
 
 #[test]
-fn usual_numbers_earn_no_warning() {
+fn usual_numbers_cause_no_warning() {
     let usual = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), EL_CENTRO_STEPS);
-    assert!(!usual.warnings.iter().any(of_units), "{:?}", usual.warnings);
+    assert!(!usual.warnings.iter().any(is_of_units), "{:?}", usual.warnings);
     let ten_seconds = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 1000);
-    assert!(!ten_seconds.warnings.iter().any(of_units), "{:?}", ten_seconds.warnings);
+    assert!(!ten_seconds.warnings.iter().any(is_of_units), "{:?}", ten_seconds.warnings);
     let rest = run(scene(building(3.0, FLOOR_MASS), AtRest), 20);
-    assert!(!rest.warnings.iter().any(of_units), "{:?}", rest.warnings);
+    assert!(!rest.warnings.iter().any(is_of_units), "{:?}", rest.warnings);
 }
 
 #[test]
-fn a_record_in_another_unit_is_told() {
+fn a_record_in_another_unit_causes_a_warning() {
     let record = el_centro_1940();
     let in_g = record.scaled(1.0 / STANDARD_GRAVITY).unwrap();
-    warned(
+    assert_warning(
         &run(scene(building(3.0, FLOOR_MASS), in_g), EL_CENTRO_STEPS),
         "0.319 m/s²: motion in g?",
     );
     let to_peak = record.scaled_to_peak(0.3).unwrap();
     let both = VerticalIncidence { horizontal: Some(to_peak.clone()), vertical: Some(to_peak) };
-    warned(
+    assert_warning(
         &run(scene(building(3.0, FLOOR_MASS), both), EL_CENTRO_STEPS),
         "0.300 m/s²: motion in g?",
     );
     let in_gal = record.scaled(100.0).unwrap();
-    warned(&run(scene(building(3.0, FLOOR_MASS), in_gal), 300), "motion in cm/s²?");
-    // 20 ms, and 20 µs.
+    assert_warning(&run(scene(building(3.0, FLOOR_MASS), in_gal), 300), "motion in cm/s²?");
+    // The steps of 20 ms are given in milliseconds, and divided by a thousand.
     for (step, words) in [(20.0, "steps of 2.00e1 s"), (2e-5, "steps of 2.00e-5 s")] {
         let other = Record::new(step, record.accelerations().to_vec()).unwrap();
-        warned(&run(scene(building(3.0, FLOOR_MASS), other), 300), words);
+        assert_warning(&run(scene(building(3.0, FLOOR_MASS), other), 300), words);
     }
 }
 
 #[test]
-fn numbers_of_a_structure_in_another_unit_are_told() {
+fn numbers_of_a_structure_in_another_unit_cause_a_warning() {
     let in_tonnes = scene(building(3.0, 1e-3 * FLOOR_MASS), el_centro_1940());
-    warned(&run(in_tonnes, EL_CENTRO_STEPS), "masses in t");
+    assert_warning(&run(in_tonnes, EL_CENTRO_STEPS), "masses in t");
     let in_gal = scene(building(3.0, FLOOR_MASS), el_centro_1940()).gravity(981.0);
-    warned(&run(in_gal, EL_CENTRO_STEPS), "gravity of 981 m/s²");
+    assert_warning(&run(in_gal, EL_CENTRO_STEPS), "gravity of 981 m/s²");
     for friction in [30.0, 50.0] {
         let law = Coulomb::new(friction).unwrap();
         let degrees = scene(building(3.0, FLOOR_MASS), el_centro_1940()).interface(law);
-        warned(
+        assert_warning(
             &run(degrees, EL_CENTRO_STEPS),
             &format!("friction coefficient of {friction}: in degrees"),
         );
@@ -108,13 +108,16 @@ fn numbers_of_a_structure_in_another_unit_are_told() {
 }
 
 #[test]
-fn the_end_of_a_run_is_told() {
+fn a_run_that_ends_early_causes_a_warning() {
     // 5 s have half of the intensity.
     let early = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 500);
-    warned(&early, "run ends at 5.00 s, its record at 31.18 s: 51 % of the record's intensity");
+    assert_warning(
+        &early,
+        "run ends at 5.00 s, its record at 31.18 s: 51 % of the record's intensity",
+    );
     // A ground that moves ever faster.
     let ramp = FreeFieldFn::new(|_, time| [0.05 * time.powi(3), 0.0]);
-    warned(
+    assert_warning(
         &run(scene(building(3.0, FLOOR_MASS), ramp), 100),
         "largest in the last step, at 1.00 s",
     );
@@ -148,7 +151,7 @@ fn every_page_states_its_motion() {
     assert!(page(travelling).contains("record of 31.18 s in steps of 0.02 s"));
 }
 
-/// What damping does to a sliding block.
+/// Slip and warning of a sliding block with damping.
 struct BrakedBlock {
     residual_slip: f64,
     /// Rate of damping (1/s) and lost part of the slip of the warning.
@@ -181,7 +184,7 @@ fn slide_with_damping(damping: f64) -> BrakedBlock {
 
 /// A block on its base that slides, with damping of its mass and without.
 #[test]
-fn damping_that_brakes_a_sliding_block_is_told() {
+fn damping_that_brakes_a_sliding_block_causes_a_warning() {
     let free = slide_with_damping(0.0);
     let free_slip = free.residual_slip;
     // v²/2μg.
@@ -202,20 +205,20 @@ fn damping_that_brakes_a_sliding_block_is_told() {
     }
 }
 
-/// What warnings tell of a structure and a motion in other units.
+/// Numbers in the warnings of a structure and a motion in other units.
 #[derive(Debug, Default, PartialEq)]
 struct UnitWarnings {
     period: Option<f64>,
-    /// Over the peak of El Centro.
+    /// Peak acceleration, relative to that of El Centro.
     acceleration: Option<f64>,
 }
 
 /// Three equal storeys under El Centro with these factors.
-fn unit_warnings(by_stiffness: f64, by_motion: f64, soil: Soil) -> UnitWarnings {
-    let storeys = [Storey::new(3.0, 30e3, 60e6 * by_stiffness); 3];
+fn unit_warnings(stiffness_factor: f64, motion_factor: f64, soil: Soil) -> UnitWarnings {
+    let storeys = [Storey::new(3.0, 30e3, 60e6 * stiffness_factor); 3];
     let building = ShearBuilding::new(8.0, 60e3, 4e5, &storeys).unwrap();
     let peak = el_centro_1940().peaks().acceleration;
-    let motion = el_centro_1940().scaled(by_motion).unwrap();
+    let motion = el_centro_1940().scaled(motion_factor).unwrap();
     let run = bonded_run(building, motion, soil, 8, 5e-3);
     let mut found = UnitWarnings::default();
     for warning in &run.warnings {
@@ -230,10 +233,10 @@ fn unit_warnings(by_stiffness: f64, by_motion: f64, soil: Soil) -> UnitWarnings 
     found
 }
 
-/// Stiffnesses in kN/m and a motion in cm/s² warn, the same numbers in their units do not; nor on a soil that is not
-/// to scale itself.
+/// Stiffnesses in kN/m and a motion in cm/s² cause warnings; the same in their units, or on a soil that is not to scale, do
+/// not.
 #[test]
-fn numbers_in_another_unit() {
+fn stiffnesses_and_motions_in_another_unit_cause_warnings() {
     assert_eq!(unit_warnings(1.0, 1.0, soil(250.0)), UnitWarnings::default());
     let UnitWarnings { period, acceleration } = unit_warnings(1e-3, 100.0, soil(250.0));
     // Equal storeys deflect by 3, 5 and 6 times m g/k under their weight to the side: ω² = 14/70 k/m.
@@ -257,10 +260,10 @@ fn two_steps_on(soil: Soil) -> Run {
     simulation.run(2, |_| {}).unwrap()
 }
 
-/// Soils whose numbers are of another unit, and those that only are soft or hard.
+/// Soils whose numbers are of another unit cause a warning; soft and hard soils cause none.
 #[test]
-fn soils_in_other_units() {
-    for (modulus, density, slip) in [
+fn soils_in_other_units_cause_a_warning() {
+    for (modulus, density, hint) in [
         (80.0, 1900.0, "modulus in MPa?"),
         (80e3, 1900.0, "modulus in kPa?"),
         (80e6, 19.0, "density in kN/m³?"),
@@ -276,14 +279,14 @@ fn soils_in_other_units() {
         let expected = Warning::Mistake(Mistake::UnusualSoil { shear_wave_speed: speed, density });
         assert_eq!(run.warnings, [expected], "{modulus} {density}");
         let line = format!("warning: {expected}");
-        assert!(line.ends_with(slip) && line.chars().count() <= 100, "{line}");
+        assert!(line.ends_with(hint) && line.chars().count() <= 100, "{line}");
         assert!(run.to_string().contains(&line));
     }
     for (speed, density) in [(10.001, 500.0), (25.0, 1100.0), (4999.0, 10_000.0)] {
         let soil = Soil::from_shear_wave_speed(speed, 0.33, density).unwrap();
         assert_eq!(two_steps_on(soil).warnings, [], "{speed} {density}");
     }
-    // Each layer is judged by itself.
+    // The description has each layer.
     let profile = SoilProfile::on_half_plane(soil(800.0)).with_layer(soil(200.0), 4.0).unwrap();
     let thin = Soil::from_shear_wave_speed(150.0, 0.33, 18.0).unwrap();
     let profile = profile.with_layer(thin, 3.0).unwrap();

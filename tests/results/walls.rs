@@ -1,4 +1,4 @@
-//! Results of a structure with walls tell where each element is.
+//! GOAL: results of a structure with walls have the place of each element.
 
 use basemat::Soil;
 use basemat::bem::embedded::{Trench, TrenchGround};

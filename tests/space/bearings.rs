@@ -48,7 +48,7 @@ fn bilinear() -> Bilinear {
     Bilinear::new(4.0e7, 4.0e4, 0.05).unwrap()
 }
 
-/// The inertia of the floors is the force of the bearings, led along the same drifts outside the run.
+/// The inertia of the floors is the force of the bearings, which are led along the same drifts outside the run.
 #[test]
 fn bearings_carry_the_floors_above() {
     let bouc_wen = BoucWen::new(2.0e7, 2.0e4, 0.05).unwrap().coupled().unwrap();

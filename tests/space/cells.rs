@@ -1,4 +1,4 @@
-//! A ground of these tests: springs and dashpots under each cell, by the midpoint rule.
+//! Scenes that these tests share: a ground of springs and dashpots under each cell, and pulses.
 
 use basemat::bem::{ContactElement, Ground, GroundDescription, SpringGround};
 use basemat::coupled::{SimulationBuilder, State};
@@ -38,7 +38,7 @@ pub(crate) struct SpringCells {
 }
 
 impl SpringCells {
-    /// Rectangles between neighbouring `x` and neighbouring `y`.
+    /// Rectangular cells between neighbouring values of `x` and of `y`.
     pub(crate) fn between(x: &[f64], y: &[f64], properties: BedProperties) -> Self {
         let mut elements = Vec::new();
         for row in y.windows(2) {
@@ -50,13 +50,13 @@ impl SpringCells {
         Self { elements, sampled_cells: None, properties, time_step: 0.0, displacement }
     }
 
-    /// The same after elements were taken away.
+    /// The same ground after elements were removed.
     pub(crate) fn resized(mut self) -> Self {
         self.displacement = vec![0.0; 3 * self.elements.len()];
         self
     }
 
-    /// Under a rectangle about `center`, its outer cells a tenth of their side beyond its edge.
+    /// Cells under a rectangle about `center`; the outer ones extend beyond its edge by a tenth of their side.
     pub(crate) fn under(
         sides: [f64; 2],
         center: [f64; 2],
@@ -78,7 +78,7 @@ impl SpringCells {
         [center[0], center[1]]
     }
 
-    /// Factors of the number `i` of a contact vector.
+    /// Factors of entry `i` of a contact vector.
     fn midpoint_factors(&self, i: usize) -> MidpointFactors {
         let component = i / self.elements.len();
         let half_stiffness = 0.5 * self.properties.stiffness[component];
@@ -162,7 +162,9 @@ impl Ground for SpringCells {
 /// Distance from the origin to where the pulses start, beyond all bases, m.
 const PULSE_START_DISTANCE: f64 = 30.0;
 
-/// Three smooth pulses along x, along y and upwards that run three ways; turned by quarters about the vertical axis.
+/// Smooth pulses along x, along y and upwards, each in another direction of travel.
+///
+/// The field is turned by quarter turns about the vertical axis.
 #[derive(Clone, Copy)]
 pub(crate) struct CrossingPulses {
     pub(crate) quarter_turns: usize,
@@ -180,7 +182,7 @@ fn pulse(time: f64, distance: f64, velocity: f64, frequency: f64) -> f64 {
 
 impl FreeField for CrossingPulses {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in plan needs three directions")
     }
 
     fn displacement_at(&self, [mut x, mut y]: [f64; 2], time: f64) -> [f64; 3] {
@@ -225,7 +227,7 @@ pub(crate) fn plane_and_slice(
 
 /// Pairs of numbers that are equal in the plane and in such a slice.
 ///
-/// The slice moves along x and turns about y alone, but for `rounding`.
+/// Panics if the slice has another motion than along x, z and about y above `rounding`.
 pub(crate) fn equal_in_slices(plane: &State, slice: &State, rounding: f64) -> [[f64; 2]; 4] {
     let u = plane.displacement();
     let v = slice.displacement();

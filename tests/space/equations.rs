@@ -1,4 +1,4 @@
-//! The equations of motion of a cuboid on its cells, written and integrated by other means.
+//! The equations of motion of a cuboid on its cells, without code of the crate, integrated by Runge and Kutta's method.
 
 use basemat::motion::FreeField;
 
@@ -46,7 +46,7 @@ impl Cuboid {
         ]
     }
 
-    /// a of M a = f, the inverse of the above.
+    /// Accelerations a of M a = f: the inverse of `inertia_forces`.
     fn acceleration(&self, f: SixComponents) -> SixComponents {
         let m = self.mass();
         let middle = 0.5 * self.sides[2];
@@ -63,7 +63,7 @@ impl Cuboid {
         ]
     }
 
-    /// Displacement after `steps` steps of Runge and Kutta from rest.
+    /// Displacement after `steps` steps of Runge and Kutta's method from rest.
     pub(crate) fn march(
         &self,
         cells: &SpringCells,
@@ -94,7 +94,7 @@ fn advanced(y: MotionState, duration: f64, rate: MotionState) -> MotionState {
 }
 
 /// Displacement by the rigid motion `w` at a point of the base, from its middle.
-fn moved_by(w: SixComponents, x: f64, y: f64) -> [f64; 3] {
+fn point_displacement(w: SixComponents, x: f64, y: f64) -> [f64; 3] {
     [w[0] - y * w[5], w[1] + x * w[5], w[2] + y * w[3] - x * w[4]]
 }
 
@@ -124,8 +124,8 @@ impl EquationsOfMotion<'_> {
             let before = self.field.displacement_at(middle, time + -HALF_INTERVAL);
             let now = self.field.displacement_at(middle, time + 0.0);
             let after = self.field.displacement_at(middle, time + HALF_INTERVAL);
-            let displacement = moved_by(u, x, y);
-            let velocity = moved_by(v, x, y);
+            let displacement = point_displacement(u, x, y);
+            let velocity = point_displacement(v, x, y);
             let force: [f64; 3] = std::array::from_fn(|k| {
                 let component = [1, 2, 0][k];
                 let rate = (after[k] - before[k]) / (2.0 * HALF_INTERVAL);

@@ -53,7 +53,7 @@ fn block(stiffness: f64) -> FemModel {
     FemModel::on_base(mesh).unwrap()
 }
 
-/// The same mass on the same base, which is rigid.
+/// A rigid body with the mass and the base of the block.
 fn rigid_block() -> RigidBody {
     let mass: f64 = bricks().map(brick_mass).sum();
     let center = [0, 1, 2].map(|axis| {
@@ -136,7 +136,7 @@ fn shaken_simulation(model: &FemModel, sides: [f64; 2], friction: f64, gravity: 
         .unwrap()
 }
 
-/// Waves from three sides: cells open and slide under a soft model, its `top` sways, and no energy is lost.
+/// Checks a soft model under waves from three sides: cells open and slide, its `top` moves, and the energy balance closes.
 ///
 /// Another simulation resumes halfway, to the last bit.
 pub(super) fn assert_lifts_off_and_slides(

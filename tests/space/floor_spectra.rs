@@ -1,4 +1,4 @@
-//! Floors of a square tower shaken along y, against the same tower shaken along x.
+//! Floor spectra of a square tower shaken along y, compared with those of the tower shaken along x.
 
 use basemat::coupled::Probe;
 use basemat::motion::{STANDARD_GRAVITY, Triaxial, el_centro_1940};

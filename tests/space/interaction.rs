@@ -25,7 +25,7 @@ fn building(stiffness: [f64; 2]) -> Result<StoreyBuilding> {
     StoreyBuilding::new(mat, &[storey])
 }
 
-/// A square mat of so many cells a side.
+/// A square mat with this number of cells along each side.
 fn mat_plan(cells: usize) -> Result<Plan> {
     let half = 0.5 * MAT_SIDE;
     Plan::rectangle(-half..half, -half..half, cells)

@@ -1,4 +1,4 @@
-//! A tower that rocks and slides on a mat in which each cell moves most others.
+//! A tower that rocks and slides on a half-space, through which all cells are coupled.
 
 use basemat::Simulation;
 use basemat::bem::ElasticGround;
@@ -9,7 +9,7 @@ use basemat::structure::RigidBody;
 
 /// In steps in which much of the base lands, Newton's method starts far from the directions of slip.
 ///
-/// Iterations that do not end early take up to 194 systems in a step.
+/// Without an early end of these iterations, a step would solve up to 194 systems.
 #[test]
 fn steps_in_which_many_cells_land_take_few_iterations() {
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap();

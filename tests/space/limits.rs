@@ -1,6 +1,6 @@
-//! GOAL: a user's law in plan, by its limits, is placed on the ground under its cap, tension and bond.
+//! GOAL: the static state of a user's law in space keeps the law's limits: cap of the pressure, tension and bond.
 //! SCENE: square bodies, their weight in the middle or beside it, on independent springs under 8 × 8 cells.
-//! REFERENCE: Navier's linear pressure; the package's laws of the same limits; a body in free fall.
+//! REFERENCE: Navier's linear pressure; the crate's laws of the same limits; a body in free fall.
 
 use basemat::bem::SpringGround;
 use basemat::bem::plan::Plan;
@@ -17,21 +17,21 @@ const BASE_SIDE: f64 = 4.0;
 const BODY_MASS: f64 = 64.0e3;
 /// Mean pressure under the weight, Pa: 39 kPa.
 const MEAN_PRESSURE: f64 = BODY_MASS * STANDARD_GRAVITY / (BASE_SIDE * BASE_SIDE);
-/// Of the compressible layer, m/Pa.
+/// Compliance of the compressible layer, m/Pa.
 const LAYER_COMPLIANCE: f64 = 1e-7;
 
 /// A law by its limits, without modes of the plane.
 ///
-/// If it `remembers`, a base that lands meets the sunken surface.
+/// If it `has_memory`, a base that lands touches the soil at its indented surface.
 #[derive(Clone, Copy)]
 struct LimitsLaw {
     limits: Limits,
-    remembers: bool,
+    has_memory: bool,
 }
 
 impl LimitsLaw {
     fn new(limits: Limits) -> Self {
-        Self { limits, remembers: false }
+        Self { limits, has_memory: false }
     }
 }
 
@@ -49,7 +49,7 @@ impl InterfaceLaw for LimitsLaw {
     }
 
     fn state_variables(&self) -> usize {
-        usize::from(self.remembers)
+        usize::from(self.has_memory)
     }
 
     fn commit(&self, _: &PreviousContact, end: &ContactState, mode: Mode, variables: &mut [f64]) {
@@ -113,7 +113,7 @@ fn stability_error(law: impl InterfaceLaw + 'static) -> StabilityError {
 }
 
 #[test]
-fn caps_below_the_weight_are_bearing_failure() {
+fn caps_below_the_mean_pressure_are_a_bearing_failure() {
     let limits = Limits { friction: 0.3, pressure_cap: 1e3, ..Limits::default() };
     let error = stability_error(LimitsLaw::new(limits));
     let StabilityError::BearingFailure { ratio, .. } = error else {
@@ -127,7 +127,7 @@ fn caps_below_the_weight_are_bearing_failure() {
 #[derive(Debug, PartialEq)]
 struct PushedBody {
     static_pressures: Vec<f64>,
-    /// Of one element under the edge, m.
+    /// Indentation of one element under the edge, m.
     indentation: Vec<f64>,
     final_contact: String,
     warnings: Vec<Warning>,
@@ -146,9 +146,9 @@ fn push(law: impl InterfaceLaw + 'static) -> PushedBody {
 /// The edge yields under a weight beside the middle: the static state, the indentation and the run equal the results of
 /// the crate's law.
 #[test]
-fn caps_are_kept_while_the_weight_comes_on() {
+fn caps_of_the_pressure_hold_while_the_weight_is_applied() {
     let limits = Limits { friction: 0.3, pressure_cap: 1.5 * MEAN_PRESSURE, ..Limits::default() };
-    let pushed = push(LimitsLaw { limits, remembers: true });
+    let pushed = push(LimitsLaw { limits, has_memory: true });
     let cap = limits.pressure_cap * (1.0 + 1e-9);
     assert!(pushed.static_pressures.iter().all(|pressure| *pressure <= cap));
     assert!(pushed.indentation[0] > 1e-5, "{:?}", pushed.indentation);
@@ -159,7 +159,7 @@ fn caps_are_kept_while_the_weight_comes_on() {
 }
 
 #[test]
-fn tension_and_bonds_hold_while_the_weight_comes_on() {
+fn tension_and_bonds_hold_while_the_weight_is_applied() {
     let eccentricity = 1.0;
     let strong = Limits { friction: 0.3, tension: MEAN_PRESSURE, ..Limits::default() };
     let bonded = Limits { bonded: true, ..Limits::default() };
@@ -177,7 +177,7 @@ fn tension_and_bonds_hold_while_the_weight_comes_on() {
         assert!(simulation.state().modes.iter().all(|mode| mode.is_closed()));
         assert_close(&pressures(&simulation), &expected);
     }
-    // Less strength than that opens some of it, as without any.
+    // With less or no tensile strength, a part of the base opens.
     for tension in [0.1 * MEAN_PRESSURE, 0.0] {
         let limits = Limits { tension, ..strong };
         let simulation = scene(LimitsLaw::new(limits), eccentricity).build().unwrap();
@@ -210,7 +210,7 @@ impl InterfaceLaw for CompressibleLayer {
 
 /// A layer of a user's law is compressed by the weight before the run begins.
 #[test]
-fn layers_are_compressed_while_the_weight_comes_on() {
+fn layers_are_compressed_while_the_weight_is_applied() {
     let mut simulation = scene(CompressibleLayer, 0.5).build().unwrap();
     let expected = linear_pressures(&simulation, 0.5);
     assert_close(&pressures(&simulation), &expected);
@@ -234,9 +234,11 @@ fn large_settlement(warnings: &[Warning]) -> Option<Warning> {
         .copied()
 }
 
-/// Released at t = 0 on soil that bears 1 kPa, a body sinks by ½ (g − cap/m) t², and the run says so: whatever the law.
+/// A body released at t = 0 on soil with a bearing pressure of 1 kPa sinks by ½ g (1 − cap/p) t², p its mean pressure.
+///
+/// With each law the run has a warning of this settlement.
 #[test]
-fn sinking_warns() {
+fn large_settlements_cause_a_warning() {
     let cap = 1e3;
     let limits = Limits { friction: 0.3, pressure_cap: cap, ..Limits::default() };
     let laws: [Box<dyn InterfaceLaw>; 2] =

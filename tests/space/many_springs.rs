@@ -1,7 +1,7 @@
 //! GOAL: a bed of many springs in plan, under a rigid base, needs no matrices between its elements.
 //! SCENE: rigid bodies, also with P–Δ or two of them, that lift off and slide on 64 to 4096 elements.
-//! REFERENCE: the same bed as a ground that does not say that its compliances are diagonal; the energy balance; what
-//! matrices between all elements would take.
+//! REFERENCE: the same bed as a ground that hides that its compliances are diagonal; the energy balance; the memory of
+//! matrices between all elements.
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, Ground, GroundDescription, SpringGround};
@@ -14,7 +14,7 @@ use basemat::{Error, Observer, Result, Simulation};
 use basemat_problems::flexible_scenes::Sines;
 use basemat_problems::random::Random;
 
-/// A bed that does not say that its compliances are diagonal.
+/// A bed that hides that its compliances are diagonal.
 struct UndisclosedBed(SpringGround);
 
 impl Ground for UndisclosedBed {
@@ -75,7 +75,7 @@ fn random_law(random: &mut Random, pressure: f64) -> Box<dyn InterfaceLaw> {
     }
 }
 
-/// A bed as a ground that says that it is diagonal, or not.
+/// A bed as a ground that shows or hides that its compliances are diagonal.
 fn disclosed_ground(bed: SpringGround, is_disclosed: bool) -> Box<dyn Ground> {
     if is_disclosed { Box::new(bed) } else { Box::new(UndisclosedBed(bed)) }
 }
@@ -128,17 +128,17 @@ fn scene(number: u64, is_disclosed: bool) -> Simulation {
 #[derive(Default)]
 struct MaxDifference {
     difference: f64,
-    size: f64,
+    max_reference: f64,
 }
 
 impl MaxDifference {
     fn add(&mut self, value: f64, reference: f64) {
         self.difference = self.difference.max((value - reference).abs());
-        self.size = self.size.max(reference.abs());
+        self.max_reference = self.max_reference.max(reference.abs());
     }
 
     fn relative(&self) -> f64 {
-        self.difference / self.size
+        self.difference / self.max_reference
     }
 }
 
@@ -176,9 +176,9 @@ fn compare(
     }
     let errors = [displacements.relative(), tractions.relative()];
     println!("{name}: {errors:?}, {} steps with uplift, {} with slip", counts.uplift, counts.slip);
-    // Steps accept a residual of 1e-11 of the tractions, and a bed without dashpots adds it up.
+    // Steps accept a residual of 1e-11 of the tractions, which accumulates on a bed without dashpots.
     assert!(errors[0] < 1e-10 && errors[1] < 1e-9, "{name}: {errors:?}");
-    // Estimates from below, within a factor of three.
+    // Both condition numbers are estimates from below, within a factor of three.
     let conditions = [on_bed.conditioning().delassus, on_matrices.conditioning().delassus];
     assert!((0.3..3.0).contains(&(conditions[0] / conditions[1])), "{name}: {conditions:?}");
     counts
@@ -258,7 +258,7 @@ fn tower_bed() -> SpringGround {
     bed.with_dashpots(1e6, 7e5).unwrap()
 }
 
-/// Largest memory of the process so far, bytes; none where the system does not tell.
+/// Peak memory of the process, bytes; `None` where the system does not report it.
 fn peak_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
@@ -311,7 +311,7 @@ fn slab() -> FemModel {
     FemModel::on_base(mesh).unwrap()
 }
 
-/// What needs matrices between the elements is an error before they are made.
+/// Scenes that need matrices between the elements are refused before the matrices are allocated.
 #[test]
 fn matrices_between_thousands_of_springs_are_refused() {
     let bed = tower_bed();

@@ -16,10 +16,10 @@ use super::storeys;
 const BODY_SIDES: [f64; 3] = [8.0, 6.0, 3.0];
 const BODY_CENTER: [f64; 2] = [3.0, 1.0];
 const BODY_DENSITY: f64 = 2000.0;
-/// Above the middle of the base.
+/// Mass above the middle of the base, kg.
 const TOP_MASS: f64 = 1.2e5;
 const TOP_HEIGHT: f64 = 11.0;
-/// Along x and y.
+/// Stiffness along x and y, N/m.
 const SPRING_STIFFNESS: [f64; 2] = [9.0e7, 5.0e7];
 
 /// The body, with the mass on springs as its seventh and eighth degree of freedom.
@@ -42,7 +42,7 @@ impl Structure for Mast {
     }
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.0.mass(matrix)?;
-        // It rises with the body.
+        // The mass moves vertically with the body.
         for i in [2, 6, 7] {
             matrix.add(i, i, TOP_MASS);
         }
@@ -58,7 +58,7 @@ impl Structure for Mast {
     }
 }
 
-/// Of the free structure: k (1/m + 1/M + (h − c)²/J), the compliance of a free body at the spring.
+/// Frequencies of the free structure, Hz: ω² = k (1/m + 1/M + (h − c)²/J).
 fn free_frequencies() -> [f64; 2] {
     let [l, b, h] = BODY_SIDES;
     let body_mass = l * b * h * BODY_DENSITY;
@@ -71,7 +71,7 @@ fn free_frequencies() -> [f64; 2] {
 }
 
 #[test]
-fn rigid_motions_in_plan_have_no_modal_damping() {
+fn rigid_motions_in_space_have_no_modal_damping() {
     let damped = ModalDamping::new(&[0.05]).unwrap().on(mast()).unwrap();
     let mut expected = free_frequencies();
     expected.sort_by(f64::total_cmp);
@@ -106,27 +106,27 @@ fn march(structure: impl Structure + 'static, coordinates: Coordinates) -> Vec<f
 }
 
 #[test]
-fn all_coordinates_and_wrappers_march_alike() {
+fn all_coordinates_and_wrappers_have_the_same_motion() {
     let damping = ModalDamping::new(&[0.05]).unwrap();
     let expected = march(damping.on(mast()).unwrap(), Coordinates::Physical);
-    let size = expected.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
-    assert!([6, 7].iter().all(|dof| expected[*dof].abs() > 1e-2 * size));
+    let max_displacement = expected.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
+    assert!([6, 7].iter().all(|dof| expected[*dof].abs() > 1e-2 * max_displacement));
     for (coordinates, tolerance) in
         [(Coordinates::Modes, 1e-9), (Coordinates::Reduced { tolerance: 1e-8 }, 1e-7)]
     {
         let computed = march(damping.on(mast()).unwrap(), coordinates);
-        assert_close(&computed, &expected, tolerance * size);
+        assert_close(&computed, &expected, tolerance * max_displacement);
     }
     let wrapped = march(WithSprings::new(damping.on(mast()).unwrap()), Coordinates::Physical);
     assert_close(&wrapped, &expected, 0.0);
-    // The base is kept, the top is coordinates of modes.
+    // A reduced structure has the degrees of freedom of its base; modal coordinates replace those of the top.
     let reduction = CraigBampton::new(2);
     let damped_after = damping.on(reduction.reduce(mast()).unwrap()).unwrap();
     let computed = march(damped_after, Coordinates::Physical);
-    assert_close(&computed[..6], &expected[..6], 1e-9 * size);
+    assert_close(&computed[..6], &expected[..6], 1e-9 * max_displacement);
     let damped_before = reduction.reduce(damping.on(mast()).unwrap()).unwrap();
     let computed = march(damped_before, Coordinates::Physical);
-    assert_close(&computed[..6], &expected[..6], 1e-9 * size);
+    assert_close(&computed[..6], &expected[..6], 1e-9 * max_displacement);
 }
 
 fn assert_close(computed: &[f64], expected: &[f64], tolerance: f64) {

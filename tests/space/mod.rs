@@ -1,4 +1,4 @@
-//! GOAL: bases in plan march in three directions, on any ground that has three: bonded, lifting off, sliding.
+//! GOAL: structures in space move correctly in three directions on any ground: bonded, lifting off, sliding.
 //! SCENE: rigid bodies on independent springs and dashpots under each cell, and on elastic ground.
 //! REFERENCE: equations of motion integrated here, Newton's law, the same body in the plane, symmetry.
 

@@ -1,4 +1,4 @@
-//! Models of finite elements in space in pictures: shells, bricks and beams that hide each other, and values on a plan.
+//! Pictures of finite element models in space: shells, bricks and beams that hide each other, and values on a plan.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use basemat::results::{DeformedShape, Recorder, TimeSeries};
 use basemat::structure::FemModel;
 use basemat::{Error, Simulation, plot};
 
-/// Of displacements in the pictures.
+/// Factor on the displacements in the pictures.
 const DISPLACEMENT_FACTOR: f64 = 20.0;
 
 /// A mat of shells at z = 7, a brick on it at its back, and a column with a mass at its front.
@@ -90,15 +90,20 @@ fn depth(shape: &DeformedShape, cell: &[usize]) -> f64 {
 }
 
 /// Compares the drawn cells with places in the isometric view, up to a common scale and shift.
-fn assert_cells_are_drawn(cells: &[&Vec<usize>], places: &[[f64; 2]], drawn: &[Vec<[f64; 2]>]) {
-    let first = places[cells[0][0]];
-    let second = places[cells[0][1]];
+fn assert_cells_are_drawn(
+    cells: &[&Vec<usize>],
+    points_in_view: &[[f64; 2]],
+    drawn: &[Vec<[f64; 2]>],
+) {
+    let first = points_in_view[cells[0][0]];
+    let second = points_in_view[cells[0][1]];
     let scale = (drawn[0][1][0] - drawn[0][0][0]) / (second[0] - first[0]);
     for (cell, polygon) in cells.iter().zip(drawn) {
         assert_eq!(cell.len(), polygon.len());
         for (&corner, computed) in cell.iter().zip(polygon) {
             for axis in 0..2 {
-                let expected = drawn[0][0][axis] + scale * (places[corner][axis] - first[axis]);
+                let expected =
+                    drawn[0][0][axis] + scale * (points_in_view[corner][axis] - first[axis]);
                 assert!(
                     (computed[axis] - expected).abs() < 0.3,
                     "{cell:?}: {computed:?} {expected}"
@@ -124,7 +129,7 @@ fn near_cells_hide_far_ones() {
     // The same cells by hand: places in the isometric view, and distances towards the viewer.
     let frame = series.motion_frames().next().unwrap();
     let displacements = shape.displacements(frame.displacement).unwrap();
-    let places: Vec<[f64; 2]> = shape
+    let points_in_view: Vec<[f64; 2]> = shape
         .points()
         .iter()
         .zip(&displacements)
@@ -140,7 +145,7 @@ fn near_cells_hide_far_ones() {
     order.sort_by(|a, b| depth(&shape, a).total_cmp(&depth(&shape, b)));
     // The front corner of the brick's top is near, the shell in the corner at the back left is far.
     assert_eq!(order[0][..], [8, 9, 13, 12]);
-    assert_cells_are_drawn(&order, &places, &drawn);
+    assert_cells_are_drawn(&order, &points_in_view, &drawn);
     // Elevations: faces of the two instants in both views.
     let svg = plot::deformed_shapes("A model", &shape, &series, &[1.0], DISPLACEMENT_FACTOR);
     let svg = svg.unwrap();

@@ -11,10 +11,10 @@ use basemat::{Simulation, Soil, unobserved};
 
 use super::cells::{BedProperties, SpringCells};
 
-/// Where along its path a wave has the time of its record, m.
+/// Point on the path of a wave where its motion has the time of the record, m.
 const WAVE_ORIGIN: f64 = -12.0;
 const SHEAR_WAVE_SPEED: f64 = 180.0;
-/// Of SV, P and SH, from the vertical.
+/// Angles of SV, P and SH waves from the vertical, rad.
 const INCIDENCE_ANGLES: [f64; 3] = [0.3, 0.7, 0.5];
 
 fn soil() -> Soil {
@@ -144,7 +144,7 @@ fn square_cells() -> SpringCells {
     SpringCells::under([16.0; 2], [0.0; 2], [6, 6], ISOTROPIC_BED)
 }
 
-/// Displacement of a square body on a bed after 700 steps, under SV, P or SH in the direction of so many quarters.
+/// Displacement of a square body on a bed after 700 steps, under SV, P or SH waves turned by quarter turns.
 fn march(wave_number: usize, quarter_turns: u32, density: f64) -> Vec<f64> {
     let wave = waves().swap_remove(wave_number);
     let wave = wave.with_azimuth(f64::from(quarter_turns) * FRAC_PI_2).unwrap();
@@ -183,7 +183,7 @@ fn a_square_mat_turns_with_its_waves() {
     }
 }
 
-/// A body next to no mass follows the ground in the mean: its twist is Σ A (x u_y − y u_x)/Σ A (x² + y²).
+/// A body of almost no mass follows the mean of the ground: its twist is Σ A (x u_y − y u_x)/Σ A (x² + y²).
 #[test]
 fn a_light_mat_twists_with_the_ground_that_an_sh_wave_passes() {
     let cells = square_cells();
@@ -202,7 +202,7 @@ fn a_light_mat_twists_with_the_ground_that_an_sh_wave_passes() {
     assert!(expected.abs() > 1e-5 && (u[5] / expected - 1.0).abs() < 1e-4, "{} {expected}", u[5]);
 }
 
-/// Each component equals the plane's column, with the motion after the record.
+/// Each component is the motion of a column in the plane, and continues after the record.
 #[test]
 fn a_column_carries_three_components_each_by_its_wave() {
     let damping = GeneralizedMaxwell::constant_q(0.03, [0.1, 30.0], 1.0).unwrap();

@@ -39,7 +39,7 @@ fn body(outline: Vec<[f64; 2]>) -> RigidBody {
     RigidBody::from_mass(outline, BODY_MASS, inertia, [0.0, 0.0, 1.0]).unwrap()
 }
 
-/// A square with sides of 2, turned by so many degrees.
+/// A square with sides of 2, turned by `degrees`.
 fn turned_square(degrees: f64) -> RigidBody {
     body(polygon(4, f64::sqrt(2.0), 45.0 + degrees))
 }
@@ -50,7 +50,7 @@ fn equal_disc_stiffness(corners: usize) -> f64 {
     4.0 * f64::sqrt(0.5 * corners as f64 * angle.sin() / std::f64::consts::PI)
 }
 
-/// Bounds of a regular polygon's stiffness: at least that of the disc, and less above it than the square's is.
+/// Bounds of a regular polygon's stiffness: not below the disc's, and closer to it than the square's.
 fn polygon_bounds(corners: usize) -> [f64; 2] {
     [1.0, 1.0 + 0.0212 * 16.0 / (corners * corners) as f64]
         .map(|ratio| ratio * equal_disc_stiffness(corners))
@@ -71,9 +71,9 @@ impl OutlineCase {
 }
 
 /// A disc: 4 G R/(1 − ν). A square with sides of 2: 4.6092 G/(1 − ν), however it is turned. A regular polygon: at least
-/// the disc of its area (Pólya and Szegő), and less above it than the square is.
+/// the disc of its area (Pólya and Szegő), and closer to it than the square's stiffness.
 #[test]
-fn settlements_fall_steadily_to_their_closed_form() {
+fn stiffnesses_fall_steadily_to_their_closed_form() {
     let cylinder = RigidBody::cylinder(1.0, 2.0, 1000.0).unwrap();
     let cases = [
         OutlineCase::new("cylinder", cylinder, [4.0; 2], 0.004),

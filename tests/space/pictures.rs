@@ -1,4 +1,4 @@
-//! Bodies and towers in plan as they move: in pictures, for ParaView and in archives, against sums by hand.
+//! Motion of bodies and towers in space: in pictures, in files for ParaView and in archives, against sums by hand.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ use super::cells::CrossingPulses;
 /// Sides of a rigid body and the middle of its base, m.
 const BODY_SIDES: [f64; 3] = [8.0, 6.0, 10.0];
 const BODY_CENTER: [f64; 2] = [1.0, 2.0];
-/// Of a tower, m.
+/// Dimensions of a tower, m.
 const TOWER_CENTER: [f64; 2] = [3.0, -2.0];
 const STOREY_HEIGHT: f64 = 4.0;
 
@@ -35,12 +35,12 @@ fn body() -> RigidBody {
     RigidBody::cuboid(BODY_SIDES, 2000.0).unwrap().centered_at(BODY_CENTER).unwrap()
 }
 
-/// The pulses, fifteen times as strong.
+/// [`CrossingPulses`] with fifteen times the amplitude.
 struct AmplifiedPulses;
 
 impl FreeField for AmplifiedPulses {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
         CrossingPulses { quarter_turns: 0 }.displacement_at(place, time).map(|u| 15.0 * u)
@@ -93,7 +93,7 @@ fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("plan_pictures").join(name)
 }
 
-/// Points of a path, `M` and `L` alike.
+/// Points of a path, of the commands `M` and `L`.
 fn path_points(path: &str) -> Vec<[f64; 2]> {
     path.split(['M', 'L', 'Z'])
         .filter(|pair| !pair.is_empty())
@@ -165,7 +165,7 @@ fn a_body_moves_above_its_elements() {
             );
         }
     }
-    // A shape of the plane.
+    // A shape of a structure in the plane.
     let block = RigidBlock::new(8.0, BODY_SIDES[2], 2000.0).unwrap();
     let plane_shape = DeformedShape::of_block(&block, BODY_SIDES[2]).unwrap();
     for error in [
@@ -231,7 +231,7 @@ fn level_motion(dofs: &[f64], level: usize, [dx, dy]: [f64; 2]) -> [f64; 3] {
 }
 
 #[test]
-fn paraview_gets_towers_in_space() {
+fn paraview_files_have_towers_in_space() {
     let recorded = RecordedMotion::of(tower());
     let shape = DeformedShape::of_storeys(&tower()).unwrap();
     let folder = folder("paraview");
@@ -264,9 +264,9 @@ fn paraview_gets_towers_in_space() {
     assert_eq!(line_count, 12);
 }
 
-/// Rigid motions of the base at any place, and what is left of a floor's.
+/// Rigid motions of the base at any place, and the motion of a floor relative to them.
 #[test]
-fn motions_relative_to_the_base_are_known_along_both_axes() {
+fn motions_relative_to_the_base_have_rows_along_both_axes() {
     let tower = tower();
     let dofs: Vec<f64> = (0..15).map(|k| (1.0 + 1.7 * f64::from(k)).sin()).collect();
     for place in [[0.0, 0.0, 0.0], [3.0, -4.0, 8.0], [-1.0, 2.5, 12.0]] {
@@ -285,7 +285,7 @@ fn motions_relative_to_the_base_are_known_along_both_axes() {
             assert!((relative - drift[k].value(&dofs)).abs() < 1e-13);
         }
         let along = tower.floor(storey, [0.0; 2]).unwrap()[0].clone();
-        // It may be along y as well.
+        // The motion may be along y as well.
         for result in [along.total_drift(&tower, height), along.relative_to_base(&tower)] {
             assert!(matches!(result, Err(Error::Scene { .. })), "{result:?}");
         }
@@ -343,7 +343,7 @@ mod archives {
     }
 
     #[test]
-    fn archives_have_what_moves_along_y() {
+    fn archives_have_the_motion_along_y() {
         let recorded = RecordedMotion::of(body());
         let mut archive = Vec::new();
         recorded.time_series.write_npz(&mut archive).unwrap();

@@ -4,7 +4,7 @@ use basemat_problems::dense;
 
 /// Displacement and rotations about x and y of a node: w, ∂w/∂y, −∂w/∂x.
 pub(super) const NODE_DOFS: usize = 3;
-/// Of a plate element.
+/// Degrees of freedom of a plate element.
 const PLATE_DOFS: usize = 4 * NODE_DOFS;
 /// Points and weights of Gauss' rule of three.
 const GAUSS_RULE: [(f64, f64); 3] = [
@@ -29,20 +29,20 @@ const MONOMIAL_POWERS: [[i32; 2]; PLATE_DOFS] = [
     [1, 3],
 ];
 
-/// Derivative of x^power, so many times.
-fn power_derivative(x: f64, power: i32, times: i32) -> f64 {
-    let factor: i32 = (0..times).map(|k| power - k).product();
-    if power < times { 0.0 } else { f64::from(factor) * x.powi(power - times) }
+/// Derivative of x^power, of this order.
+fn power_derivative(x: f64, power: i32, order: i32) -> f64 {
+    let factor: i32 = (0..order).map(|k| power - k).product();
+    if power < order { 0.0 } else { f64::from(factor) * x.powi(power - order) }
 }
 
-/// A derivative of the monomials at a point: so many times by x and by y.
-fn monomials([x, y]: [f64; 2], [by_x, by_y]: [i32; 2]) -> [f64; PLATE_DOFS] {
-    MONOMIAL_POWERS.map(|[a, b]| power_derivative(x, a, by_x) * power_derivative(y, b, by_y))
+/// A derivative of the monomials at a point, of these orders in x and y.
+fn monomials([x, y]: [f64; 2], [order_x, order_y]: [i32; 2]) -> [f64; PLATE_DOFS] {
+    MONOMIAL_POWERS.map(|[a, b]| power_derivative(x, a, order_x) * power_derivative(y, b, order_y))
 }
 
 /// Second derivatives at a point of the shape functions, whose coefficients are the columns of a row-major matrix.
-fn curvatures(coefficients: &[f64], point: [f64; 2], by: [i32; 2]) -> Vec<f64> {
-    let derivatives = monomials(point, by);
+fn curvatures(coefficients: &[f64], point: [f64; 2], orders: [i32; 2]) -> Vec<f64> {
+    let derivatives = monomials(point, orders);
     (0..PLATE_DOFS)
         .map(|j| {
             (0..PLATE_DOFS)

@@ -18,11 +18,11 @@ const RAFT_THICKNESS: f64 = 0.8;
 const TOTAL_LOAD: f64 = 4.0e6;
 const ELEMENTS_PER_SIDE: usize = 16;
 
-/// Of rafts whose bending stiffness is prescribed, m.
+/// Thickness of the shells of rafts whose bending stiffness is prescribed, m.
 const THIN_SHELL: f64 = 0.3;
 /// 12 (1 − ν²) for Poisson's ratio of the shells, 0.2.
 const PLATE_FACTOR: f64 = 12.0 * 0.96;
-/// So small that weight leaves the results of the loads as they are.
+/// Gravity so small that weight has no effect on the results of the loads, m/s².
 const NEGLIGIBLE_GRAVITY: f64 = 1e-6;
 
 /// A square raft of `count` × `count` shells.
@@ -53,7 +53,7 @@ fn vertical(model: &FemModel, node: usize) -> DofCombination {
     model.row(node, Direction::Z).unwrap()
 }
 
-/// A contact without friction that holds the raft down wherever it bends up.
+/// A contact without friction whose tensile strength keeps the raft from lifting off.
 fn frictionless_bond() -> Coulomb {
     Coulomb::new(0.0).unwrap().with_tensile_strength(1.0e9).unwrap()
 }
@@ -131,12 +131,12 @@ fn plan() -> Plan {
     plan.without_overhang().unwrap()
 }
 
-/// The load bends a raft on springs so much that its corners rise.
+/// On springs the load bends the raft so much that its corners rise.
 #[test]
 fn a_raft_on_springs_settles_as_the_ritz_solution() {
     let springs = SpringGround::in_plan(plan(), [20.0e6, 1.0e6, 1.0e6]).unwrap();
     let computed = middle_load_response(springs);
-    // Springs under a cell have its mean displacement: errors are parts of the largest settlement.
+    // Springs under a cell have its mean displacement: errors are relative to the largest settlement.
     let expected = [3.487_449, 0.743_579_3, -0.495_681_2];
     for (computed, expected) in computed.settlements().into_iter().zip(expected) {
         assert!((computed - expected).abs() < 0.01 * 3.487, "{computed} {expected}");
@@ -145,7 +145,7 @@ fn a_raft_on_springs_settles_as_the_ritz_solution() {
     assert!((moment / 729.3671 - 1.0).abs() < 0.15, "{moment}");
 }
 
-/// On the half-space: the same shells, cell means and limit.
+/// On the half-space: an independent program with the same shells and cell means, and the limit of fine meshes.
 #[test]
 fn a_raft_on_a_half_space_settles_as_the_independent_program() {
     let computed = middle_load_response(ElasticGround::in_plan(soil(), plan()).unwrap());
@@ -164,7 +164,7 @@ fn a_raft_on_a_half_space_settles_as_the_independent_program() {
 struct EdgeLoadErrors {
     /// Largest of the three settlements, relative to the corner's.
     settlement: f64,
-    /// Of the moment in the middle.
+    /// Error of the moment in the middle.
     moment: f64,
 }
 
@@ -226,7 +226,7 @@ fn loads_on_the_edges_of_a_stiff_raft_settle_it_as_the_ritz_solution() {
     }
 }
 
-/// Of a round raft.
+/// Number of sectors of a round raft.
 const SECTOR_COUNT: usize = 24;
 const SHELL_ROW_COUNT: usize = 6;
 const ROUND_RAFT_RADIUS: f64 = 0.5 * RAFT_SIDE;
@@ -324,9 +324,10 @@ fn a_load_on_the_edge_of_a_round_raft_settles_it_as_the_ritz_solution() {
     assert!((bending_ratio - 1.0).abs() < 0.05, "{middle} {edge}");
 }
 
-/// A round raft with D/(G R³) = 0.06 rocks under a stiff wall on its edge: its stiffness is right on every number of cells.
+/// A round raft with D/(G R³) = 0.06 rocks under a stiff wall on its edge: its stiffness is accurate on every number of
+/// cells.
 ///
-/// With edges as of a rigid raft it is 1 % too soft.
+/// With the overhang of a rigid raft it is 1 % too soft.
 /// Reference: Ritz solution of `tests/data/plan/disc_on_half_space.py`, moment over rotation and G R³.
 #[test]
 fn a_round_raft_rocks_under_its_wall() {
@@ -340,9 +341,9 @@ fn a_round_raft_rocks_under_its_wall() {
     }
 }
 
-/// The strength that holds a raft down does not enter the accuracy of its forces: it stands under any small weight.
+/// The tensile strength of the contact has no effect on the accuracy of its forces: the raft stands under any small weight.
 #[test]
-fn a_raft_without_weight_stands() {
+fn results_do_not_depend_on_a_small_weight() {
     let raft = RoundRaft::new(0.001 * round_soil().shear_modulus(), &[]);
     let light = raft.edge_rotation(12, 1e-3);
     let weightless = raft.edge_rotation(12, 1e-9);

@@ -1,6 +1,6 @@
-//! Random scenes that lift off and slide: the energy balance closes, nothing gives back what it has taken,
-//! and saved runs go on to the same bits.
-//! `SPACE_SCENES=1000` draws so many, `SPACE_FIRST=40` from that one on.
+//! Random scenes that lift off and slide: the energy balance closes, no part returns more energy than it received,
+//! and resumed runs have the same bits.
+//! `SPACE_SCENES=1000` runs 1000 scenes, `SPACE_FIRST=40` starts with scene 40.
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, ElasticGround};
@@ -54,7 +54,7 @@ fn random_plan(random: &mut Random, sides: [f64; 2], cells: usize) -> Result<Pla
     let columns = plan.count() / cells;
     let rows = cells;
     if columns > 3 && rows > 3 && random.chance(0.3) {
-        // All but the outermost of each column and row as one.
+        // One union of all cells of a column or row but the outermost.
         plan.with_unions(&[1, columns - 2, 1], &[1, rows - 2, 1])
     } else {
         Ok(plan)
@@ -73,7 +73,7 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
     let time_step = plan.pitch()[1] * random.log_within(0.05, 10.0);
     let gravity = random.log_within(1e-4, 1e-2);
     let friction = random.log_within(0.02, 10.0);
-    // None at all, some, or infinite.
+    // No friction, some, or infinite.
     let friction = if friction < 0.03 { 0.0 } else { friction };
     let friction = if random.chance(0.1) { f64::INFINITY } else { friction };
     let pressure = gravity * density * height;
@@ -103,7 +103,7 @@ fn slides(state: &State) -> bool {
     state.modes.iter().any(|mode| mode.is_slip())
 }
 
-/// What happened in the steps of all scenes.
+/// Counts and extremes over the steps of all scenes.
 #[derive(Default)]
 struct RunTotals {
     scenes: usize,
@@ -113,7 +113,7 @@ struct RunTotals {
     unsolved_scenes: usize,
     substituted_friction_steps: usize,
     max_residual: f64,
-    /// Least friction work in a step, relative to the largest energy.
+    /// Smallest friction work in a step, relative to the largest energy.
     min_friction_work: f64,
     trials: usize,
     max_trials: usize,
@@ -169,7 +169,7 @@ impl RunTotals {
         for ((contact, previous), area) in state.contact.iter().zip(previous_contact).zip(areas) {
             let along = contact.shear * (contact.slip - previous.slip);
             let across = contact.shear_across * (contact.slip_across - previous.slip_across);
-            // A layer gives back what it has stored.
+            // A layer returns the energy that it has stored.
             if energy.interface == 0.0 {
                 let work = area * (along + across);
                 assert!(work >= -1e-10 * energy.largest, "{number}: {work:e}");
@@ -184,7 +184,7 @@ impl RunTotals {
         self.sliding_steps += usize::from(slides(state));
     }
 
-    /// Counts substituted friction; these scenes have unit quantities, about which no warning may complain.
+    /// Counts substituted friction; these scenes are in arbitrary units, which must not cause a warning.
     fn add_warning(&mut self, number: usize, warning: &Warning) {
         let is_about_units = matches!(
             warning,
@@ -251,7 +251,7 @@ fn energies_of_random_flexible_scenes_close() {
     }
     println!("{outcome:?}");
     assert!(outcome.refused.is_empty() && outcome.reduced == 4, "{outcome:?}");
-    assert!(outcome.opened > 150 && outcome.slid > 200, "{outcome:?}");
+    assert!(outcome.open_steps > 150 && outcome.sliding_steps > 200, "{outcome:?}");
 }
 
 /// Scenes whose Ritz vectors do not converge are stepped in all modes.
@@ -265,7 +265,7 @@ fn small_flexible_scenes_are_reduced_without_refusal() {
     assert!(outcome.refused.is_empty() && outcome.reduced == 2, "{outcome:?}");
 }
 
-/// Saved anywhere and resumed in another simulation, steps have the same bits: half as many scenes.
+/// Saved at any step and resumed in another simulation, runs have the same bits: half as many scenes.
 #[test]
 fn random_scenes_resume_to_the_last_bit() {
     let first = env_number("SPACE_FIRST", 0);

@@ -32,7 +32,7 @@ fn block(young_modulus: f64, damping: Option<RayleighDamping>) -> FemModel {
     layered_block(BRICK_LAYERS, young_modulus, damping)
 }
 
-/// A block of so many layers of bricks.
+/// A block of layers of bricks.
 fn layered_block(layers: usize, young_modulus: f64, damping: Option<RayleighDamping>) -> FemModel {
     let material = Material::new(young_modulus, 0.2, 1800.0).unwrap();
     let mut mesh = Mesh::in_space();
@@ -87,7 +87,7 @@ fn pressures(state: &State) -> Vec<f64> {
 }
 
 #[test]
-fn many_cells_keep_the_tolerance() {
+fn reduced_coordinates_on_many_cells_keep_the_tolerance() {
     let mass_proportional = RayleighDamping::new(0.6, 0.0).unwrap();
     for damping in [Some(rayleigh()), Some(mass_proportional), None] {
         let full = march(block(SOFT_MODULUS, damping), Coordinates::Physical);
@@ -114,13 +114,13 @@ fn many_cells_keep_the_tolerance() {
 
 /// Forces at half the height of a block of concrete.
 ///
-/// Directions as short as the root of the tolerance would be too long for them: errors of 1.7e-4 and 8.3e-4.
+/// Omitting directions shorter than the root of the tolerance is not enough: errors of 1.7e-4 and 8.3e-4.
 #[test]
 fn section_forces_keep_the_tolerance() {
     let model = block(CONCRETE_MODULUS, Some(rayleigh()));
     let full = march(model.clone(), Coordinates::Physical);
     assert!(full.iter().any(|state| state.uplifted_fraction > 0.1));
-    // The second one is beyond the vectors: all modes are stepped.
+    // The second tolerance needs more Ritz vectors than there may be: all modes are stepped.
     for tolerance in [1e-4, 1e-6] {
         let reduced = march(model.clone(), Coordinates::Reduced { tolerance });
         let errors = [0, 1, 2].map(|probe| probe_error(&full, &reduced, probe));
@@ -144,7 +144,7 @@ fn a_tolerance_beyond_the_vectors_is_refused_with_its_cause() {
     }
 }
 
-/// Rayleigh damping that leaves P–Δ out couples the modes.
+/// Rayleigh damping without the P–Δ stiffness couples the modes.
 #[test]
 fn rayleigh_damping_with_p_delta_is_reduced_on_many_cells() {
     let model = block(SOFT_MODULUS, Some(rayleigh())).with_p_delta(9.81).unwrap();

@@ -1,4 +1,4 @@
-//! Invalid scenes in plan, each with an error that names the fault.
+//! Invalid scenes in space, each with an error that names the fault.
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, Ground, SpringGround};
@@ -65,13 +65,13 @@ fn cells_that_no_face_covers_are_errors() {
     let pitch = 7.0 / 6.8;
     let expected = pitch * (3.0 + 0.5 / 3.0_f64.sqrt()) - 2.0;
     assert!((value - expected).abs() < 1e-12, "{value} {expected}");
-    // Up to half a cell the base goes on.
+    // A base may reach up to half a cell beyond its cells.
     let ground = SpringCells::under([4.8, 4.0], [0.0; 2], [4, 4], BED_PROPERTIES);
     let builder = Simulation::builder(0.01).structure(cube()).ground(ground).interface(Bonded);
     assert!(builder.build().is_ok());
 }
 
-/// Why a cube falls under a load at its top along an axis.
+/// The stability error of a cube under a load at its top along an axis.
 fn fall(axis: usize, eccentricity: f64) -> StabilityError {
     let row = cube().displacement_at([0.0, 0.0, 4.0])[axis].clone();
     let weight = STANDARD_GRAVITY * cube().total_mass();
@@ -87,7 +87,7 @@ fn fall(axis: usize, eccentricity: f64) -> StabilityError {
     *cause
 }
 
-/// A load at the top, along x or along y, to the front or to the back: what is said of one axis is said of the other.
+/// A load at the top, along x or along y, in the positive or negative direction: both axes have the same errors.
 #[test]
 fn errors_of_stability_name_the_axis_and_the_edge() {
     for (axis, name, edges) in [(0, 'x', ["left", "right"]), (1, 'y', ["front", "back"])] {
@@ -136,7 +136,7 @@ fn with_element(index: usize, element: ContactElement) -> SpringCells {
 
 #[test]
 fn elements_that_are_no_cells_are_errors() {
-    // One that has no place in plan, unlike the others.
+    // An element without a place in plan, unlike the others.
     let error = build_error(cube(), with_element(3, ContactElement::new(-1.0, 1.0)), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
     let flat = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
@@ -204,8 +204,8 @@ fn build_twisted(torque: f64) -> Result<Simulation> {
         .build()
 }
 
-/// A torque beyond friction is named, with what friction gives under even pressure: µ N times the mean distance of the
-/// cells from the middle.
+/// The error of a torque beyond friction has the torque that friction resists under even pressure: µ N times the mean
+/// distance of the cells from the middle.
 #[test]
 fn a_torque_beyond_friction_is_named() {
     // Cells of a bed reach a tenth of their side beyond the edge.
@@ -227,11 +227,11 @@ fn a_torque_beyond_friction_is_named() {
 /// Constant loads on the flat body.
 #[derive(Clone, Copy)]
 struct SmallLoads {
-    /// Along x, N.
+    /// Horizontal load along x, N.
     push: f64,
-    /// Downwards, in weights.
+    /// Downward load, relative to the weight.
     down: f64,
-    /// N·m.
+    /// Torque, N·m.
     torque: f64,
 }
 
@@ -257,9 +257,9 @@ impl SmallLoads {
     }
 }
 
-/// Forces of the size of rounding are no reason to refuse a base without friction.
+/// Forces of the size of rounding are allowed on a base without friction.
 #[test]
-fn rounding_neither_twists_nor_pushes_off() {
+fn loads_of_the_size_of_rounding_are_allowed() {
     for (push, torque) in [(0.0, 1e-20), (1e-20, 0.0), (1e-20, 1e-20)] {
         assert!(SmallLoads { push, down: 0.1, torque }.build().is_ok());
         let cause = SmallLoads { push, down: 0.3, torque }.stability_error();
@@ -293,7 +293,7 @@ fn pressures_at(center: [f64; 2], side: f64) -> Vec<f64> {
     simulation.state().contact.iter().map(|contact| contact.pressure).collect()
 }
 
-/// Site coordinates are as good as others: the static state and its moments are those at the origin.
+/// Site coordinates have no effect: the static state and its moments are those at the origin.
 #[test]
 fn mats_stand_anywhere() {
     for (side, place) in

@@ -1,4 +1,4 @@
-//! Pictures of results in plan, and files for ParaView.
+//! Pictures of results in space, and files for ParaView.
 
 use basemat::coupled::State;
 use basemat::interface::ContactState;
@@ -59,11 +59,11 @@ fn pictures_do_not_mix_dimensions() {
         Err(Error::Scene { .. })
     ));
     assert!(plot::time_series("T", &mixed, Quantity::MeanSlip).is_ok());
-    // Series of three directions alone are empty in the plane.
+    // Series of results in space are empty in the plane.
     assert!(strip.series(Quantity::Torque).is_empty() && !strip.in_plan());
 }
 
-/// Numbers of an array in a file of VTK.
+/// Numbers of an array in a VTK file.
 fn vtk_array(text: &str, name: &str) -> Vec<f64> {
     let rest = text.split(&format!("Name=\"{name}\"")).nth(1).unwrap();
     let numbers = rest.split_once(">\n").unwrap().1.split("</DataArray>").next().unwrap();
@@ -76,7 +76,7 @@ fn contact_values(state: &State, value: fn(&ContactState) -> f64) -> Vec<f64> {
 }
 
 #[test]
-fn paraview_gets_the_base_as_rectangles() {
+fn paraview_files_have_the_base_as_rectangles() {
     let RockingBody { time_series, states, .. } = RockingBody::new();
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("base_in_plan");
     assert_eq!(paraview::write_base(&folder, "mat", &time_series), Ok(41));

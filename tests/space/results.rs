@@ -1,4 +1,4 @@
-//! Results in plan: quantities of three directions by sums over the cells, in files, on pages, in comparisons.
+//! Results in space: quantities in three directions against sums over the cells; files, pages, comparisons.
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, ElasticGround, SpringGround};
@@ -18,12 +18,12 @@ use super::cells::CrossingPulses;
 const BODY_SIDES: [f64; 3] = [8.0, 6.0, 10.0];
 const BODY_WEIGHT: f64 = 9.80665 * 2000.0 * (8.0 * 6.0 * 10.0);
 
-/// The pulses, twelve times as strong.
+/// [`CrossingPulses`] with twelve times the amplitude.
 struct StrongPulses;
 
 impl FreeField for StrongPulses {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
         CrossingPulses { quarter_turns: 0 }.displacement_at(place, time).map(|u| 12.0 * u)
@@ -88,7 +88,7 @@ const SUMMED_QUANTITIES: [Quantity; 8] = [
     Quantity::MeanSlipAcross,
 ];
 
-/// By hand, of a state: forces along x and y, moments about x and y, torque, open area, mean slips.
+/// Sums over the elements of a state: forces along x and y, moments about x and y, torque, open area, mean slips.
 fn sums_over_elements(elements: &[ContactElement], areas: &[f64], state: &State) -> [f64; 8] {
     let whole_area: f64 = areas.iter().sum();
     let mut sums = [0.0; 8];
@@ -164,7 +164,7 @@ fn quantities_are_sums_over_the_cells() {
     assert_serviceability(&run, &states, &sums);
 }
 
-/// Service: slip in any direction, tilt in any direction.
+/// Limits of service apply to slip and tilt in any direction.
 fn assert_serviceability(run: &Run, states: &[State], sums: &[[f64; 8]]) {
     let max_mean_slip = sums.iter().fold(0.0_f64, |max, sums| max.max(sums[6].hypot(sums[7])));
     let max_tilt = states
@@ -183,7 +183,7 @@ fn assert_serviceability(run: &Run, states: &[State], sums: &[[f64; 8]]) {
     assert!(run.whole.sliding.path > 0.0 && run.whole.uplift.duration > 0.0, "{run}");
 }
 
-/// A table read from comma-separated text; what is no number is NaN.
+/// A table read from comma-separated text; text that is not a number is NaN.
 struct CsvTable {
     heading: Vec<String>,
     rows: Vec<Vec<f64>>,
@@ -246,7 +246,7 @@ fn files_have_columns_of_the_whole_body() {
 }
 
 #[test]
-fn pages_say_both_directions() {
+fn pages_have_both_directions() {
     let page = RockingBody::new().run.to_string();
     for text in [
         "base shear across",
@@ -274,7 +274,7 @@ pub(super) fn strip_simulation(is_shaken: bool) -> Simulation {
     builder.build().unwrap()
 }
 
-/// Beside a run in the plane, what is per metre has a separate row.
+/// Beside a run in the plane, quantities per metre have separate rows.
 #[test]
 fn comparisons_keep_both_dimensions_apart() {
     let body = RockingBody::new().run;
@@ -318,9 +318,9 @@ fn the_area_of_a_body_is_that_of_its_outline() {
     assert!((state.value(Quantity::NormalForce) / BODY_WEIGHT - 1.0).abs() < 1e-9);
 }
 
-/// Written and read again in serde's form, and as an archive.
+/// Results are written and read back in serde's form and as an archive.
 #[test]
-fn results_in_plan_are_read_again() {
+fn results_in_space_are_read_back() {
     let RockingBody { time_series, run, .. } = RockingBody::new();
     let text = serde_json::to_string(&time_series).unwrap();
     let read_back: TimeSeries = serde_json::from_str(&text).unwrap();

@@ -1,5 +1,5 @@
 //! GOAL: a footing that is turned slowly on soil with a bearing pressure carries the moments of its test, and settles.
-//! SCENE: the centrifuge test SSG02_03 with the measured amplitudes of rotation, in plan.
+//! SCENE: the centrifuge test SSG02_03 with the measured amplitudes of rotation, in space.
 //! REFERENCE: the measured rows; another program (a rigid rectangle on 16 strips of Love's half-space, statics alone).
 
 use basemat::interface::Yielding;
@@ -13,7 +13,7 @@ use basemat_problems::rocking_footing::{
 ///
 /// The equivalent damping of packet e is about 20 %.
 #[test]
-fn measured_packets_of_the_test() {
+fn measured_packets_have_their_moments_and_settlements() {
     let packets = measured_packets();
     let moments = [0.446, 0.657, 0.779, 0.873, 0.917];
     let settlements = [0.0027, 0.0065, 0.0108, 0.0173, 0.0295];
@@ -39,7 +39,7 @@ fn measured_packets_of_the_test() {
 /// Its settlements are printed with four digits after the point. Its Poisson's ratio is not stated. Here ν = 0.35; from 0.3
 /// to 0.37 the moments are within 3 %, and the last settlement varies by a quarter.
 #[test]
-fn a_bearing_pressure_alone_on_the_half_space() {
+fn a_bearing_pressure_alone_agrees_with_another_program() {
     let test = SlowRockingTest::with_amplitudes(&measured_packets());
     let run = test.run(Yielding::new(BEARING_PRESSURE, 0.6).unwrap()).unwrap();
     let moments = [0.720, 0.789, 0.806, 0.806, 0.806];

@@ -1,4 +1,4 @@
-//! Six resultants of a model that lifts off and slides: a section at the base passes on the contact forces.
+//! Six resultants of a model that lifts off and slides: a section at the base has the contact forces.
 
 use basemat::Simulation;
 use basemat::bem::SpringGround;
@@ -60,7 +60,7 @@ fn midpoint(start: &[f64], end: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn a_section_at_the_base_is_the_contact_force() {
+fn a_section_at_the_base_has_the_contact_forces() {
     let model = block();
     let section = model.section_in_space(0.0, [0.0; 2]).unwrap();
     let section_rows: [&SectionRows; 6] = [

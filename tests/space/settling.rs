@@ -23,7 +23,7 @@ const SHEAR_MODULUS: f64 = 30.0e6;
 const POISSON_RATIO: f64 = 0.35;
 /// Largest rotations of the five packets of three cycles.
 const PACKET_ROTATIONS: [f64; 5] = [3.15e-3, 6.65e-3, 14.0e-3, 29.5e-3, 62.9e-3];
-/// Of the rotation that the drive prescribes, N m.
+/// Stiffness of the spring that prescribes the rotation, N m.
 const DRIVE_STIFFNESS: f64 = 1e12;
 
 /// Law of the sand in the slow test.
@@ -36,7 +36,7 @@ fn sand_law(reference_settlement: f64, elastic_range: f64, depth_gradient: f64) 
     }
 }
 
-/// The rotations of the drive, one per step; ends of packets.
+/// The prescribed rotations, one per step, and the ends of packets.
 fn drive(steps_per_leg: usize) -> (Vec<f64>, Vec<usize>) {
     let mut rotations = vec![0.0];
     let mut ends = Vec::new();
@@ -82,7 +82,7 @@ fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> [f64; 2]) -> Pa
 }
 
 fn strip_row(count: usize, law: SettlingLaw, steps_per_leg: usize) -> PacketRow {
-    let mut strips = SettlingStrips::new(FOOTING_BASE, count, [SHEAR_MODULUS, POISSON_RATIO], law);
+    let mut strips = SettlingStrips::new(FOOTING_BASE, count, SHEAR_MODULUS, POISSON_RATIO, law);
     row(steps_per_leg, |_, rotation| [strips.turn(rotation), strips.settlement])
 }
 
@@ -149,7 +149,7 @@ fn scene(
         .interface(law.cyclic_yielding(friction)))
 }
 
-/// The same by the crate.
+/// Row of the footing computed by the crate.
 fn simulated_row(
     cells: [usize; 2],
     law: SettlingLaw,
@@ -176,7 +176,7 @@ fn simulated_row(
     found
 }
 
-/// Largest difference of moments and of settlements from another row, relative to the latter.
+/// Largest difference of moments and of settlements from another row, relative to that row.
 fn differences(row: &PacketRow, expected: &PacketRow) -> [f64; 2] {
     let largest = |values: [f64; 5], expected: [f64; 5]| {
         let ratios = values.iter().zip(expected).map(|(value, expected)| value / expected - 1.0);

@@ -1,8 +1,9 @@
-//! GOAL: on soil that settles in every cycle the energy balance closes, nothing is given back, and saved runs go on to the
-//! same bits.
-//! SCENE: random blocks in the plane and bodies in plan that rock and slide under a strong record, on springs and half-spaces.
+//! GOAL: on soil that settles in every cycle the energy balance closes, the soil returns no energy, and resumed runs
+//! have the same bits.
+//! SCENE: random blocks in the plane and bodies in space that rock and slide under a strong record, on springs and
+//! half-spaces.
 //! REFERENCE: the energy balance; the run without interruption; the law with a rigid memory where the settlements vanish.
-//! `SETTLING_SCENES=1000` draws so many.
+//! `SETTLING_SCENES=1000` runs 1000 scenes.
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
@@ -29,17 +30,17 @@ fn strong_record(factor: f64) -> Record {
     Record::new(record.time_step(), accelerations).unwrap()
 }
 
-/// Numbers of a scene, in the plane or in plan.
+/// Parameters of a scene in the plane or in space.
 #[derive(Debug, Clone, Copy)]
 struct SettlingScene {
-    is_plan: bool,
+    is_in_space: bool,
     on_springs: bool,
     cells: usize,
     height: f64,
-    soil: f64,
-    factor: f64,
+    shear_modulus: f64,
+    motion_factor: f64,
     friction: f64,
-    /// Over the mean pressure.
+    /// Bearing capacity, relative to the mean pressure.
     bearing_ratio: f64,
     reference_settlement: f64,
     elastic_range: f64,
@@ -49,16 +50,16 @@ struct SettlingScene {
 
 impl SettlingScene {
     fn random(random: &mut Random) -> Self {
-        let is_plan = random.chance(0.5);
+        let is_in_space = random.chance(0.5);
         let friction = random.pick(&[0.0, 0.3, 0.7, 0.7, f64::INFINITY]);
         let short_range = random.within(0.01, 1.0);
         Self {
-            is_plan,
+            is_in_space,
             on_springs: random.chance(0.4),
-            cells: if is_plan { random.pick(&[2, 3, 4, 8]) } else { random.pick(&[3, 8, 16]) },
+            cells: if is_in_space { random.pick(&[2, 3, 4, 8]) } else { random.pick(&[3, 8, 16]) },
             height: random.within(3.0, 10.0),
-            soil: random.log_within(1e7, 1e8),
-            factor: random.within(1.0, 4.0),
+            shear_modulus: random.log_within(1e7, 1e8),
+            motion_factor: random.within(1.0, 4.0),
             friction,
             bearing_ratio: random.log_within(1.5, 10.0),
             reference_settlement: random.pick(&[0.0, 1.0, 1.0]) * random.log_within(1e-4, 3e-2),
@@ -91,12 +92,21 @@ impl SettlingScene {
     }
 
     fn builder(&self, law: impl InterfaceLaw + 'static) -> Result<SimulationBuilder> {
-        let Self { is_plan, on_springs, cells, height, soil, factor, gravity_stage, .. } = *self;
-        let half_space = Soil::new(soil, 0.3, 1900.0)?;
-        let stiffness = soil / (0.5 * BASE_WIDTH);
-        let dashpot = (soil * 1900.0).sqrt();
+        let Self {
+            is_in_space,
+            on_springs,
+            cells,
+            height,
+            shear_modulus,
+            motion_factor,
+            gravity_stage,
+            ..
+        } = *self;
+        let half_space = Soil::new(shear_modulus, 0.3, 1900.0)?;
+        let stiffness = shear_modulus / (0.5 * BASE_WIDTH);
+        let dashpot = (shear_modulus * 1900.0).sqrt();
         let scene = Simulation::builder(TIME_STEP).gravity_stage(gravity_stage).interface(law);
-        if !is_plan {
+        if !is_in_space {
             let block = RigidBlock::new(BASE_WIDTH, height, BODY_DENSITY)?;
             let ground: Box<dyn Ground> = if on_springs {
                 let bed = SpringGround::under(&block, cells, stiffness, 0.7 * stiffness)?;
@@ -104,7 +114,7 @@ impl SettlingScene {
             } else {
                 Box::new(ElasticGround::under(half_space, &block, cells)?)
             };
-            return Ok(scene.structure(block).ground(ground).motion(strong_record(factor)));
+            return Ok(scene.structure(block).ground(ground).motion(strong_record(motion_factor)));
         }
         let body = RigidBody::cuboid([BASE_WIDTH, 0.8 * BASE_WIDTH, height], BODY_DENSITY)?;
         let half = 0.5 * BASE_WIDTH;
@@ -116,9 +126,9 @@ impl SettlingScene {
             Box::new(ElasticGround::in_plan(half_space, plan)?)
         };
         let motion = Triaxial {
-            x: Some(strong_record(factor)),
-            y: Some(strong_record(0.6 * factor)),
-            up: Some(strong_record(0.3 * factor)),
+            x: Some(strong_record(motion_factor)),
+            y: Some(strong_record(0.6 * motion_factor)),
+            up: Some(strong_record(0.3 * motion_factor)),
         };
         Ok(scene.structure(body).ground(ground).motion(motion))
     }
@@ -133,7 +143,7 @@ impl SettlingScene {
     }
 }
 
-/// Everything of a state, in words that differ where a bit differs.
+/// A state as text that differs if any bit differs.
 fn words_of(state: &State) -> String {
     format!("{:?} {:?} {:?}", state.contact, state.displacement(), state.energy_balance)
 }
@@ -151,7 +161,7 @@ fn settling_states(simulation: &Simulation) -> Vec<SettlingState> {
         .collect()
 }
 
-/// What happened in the steps of all scenes.
+/// Counts and extremes over the steps of all scenes.
 #[derive(Debug, Default)]
 struct SettlingTotals {
     scenes: usize,
@@ -162,7 +172,7 @@ struct SettlingTotals {
     max_residual: f64,
     /// Largest distance of a pressure from the law, relative to the capacity.
     max_violation: f64,
-    /// Least dissipation in a step, relative to the largest energy.
+    /// Smallest dissipation in a step, relative to the largest energy.
     min_dissipation: f64,
     trials: usize,
 }
@@ -247,18 +257,18 @@ fn difference_of_runs(scene: &SettlingScene, laws: [Box<dyn InterfaceLaw>; 2]) -
     (differences[0] / scales[0]).max(differences[1] / scales[1])
 }
 
-/// With settlements that vanish, and all of the memory, the law is that of a rigid memory.
+/// With vanishing settlements and full memory the law is that of a rigid memory.
 #[test]
 fn the_limit_without_settlements_is_yielding() {
-    for is_plan in [false, true] {
+    for is_in_space in [false, true] {
         for on_springs in [false, true] {
             let scene = SettlingScene {
-                is_plan,
+                is_in_space,
                 on_springs,
-                cells: if is_plan { 4 } else { 12 },
+                cells: if is_in_space { 4 } else { 12 },
                 height: 6.0,
-                soil: 4e7,
-                factor: 2.0,
+                shear_modulus: 4e7,
+                motion_factor: 2.0,
                 friction: 0.6,
                 bearing_ratio: 3.0,
                 reference_settlement: 0.0,
@@ -274,15 +284,15 @@ fn the_limit_without_settlements_is_yielding() {
             let sharp = SettlingScene { reference_settlement: 1e-12, ..scene };
             let laws: [Box<dyn InterfaceLaw>; 2] = [Box::new(sharp.law()), Box::new(yielding)];
             let difference = difference_of_runs(&scene, laws);
-            println!("{is_plan} {on_springs}: {difference:e}");
+            println!("{is_in_space} {on_springs}: {difference:e}");
             assert!(difference < 1e-6, "{scene:?}");
         }
     }
 }
 
-/// A block of the plane, and one as wide as a metre on two rows of cells, on the same springs.
+/// A block of the plane, and a body one metre wide on two rows of cells, on the same springs.
 #[test]
-fn plan_and_plane_are_the_same_on_springs() {
+fn space_and_plane_are_the_same_on_springs() {
     const CELL_COUNT: usize = 10;
     let height = 6.0;
     let law = SettlingLaw {

@@ -1,4 +1,4 @@
-//! Several bodies on one ground in plan: each has its forces, all of them together those about their common middle.
+//! Several bodies on one ground in space: forces on each of them, and on all about their common middle.
 
 use std::mem::Discriminant;
 use std::ops::Range;
@@ -19,17 +19,17 @@ use super::cells::CrossingPulses;
 const BODY_SIDES: [[f64; 3]; 2] = [[8.0, 6.0, 10.0], [4.0, 6.0, 9.0]];
 const BASE_MIDDLES: [[f64; 2]; 2] = [[0.0, 0.0], [9.0, 0.0]];
 pub(super) const BODY_DENSITY: f64 = 2000.0;
-/// Their elements of 1 m².
+/// Numbers of elements of 1 m² under them.
 const ELEMENT_RANGES: [Range<usize>; 2] = [0..48, 48..72];
 /// Middle of both bases together.
 const COMMON_MIDDLE: [f64; 2] = [3.5, 0.0];
 
-/// The pulses, twelve times as strong, turned by quarters.
+/// [`CrossingPulses`] with twelve times the amplitude, after some quarter turns.
 struct TurnedStrongPulses(usize);
 
 impl FreeField for TurnedStrongPulses {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
         CrossingPulses { quarter_turns: self.0 }
@@ -42,7 +42,7 @@ fn turned(vector: [f64; 2], quarter_turns: usize) -> [f64; 2] {
     (0..quarter_turns).fold(vector, |[x, y], _| [-y, x])
 }
 
-/// One of the two bodies, turned by quarters about the vertical axis.
+/// One of the two bodies, after some quarter turns about the vertical axis.
 pub(super) fn body(number: usize, quarter_turns: usize) -> RigidBody {
     let mut sides = BODY_SIDES[number];
     if quarter_turns % 2 == 1 {
@@ -57,7 +57,7 @@ pub(super) fn both_bodies(quarter_turns: usize) -> StructureGroup {
     group.with(body(1, quarter_turns), 0.0).unwrap()
 }
 
-/// Both bodies on springs with cells of 1 m, turned by quarters.
+/// Both bodies on springs with cells of 1 m, after some quarter turns.
 fn rocking_simulation(quarter_turns: usize) -> Simulation {
     let group = both_bodies(quarter_turns);
     let ground = SpringGround::under(&group, 6, 4e7, 3e7).unwrap();
@@ -94,12 +94,12 @@ impl RockingPair {
     }
 }
 
-/// Forces of some elements on the soil, by hand.
+/// Forces of some elements on the soil, as sums over them.
 #[derive(Default)]
 struct ContactSums {
-    /// Along x, along y, and downwards.
+    /// Forces along x, along y, and downwards.
     force: [f64; 3],
-    /// About x and counter-clockwise about −y, and the torque.
+    /// Moments about x and counter-clockwise about −y, and the torque.
     moment: [f64; 3],
     open_area: f64,
     area: f64,
@@ -216,7 +216,7 @@ fn farthest(state: &State, value: fn(&Foundation) -> f64) -> f64 {
 }
 
 #[test]
-fn each_body_has_its_forces_and_all_have_theirs_about_the_middle() {
+fn foundations_have_the_sums_over_their_elements() {
     let RockingPair { time_series, states, .. } = RockingPair::new(0);
     let force_scale = (body_weight(0) + body_weight(1)) * 10.0;
     for state in &states {
@@ -299,7 +299,7 @@ fn service_is_that_of_either_body() {
     }
 }
 
-/// A quantity that is compared: a safety by its inverse, which is finite.
+/// The number that is compared: of a safety its inverse, which is finite.
 fn comparable(quantity: Quantity, value: f64) -> f64 {
     if quantity.name().contains("safety") { 1.0 / value } else { value }
 }
@@ -337,7 +337,7 @@ fn sliding_event_count(run: &Run) -> usize {
     run.foundations.iter().map(|foundation| foundation.sliding.events.len()).sum()
 }
 
-/// Turned by 90 degrees: what was along x is along y, of each body and of both.
+/// A scene turned by 90 degrees has its quantities along x and y exchanged, of each body and of both.
 #[test]
 fn a_turned_scene_has_turned_results() {
     let RockingPair { time_series: straight, run: straight_run, .. } = RockingPair::new(0);

@@ -8,7 +8,7 @@ use super::finite_elements::{assert_lifts_off_and_slides, assert_moves_rigidly};
 /// Lengths in m.
 const MAT_SIDES: [f64; 2] = [6.0, 4.0];
 const MAT_THICKNESS: f64 = 1.0;
-/// Of a wall across the mat at x = 1.
+/// Dimensions of a wall across the mat at x = 1.
 const WALL_THICKNESS: f64 = 0.5;
 const WALL_HEIGHT: f64 = 6.0;
 const CONCRETE_DENSITY: f64 = 2400.0;
@@ -56,7 +56,7 @@ fn building(young_modulus: f64) -> FemModel {
     FemModel::on_base(mesh).unwrap()
 }
 
-/// The same mass on the same base, which is rigid. The wall begins in the middle of the mat.
+/// A rigid body with the same mass on the same base. The wall begins in the middle of the mat.
 fn rigid_building() -> RigidBody {
     let mat_mass = CONCRETE_DENSITY * (MAT_SIDES[0] * MAT_SIDES[1] * MAT_THICKNESS);
     let wall_mass = CONCRETE_DENSITY * (MAT_SIDES[1] * WALL_THICKNESS * WALL_HEIGHT);

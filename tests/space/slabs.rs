@@ -138,7 +138,7 @@ fn soil() -> Soil {
     Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap()
 }
 
-/// A column in the middle of a slab of 12 × 12 m: its settlement against the middle of an edge is 2.75 mm on 16 × 16
+/// A column in the middle of a slab of 12 × 12 m: its settlement relative to the middle of an edge is 2.75 mm on 16 × 16
 /// cells.
 #[test]
 fn too_few_cells_under_a_slab_are_an_error_or_a_warning() {
@@ -183,7 +183,7 @@ fn a_slab_gets_as_many_cells_as_faces() {
     let rigid = RigidBody::cuboid([12.0, 12.0, 1.0], 2400.0).unwrap();
     assert_eq!(Plan::under(&rigid, 4).unwrap().count(), 16);
     assert_eq!(model.base().nodes().count(), 400);
-    // A mesh that is much finer than cells can be: `build` judges whether these do.
+    // A mesh that is much finer than cells can be: `build` checks whether there are enough.
     let fine = Slab { count: 50, ..slab }.model().unwrap();
     assert_eq!(Plan::under(&fine, 12).unwrap().count(), 31 * 31);
     assert_eq!(Plan::under(&fine, 40).unwrap().count(), 40 * 40);
@@ -210,8 +210,8 @@ fn soft_plates_sink_as_a_uniform_pressure_does() {
     }
 }
 
-/// Without the static state on twice as many cells, cells that may be too few warn: a soft slab with an even pressure is
-/// right on few.
+/// Without the static state on twice as many cells, cells that may be too few give a warning: a soft slab
+/// with an even pressure is accurate on few.
 #[test]
 fn a_soft_slab_on_a_ground_without_finer_cells_is_no_error() {
     let slab = Slab { side: 12.0, count: 8, thickness: 0.017_14, columns: vec![] };

@@ -1,4 +1,4 @@
-//! Sliding in plan against the plane and a bonded base; bonds that break; loads at the start.
+//! Sliding in space against the plane and a bonded base; bonds that break; loads at the start.
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{GravityStage, Load, SimulationBuilder, StabilityError, State, StepError};
@@ -61,7 +61,7 @@ impl ModeCounts {
     }
 }
 
-/// Every law, in a slice that moves along x alone, does what it does in the plane.
+/// With every law, a slice that moves along x moves as the block of the plane.
 #[test]
 fn a_slice_lifts_and_slides_as_the_block_of_the_plane() {
     let laws: [(&str, &dyn Fn() -> BoxedLaw); 9] = [
@@ -144,7 +144,7 @@ fn scene(law: impl InterfaceLaw + 'static, time_step: f64, scale: f64) -> Result
         .build()
 }
 
-/// Steps a scene whose elements stick beside a bonded one.
+/// Steps a scene whose elements stick, and the same scene bonded.
 fn assert_moves_as_bonded(mut bonded: Simulation, mut sticking: Simulation) {
     let mut max_displacement = 0.0_f64;
     let mut max_velocity = 0.0_f64;
@@ -244,7 +244,7 @@ fn bonded_count(state: &State) -> usize {
     (0..16).filter(|element| state.state_variables(*element) == [1.0]).count()
 }
 
-/// Bonds break for good, within a step, and what is left is friction.
+/// Bonds break for good, within a step; friction remains.
 #[test]
 fn bonds_break_one_after_the_other() {
     const TENSILE_STRENGTH: f64 = 2e4;
@@ -288,9 +288,9 @@ impl PlaneLaw for PlaneOnlyLaw {
     }
 }
 
-/// A law of the plane alone, and one whose open elements bear something.
+/// A law of the plane alone, and one whose open elements transmit pressure.
 #[test]
-fn laws_without_limits_are_named() {
+fn laws_without_limits_in_space_are_refused_by_name() {
     let error = scene(InPlane(PlaneOnlyLaw), 4e-3, 1.0).unwrap_err();
     assert!(matches!(error, Error::Scene { quantity: "PlaneOnlyLaw", .. }), "{error}");
     let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
@@ -306,7 +306,7 @@ fn laws_without_limits_are_named() {
     assert!(error.to_string().contains("friction coefficient"), "{error}");
 }
 
-/// The body under an oblique load at the start, of so many weights.
+/// The body under an oblique load from t = 0, of `weights` times its weight.
 fn build_with_load(weights: f64) -> Result<Simulation> {
     Simulation::builder(4e-3)
         .structure(body())
@@ -317,7 +317,7 @@ fn build_with_load(weights: f64) -> Result<Simulation> {
         .build()
 }
 
-/// Why a scene cannot stand.
+/// The stability error of a scene.
 fn stability_error(built: Result<Simulation>) -> StabilityError {
     let Error::Stability(cause) = built.unwrap_err() else {
         panic!("another error")
@@ -325,7 +325,7 @@ fn stability_error(built: Result<Simulation>) -> StabilityError {
     *cause
 }
 
-/// Loads at t = 0 are carried by friction, and the placed base stays as it is until something moves.
+/// Loads at t = 0 are carried by friction, and the base stays at rest until the loads change.
 #[test]
 fn loads_at_the_start_are_carried_by_friction() {
     let mut simulation = build_with_load(0.4).unwrap();
@@ -342,13 +342,13 @@ fn loads_at_the_start_are_carried_by_friction() {
     }
     let run = simulation.run(100, |_| {}).unwrap();
     assert!(run.whole.largest_slip.magnitude() < 1e-12 && run.energy_error < 1e-9);
-    // More than friction.
+    // A load beyond friction.
     let cause = stability_error(build_with_load(0.6));
     let StabilityError::Sliding { ratio, .. } = cause else { panic!("{cause}") };
     assert!((ratio - 1.2).abs() < 1e-9, "{ratio}");
 }
 
-/// A moment about either axis whose resultant passes beside the base.
+/// A moment about either axis, whose resultant with the weight is outside the base.
 #[test]
 fn moments_overturn_about_either_axis() {
     for (dof, sign) in [(3, 1.0), (3, -1.0), (4, 1.0)] {

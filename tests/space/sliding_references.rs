@@ -1,4 +1,4 @@
-//! Sliding in plan against Newmark's block and on a ground that moves in a circle.
+//! Sliding in space against Newmark's block and on a ground that moves in a circle.
 
 use std::f64::consts::PI;
 
@@ -25,17 +25,17 @@ fn newmark_block(friction: f64, direction: [f64; 2]) -> Simulation {
         .unwrap()
 }
 
-/// El Centro times a factor; nothing for none.
+/// El Centro times a factor; `None` for zero.
 fn component(factor: f64) -> Option<Record> {
     (factor != 0.0).then(|| el_centro_1940().scaled(factor).unwrap())
 }
 
-/// GOAL: Newmark's sliding block (1965) in plan, along x, along y and askew.
-/// SCENE: low block, 4 m square, on stiff soil under El Centro; the record of the direction of motion is the table's.
+/// GOAL: Newmark's sliding block (1965) in space, along x, along y and askew.
+/// SCENE: low block, 4 m square, on stiff soil under El Centro; the record along the direction of motion is the table's.
 /// REFERENCE: `reference::SlidingBlock`, event by event, and `sliding_rigid_block.csv`, as in the plane
 /// (`tests/published/analytic.rs`).
 #[test]
-fn newmarks_block_slides_in_plan() {
+fn newmarks_block_slides_in_space() {
     let rows = table("sliding_rigid_block.csv").rows(["mu", "max_abs_slip_m", "slip_residual_m"]);
     let record = el_centro_1940();
     // The table itself is within 2e-6 m.
@@ -86,7 +86,7 @@ struct CircularMotion {
 
 impl FreeField for CircularMotion {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
 
     fn displacement_at(&self, _: [f64; 2], time: f64) -> [f64; 3] {
@@ -95,7 +95,7 @@ impl FreeField for CircularMotion {
     }
 }
 
-/// A block slides in a circle: its acceleration is friction's, at right angles to what is left of the ground's
+/// A block slides in a circle: its acceleration is that of friction, at right angles to the rest of the ground's
 /// (relative speed √(A² − (φ g)²)/ω).
 #[test]
 fn a_block_on_a_ground_that_moves_in_a_circle_slides_in_a_circle() {

@@ -1,4 +1,4 @@
-//! Bonded bodies on springs and dashpots in plan.
+//! Bonded bodies on springs and dashpots in space.
 
 use std::ops::Range;
 
@@ -15,9 +15,9 @@ use super::equations::Cuboid;
 
 const SPRING_PROPERTIES: BedProperties =
     BedProperties { stiffness: [3.0e7, 2.0e7, 1.4e7], dashpot: [6.0e5, 3.0e5, 3.0e5] };
-/// Small, so that loads are not lost in the rounding of weight.
+/// Gravity so small that loads are not lost in the rounding of weight, m/s².
 const SMALL_GRAVITY: f64 = 0.1;
-/// Along one degree of freedom, N or N·m.
+/// Load along one degree of freedom, N or N·m.
 const UNIT_LOAD: f64 = 1e6;
 const ECCENTRIC_CUBOID: Cuboid =
     Cuboid { sides: [8.0, 6.0, 9.0], density: 2000.0, center: [2.0, -1.0] };
@@ -35,7 +35,7 @@ fn base_range(axis: usize) -> Range<f64> {
     ECCENTRIC_CUBOID.center[axis] - half..ECCENTRIC_CUBOID.center[axis] + half
 }
 
-/// A bed under the eccentric cuboid, with so many cells along its shorter side.
+/// A bed under the eccentric cuboid, with `count` cells along its shorter side.
 fn bed(count: usize) -> Result<SpringGround> {
     let plan = Plan::rectangle(base_range(0), base_range(1), count)?;
     let dashpot = SPRING_PROPERTIES.dashpot;
@@ -159,7 +159,7 @@ fn square_mat() -> Plan {
     Plan::rectangle(-4.0..4.0, -4.0..4.0, 6).unwrap()
 }
 
-/// Cells of a bed end where the base does, and unions are made of these.
+/// Cells of a bed end at the outline of the base, and so do unions of them.
 #[test]
 fn springs_have_no_overhang() {
     let union_sizes = [1, 2, 2, 1];

@@ -1,4 +1,4 @@
-//! Steady sliding in plan takes next to no iterations.
+//! Steady sliding in space needs few iterations.
 
 use basemat::Simulation;
 use basemat::coupled::Load;
@@ -6,12 +6,12 @@ use basemat::interface::{Coulomb, InterfaceLaw};
 
 use super::sliding::{BODY_WEIGHT, body, cells, thin_layer};
 
-/// A push of so many weights that grows over 0.2 s.
+/// A push of `weights` times the weight that grows over 0.2 s.
 fn growing_push(dof: usize, weights: f64) -> Load {
     Load::new(dof, move |time: f64| weights * BODY_WEIGHT * (time / 0.2).min(1.0))
 }
 
-/// A push across the base, harder than friction; iterations of a late step, which begins with the last step's forces.
+/// Iterations of a late step under an oblique push beyond friction; the solution starts from the last step's forces.
 fn steady_iterations(law: impl InterfaceLaw + 'static) -> usize {
     let mut simulation = Simulation::builder(4e-3)
         .structure(body())
@@ -33,11 +33,11 @@ fn steady_iterations(law: impl InterfaceLaw + 'static) -> usize {
 }
 
 #[test]
-fn steady_sliding_takes_next_to_no_iterations() {
+fn steady_sliding_needs_four_iterations_at_most() {
     assert!(steady_iterations(Coulomb::new(0.3).unwrap()) <= 4);
 }
 
 #[test]
-fn steady_sliding_on_a_layer_takes_few_iterations() {
+fn steady_sliding_on_a_layer_needs_four_iterations_at_most() {
     assert!(steady_iterations(thin_layer(0.3)) <= 4);
 }

@@ -1,4 +1,4 @@
-//! Runs of buildings in plan: a slice beside the plane's building, turned scenes, storey forces.
+//! Runs of buildings in space: a slice beside the plane's building, turned scenes, storey forces.
 
 use basemat::Simulation;
 use basemat::bem::SpringGround;
@@ -15,7 +15,7 @@ use super::storeys::{
     storey_scale, swapped, turned,
 };
 
-/// Of a building of the plane, and of a slice of it one metre deep.
+/// Mass and inertia of the base of a building of the plane, and of a slice of it one metre deep.
 const SLICE_BASE_MASS: f64 = 6.0e4;
 const SLICE_BASE_INERTIA: f64 = 4.0e5;
 const SLICE_STEPS: usize = 500;
@@ -119,7 +119,7 @@ fn yielding_building(quarter_turns: usize) -> StoreyBuilding {
         .unwrap()
 }
 
-/// The yielding building and its scene, turned by quarters.
+/// The yielding building and its scene, after some quarter turns.
 fn turned_scene(quarter_turns: usize) -> Simulation {
     let sides = swapped([MAT_SIDES[0], MAT_SIDES[1]], quarter_turns);
     let counts = swapped([4, 3], quarter_turns);
@@ -132,8 +132,8 @@ fn turned_scene(quarter_turns: usize) -> Simulation {
     march(yielding_building(quarter_turns), ground, CrossingPulses { quarter_turns }, 300)
 }
 
-/// A building that is turned by 90 degrees with its scene turns its displacements; torsion and yielding in both
-/// directions are in it.
+/// If a building and its scene are turned by 90 degrees, displacements turn with them, torsion and yielding in both
+/// directions included.
 #[test]
 fn a_turned_building_turns_its_displacements() {
     let straight = turned_scene(0);

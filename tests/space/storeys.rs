@@ -1,4 +1,4 @@
-//! Buildings in plan: eccentric floors and matrices by closed forms.
+//! Buildings in space: eccentric floors and matrices by closed forms.
 
 use std::f64::consts::TAU;
 
@@ -74,7 +74,7 @@ fn an_eccentric_storey_couples_sway_and_twist() {
 
 pub(super) const MAT_SIDES: [f64; 3] = [12.0, 9.0, 1.0];
 const STOREY_HEIGHTS: [f64; 3] = [4.0, 3.0, 3.5];
-/// Of the lowest storey: along x, along y, twist.
+/// Stiffness of the lowest storey: along x, along y, twist.
 pub(super) const STOREY_STIFFNESS: [f64; 3] = [2.4e8, 1.6e8, 4.0e9];
 pub(super) const STOREY_DAMPING: [f64; 3] = [3.0e5, 4.0e5, 5.0e6];
 const FLOOR_MASS: f64 = 1.5e5;
@@ -85,22 +85,22 @@ pub(super) fn storey_scale(storey: usize) -> f64 {
     1.0 - 0.2 * storey as f64
 }
 
-/// A vector turned by quarters about the vertical axis.
+/// A vector after some quarter turns about the vertical axis.
 pub(super) fn turned(vector: [f64; 2], quarter_turns: usize) -> [f64; 2] {
     (0..quarter_turns).fold(vector, |[x, y], _| [-y, x])
 }
 
-/// What belongs to x and y, after so many quarter turns.
+/// A pair of values for x and y, after some quarter turns.
 pub(super) fn swapped<T: Copy>(pair: [T; 2], quarter_turns: usize) -> [T; 2] {
     if quarter_turns % 2 == 1 { [pair[1], pair[0]] } else { pair }
 }
 
-/// The same for a number of the twist after those of x and y.
+/// Values for x, y and twist, after some quarter turns.
 fn swapped_translations(numbers: [f64; 3], quarter_turns: usize) -> [f64; 3] {
     if quarter_turns % 2 == 1 { [numbers[1], numbers[0], numbers[2]] } else { numbers }
 }
 
-/// A storey, eccentric both ways, turned by quarters about the vertical axis.
+/// A storey, eccentric along x and y, after some quarter turns about the vertical axis.
 fn storey(number: usize, quarter_turns: usize) -> PlanStorey {
     let scale = storey_scale(number);
     let stiffness = STOREY_STIFFNESS.map(|stiffness| stiffness * scale);
@@ -117,7 +117,7 @@ fn storey(number: usize, quarter_turns: usize) -> PlanStorey {
     }
 }
 
-/// Three storeys with P–Δ, turned by quarters about the vertical axis.
+/// Three storeys with P–Δ, after some quarter turns about the vertical axis.
 pub(super) fn building(quarter_turns: usize) -> StoreyBuilding {
     let storeys: Vec<_> = (0..3).map(|number| storey(number, quarter_turns)).collect();
     let sides = swapped([MAT_SIDES[0], MAT_SIDES[1]], quarter_turns);
@@ -143,7 +143,7 @@ fn rigid_motions(dofs: usize) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Any motion: the total drift is the sum of the storeys' drifts.
+/// In any motion the total drift is the sum of the storeys' drifts.
 #[test]
 fn the_total_drift_is_the_sum_of_the_drifts() {
     let building = building(0);
@@ -157,7 +157,7 @@ fn the_total_drift_is_the_sum_of_the_drifts() {
 }
 
 #[test]
-fn rigid_motions_strain_nothing() {
+fn rigid_motions_cause_no_drift_and_no_force() {
     let building = building(0).with_p_delta(0.0).unwrap();
     let total_drift = building.total_drift(2, [1.5, -2.5]).unwrap();
     let stiffness = stiffness_matrix(&building);
@@ -221,7 +221,7 @@ fn unit_velocity(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// The inertia of the whole in rigid motions is that of one body.
+/// The inertia in rigid motions is that of point masses equivalent to the mat and the floors.
 #[test]
 fn rigid_motions_move_all_masses() {
     let building = building(0);
@@ -244,7 +244,7 @@ fn rigid_motions_move_all_masses() {
     }
 }
 
-/// A bonded structure after so many steps.
+/// A bonded structure after `steps` steps.
 pub(super) fn march(
     structure: impl Structure + 'static,
     ground: SpringCells,
@@ -273,7 +273,7 @@ fn level_motion(u: &[f64], level: usize) -> [f64; 3] {
 
 /// The weight of point masses that have a floor's mass and polar inertia, lowered by the sway below them.
 #[test]
-fn weights_go_down_with_the_sway_of_all_storeys_below() {
+fn weights_sink_with_the_sway_of_all_storeys_below() {
     let with = stiffness_matrix(&building(0));
     let without = stiffness_matrix(&building(0).with_p_delta(0.0).unwrap());
     let u: Vec<f64> = (0..with.len()).map(|k| (1.7 * k as f64).sin()).collect();

@@ -28,9 +28,9 @@ fn cylinder_on_concrete(modulus: f64, p_delta_gravity: f64) -> Simulation {
         .unwrap()
 }
 
-/// GOAL: weight stands upright, P–Δ or not, and not on the verge of a fall on a corner, which is an equilibrium too.
+/// GOAL: a slender body is placed upright, with or without P–Δ, and not balanced on its edge, which is an equilibrium too.
 /// SCENE: slender cylinder on concrete over soil, where only the rim bears, from soft to stiff concrete.
-/// REFERENCE: the same without P–Δ, which does nothing as long as nothing turns.
+/// REFERENCE: the same without P–Δ, which has no effect without rotations.
 #[test]
 fn a_slender_body_with_p_delta_is_placed_upright() {
     for modulus in [1e9, 4e9, 12.5e9] {
@@ -46,8 +46,8 @@ fn a_slender_body_with_p_delta_is_placed_upright() {
     }
 }
 
-/// A tall block that is pushed over along an axis.
-fn tip(axis: usize, cells: usize) -> Run {
+/// Run of a tall block that is pushed over along an axis.
+fn run_pushed_over(axis: usize, cells: usize) -> Run {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
     let body = RigidBody::cuboid([6.0, 6.0, 12.0], 2000.0).unwrap();
     let row = body.displacement_at([0.0, 0.0, 12.0])[axis].clone();
@@ -68,7 +68,7 @@ fn tip(axis: usize, cells: usize) -> Run {
 fn blocks_stand_on_their_outermost_cells() {
     let safeties = [Quantity::OverturningSafety, Quantity::OverturningSafetyAcross];
     for axis in 0..2 {
-        let run = tip(axis, 8);
+        let run = run_pushed_over(axis, 8);
         let along_push = run.whole.peak(safeties[axis]).value;
         let across_push = run.whole.peak(safeties[1 - axis]).value;
         assert!((along_push - (8.0 - 0.21) / 7.0).abs() < 1e-6, "{axis}: {along_push}");
@@ -81,5 +81,5 @@ fn blocks_stand_on_their_outermost_cells() {
         assert_eq!(run.whole.ends, [-3.0, 3.0]);
         assert_eq!(run.whole.depth, [-3.0, 3.0]);
     }
-    assert!(!tip(0, 16).to_string().contains("16 elements"));
+    assert!(!run_pushed_over(0, 16).to_string().contains("16 elements"));
 }

@@ -1,4 +1,4 @@
-//! GOAL: a base whose parts touch and are not tied together says so, and parts that overlap are refused.
+//! GOAL: a base whose parts touch without a connection causes a warning; parts that overlap are refused.
 //! SCENE: rafts of shells with two nodes at each point of a joint, and with a node in the middle of a longer side; a raft of
 //! free corners by matrices.
 //! REFERENCE: points by hand; the same rafts with common nodes, or with the node tied to the ends of the side.
@@ -21,11 +21,11 @@ const SHELL_THICKNESS: f64 = 0.8;
 
 /// Adds a square raft of `count` × `count` shells from (`start`, 0) on; returns their corners.
 fn add_raft(mesh: &mut Mesh, count: usize, start: f64) -> Result<Vec<Vec<usize>>> {
-    add_raft_of(mesh, count, start, |_| SHELL_THICKNESS)
+    add_raft_with_thickness(mesh, count, start, |_| SHELL_THICKNESS)
 }
 
-/// The same with a thickness for each shell.
-fn add_raft_of(
+/// Adds a square raft with a thickness for each shell.
+fn add_raft_with_thickness(
     mesh: &mut Mesh,
     count: usize,
     start: f64,
@@ -54,7 +54,7 @@ fn single_step(structure: impl Structure + 'static) -> Result<Run> {
     builder.interface(Coulomb::new(0.5)?).build()?.run(1, |_| {})
 }
 
-/// What the warning of a torn base says.
+/// Data of the warning of a torn base.
 #[derive(Debug, PartialEq)]
 struct Tear {
     points: usize,
@@ -78,7 +78,7 @@ fn tear(structure: impl Structure + 'static) -> Result<Option<Tear>> {
     Ok(tear_and_text(structure)?.map(|(tear, _)| tear))
 }
 
-/// Rafts of so many shells along a side, each from a place along x on.
+/// Rafts, each with a number of shells along a side and a start along x.
 fn model(rafts: &[(usize, f64)]) -> Result<FemModel> {
     let mut mesh = Mesh::in_space();
     for (count, start) in rafts {
@@ -99,7 +99,12 @@ fn rafts_side_by_side_with_separate_nodes_are_torn() -> Result<()> {
     assert_eq!(hanging_node, Some(Tear { points: 3, first: [6.0, 0.0] }));
     // One raft, also with a thicker middle, and two a cell apart.
     let mut mesh = Mesh::in_space();
-    add_raft_of(&mut mesh, 3, 0.0, |shell| if shell == 4 { 1.6 } else { SHELL_THICKNESS })?;
+    add_raft_with_thickness(
+        &mut mesh,
+        3,
+        0.0,
+        |shell| if shell == 4 { 1.6 } else { SHELL_THICKNESS },
+    )?;
     assert_eq!(tear(FemModel::on_base(mesh)?)?, None);
     assert_eq!(tear(model(&[(3, 0.0)])?)?, None);
     assert_eq!(tear(model(&[(3, 0.0), (3, 12.0)])?)?, None);
@@ -167,7 +172,7 @@ fn rigid_faces_are_not_torn() -> Result<()> {
     Ok(())
 }
 
-/// Faces of a base that the ground does not support: their number, and the place of the first.
+/// Number of faces of a base that the ground does not support, and the place of the first.
 fn unsupported_faces(run: &Run) -> Option<(usize, [f64; 2])> {
     run.warnings.iter().find_map(|warning| match warning {
         Warning::Mistake(Mistake::FacesOffGround { faces, x, y }) => Some((*faces, [*x, *y])),
@@ -175,9 +180,9 @@ fn unsupported_faces(run: &Run) -> Option<(usize, [f64; 2])> {
     })
 }
 
-/// A raft of nine faces on the first seven, on all, and on one face that covers all; a second structure of a group.
+/// A raft of nine shells in a group, whose base is the first seven, all, or one face that covers all.
 #[test]
-fn faces_that_a_base_does_not_name_are_counted() -> Result<()> {
+fn faces_without_ground_are_counted() -> Result<()> {
     let mut mesh = Mesh::in_space();
     let cells = add_raft(&mut mesh, 3, 0.0)?;
     let first_seven = cells[..7].to_vec();
@@ -201,7 +206,7 @@ fn overlapping_rafts_are_refused() -> Result<()> {
             panic!("{result:?}")
         };
         assert!(faces[0] < faces[1] && (area - expected_area).abs() < 1e-9, "{faces:?} {area}");
-        // Also on a ground made for another base.
+        // Also on a ground for another base.
         let ground = SpringGround::under(&model(&[(2, 0.0)])?, 4, 5e7, 4e7)?;
         let builder = Simulation::builder(0.01).ground(ground).structure(structure);
         let result = builder.interface(Coulomb::new(0.5)?).build().map(drop);

@@ -21,7 +21,7 @@ fn second_body_at(center: [f64; 2]) -> RigidBody {
 
 #[test]
 fn bodies_that_touch_or_overlap_are_errors() {
-    // Overlapping, crossing without a corner in the other, side to side; beside it is well.
+    // Overlapping, crossing without a corner in the other, side to side; a body beside the first is allowed.
     let beam = RigidBody::cuboid([12.0, 2.0, 1.0], BODY_DENSITY).unwrap();
     for other in [second_body_at([2.0, 1.0]), second_body_at([6.0, 0.0]), beam] {
         let error = first_body().with(other, 0.0).err().unwrap();

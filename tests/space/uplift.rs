@@ -12,7 +12,7 @@ use basemat::results::Run;
 use basemat::structure::RigidBody;
 use basemat::{Simulation, Soil};
 
-/// In the units of these scenes, with a soil of modulus and density 1.
+/// Gravity in the units of these scenes, with a soil of modulus and density 1.
 const SMALL_GRAVITY: f64 = 1e-3;
 
 /// A block of 2 × 2 × 4 of this density.
@@ -30,7 +30,7 @@ fn ricker(frequency: f64, middle: f64, time: f64) -> f64 {
     (1.0 - 2.0 * u) * (-u).exp()
 }
 
-/// Amplitude of a wavelet whose acceleration is so many g.
+/// Amplitude of a wavelet with this acceleration, in g.
 fn ricker_amplitude(acceleration: f64, frequency: f64) -> f64 {
     acceleration * SMALL_GRAVITY / (6.0 * (PI * frequency).powi(2))
 }
@@ -40,7 +40,7 @@ struct TriaxialRicker;
 
 impl FreeField for TriaxialRicker {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
 
     fn displacement_at(&self, _: [f64; 2], time: f64) -> [f64; 3] {
@@ -60,7 +60,7 @@ struct DirectedRicker([f64; 2]);
 
 impl FreeField for DirectedRicker {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
 
     fn displacement_at(&self, _: [f64; 2], time: f64) -> [f64; 3] {
@@ -93,7 +93,7 @@ struct FrictionWork {
     areas: Vec<f64>,
     previous_contact: Vec<ContactState>,
     total: f64,
-    /// Least work of an element in a step.
+    /// Smallest work of an element in a step.
     min_work: f64,
 }
 
@@ -186,9 +186,9 @@ fn peak(displacements: &[[f64; 6]], dof: usize) -> f64 {
     displacements.iter().fold(0.0_f64, |max, u| max.max(u[dof].abs()))
 }
 
-/// A square scene shaken along a diagonal, and along the other.
+/// A square scene shaken along one diagonal, and along the other.
 #[test]
-fn diagonals_are_alike() {
+fn motions_along_both_diagonals_are_symmetric() {
     let first_diagonal = march_along([FRAC_1_SQRT_2; 2]);
     let second_diagonal = march_along([-FRAC_1_SQRT_2, FRAC_1_SQRT_2]);
     let along_x = march_along([1.0, 0.0]);
@@ -211,7 +211,7 @@ fn diagonals_are_alike() {
 /// Sines along x, y and upwards that never end.
 struct EndlessSines;
 
-/// A sine whose acceleration is so many g; it begins at zero.
+/// A sine with this acceleration, in g; it begins at zero.
 fn sine(acceleration: f64, frequency: f64, phase: f64, time: f64) -> f64 {
     let angle = 2.0 * PI * frequency * time;
     acceleration * SMALL_GRAVITY / (2.0 * PI * frequency).powi(2)
@@ -220,7 +220,7 @@ fn sine(acceleration: f64, frequency: f64, phase: f64, time: f64) -> f64 {
 
 impl FreeField for EndlessSines {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in space needs three directions")
     }
 
     fn displacement_at(&self, _: [f64; 2], time: f64) -> [f64; 3] {
@@ -256,7 +256,7 @@ fn run_of_hard_steps(crossed: f64, mass: f64, friction: f64, kernels: &SharedKer
     run
 }
 
-/// Three steps, three masses, four coefficients of friction: W from well conditioned to hardly so.
+/// Three time steps, three masses, four coefficients of friction: W from well conditioned to hardly so.
 #[test]
 fn hard_steps_are_solved() {
     let kernels = SharedKernels::default();
@@ -279,7 +279,7 @@ fn hard_steps_are_solved() {
     assert!(infinite_trials < 100 * finite_steps, "{infinite_trials} {finite_steps}");
 }
 
-/// W by blocks: saved where elements lift and slide, and resumed in another simulation.
+/// Many cells, for which W is stored in blocks: saved where elements lift and slide, and resumed in another simulation.
 #[test]
 fn many_cells_resume_to_the_last_bit() {
     let mut whole = block_scene(12, EndlessSines);
@@ -318,7 +318,7 @@ fn energies_with(history: HistoryOptions) -> EnergyBalance {
     run.energy_balance
 }
 
-/// A truncated history changes the soil's work by less than the energy balance says it may.
+/// A truncated history changes the soil's work by less than the bound in the energy balance.
 #[test]
 fn the_energy_balance_bounds_what_a_truncated_history_omits() {
     let whole = energies_with(HistoryMethod::RelaxedFft.into());

@@ -1,4 +1,4 @@
-//! Warnings of cells and steps that miss what a body in plan and its ground do.
+//! Warnings about cells and steps that do not resolve the motion of a body in space and its ground.
 
 use std::f64::consts::TAU;
 
@@ -27,16 +27,16 @@ struct ShakenBody {
     /// Speed of shear waves in the soil, m/s.
     soil_speed: f64,
     motion: Triaxial,
-    /// Along the shorter side.
+    /// Number along the shorter side.
     cells: usize,
     time_step: f64,
 }
 
-/// What [`ShakenBody`] did.
+/// Results of [`ShakenBody`].
 struct ShakenResult {
-    /// Without warnings that do not concern resolution.
+    /// The run, without warnings that do not concern resolution.
     run: Run,
-    /// Largest about an axis on the surface.
+    /// Largest rotation about a horizontal axis.
     max_rotation: f64,
     max_base_shear: f64,
 }
@@ -77,7 +77,7 @@ fn only_warning(run: &Run) -> Warning {
     warning
 }
 
-/// The same along x and along y.
+/// Under motion along x and along y.
 #[test]
 fn cells_longer_than_a_twelfth_of_waves_give_a_warning() {
     for motion in [motion_along_x(el_centro_1940()), motion_along_y(el_centro_1940())] {
@@ -140,9 +140,9 @@ fn steps_as_long_as_waves_cross_the_base_give_a_warning() {
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
 }
 
-/// Steps that miss a motion along y alone.
+/// Steps that do not resolve a motion along y alone.
 #[test]
-fn motions_along_y_are_judged() {
+fn unresolved_motions_along_y_give_a_warning() {
     let slow = el_centro_1940().scaled(0.1).unwrap();
     let fast = Record::new(0.002, slow.accelerations().to_vec()).unwrap();
     let body = ShakenBody {
@@ -157,12 +157,12 @@ fn motions_along_y_are_judged() {
     assert!(run.warnings.iter().any(is_unresolved), "{:?}", run.warnings);
 }
 
-/// A pair listed along x first, for the axis it is about.
+/// A pair along and across an axis, as a pair along x and y.
 fn along_axis(axis: usize, pair: [f64; 2]) -> [f64; 2] {
     if axis == 0 { pair } else { [pair[1], pair[0]] }
 }
 
-/// Warnings of a base that reaches beyond its cells along an axis, under a storey that is all but a mechanism.
+/// Warnings of a base that reaches beyond its cells along an axis, under a storey that is nearly a mechanism.
 fn soft_storey_warnings(axis: usize) -> Vec<Warning> {
     let half = along_axis(axis, [2.0, 4.0]);
     let plan = Plan::rectangle(-half[0]..half[0], -half[1]..half[1], 4).unwrap();
@@ -181,7 +181,7 @@ fn soft_storey_warnings(axis: usize) -> Vec<Warning> {
     simulation.run(100, |_| {}).unwrap().warnings
 }
 
-/// Along y as along x: a base that reaches beyond its cells, a storey that is all but a mechanism, a base that turns far.
+/// Along y as along x: a base that reaches beyond its cells, a storey that is nearly a mechanism, a base that turns far.
 #[test]
 fn warnings_along_y_are_those_along_x() {
     let expected_period = TAU * (1e5 / 1e4_f64).sqrt();
@@ -218,7 +218,7 @@ fn square_ground(cells: usize) -> ElasticGround {
     ElasticGround::in_plan(Soil::new(8e7, 0.3, 1900.0).unwrap(), plan).unwrap()
 }
 
-/// Warnings of a ground that samples so many of its cells.
+/// Warnings of a ground that samples some of its cells.
 fn sampling_warnings(sampled_cells: Option<[usize; 2]>) -> Vec<Warning> {
     let mut cells = SpringCells::under([4.0; 2], [0.0; 2], [4, 4], BED_PROPERTIES);
     cells.sampled_cells = sampled_cells;
@@ -227,7 +227,7 @@ fn sampling_warnings(sampled_cells: Option<[usize; 2]>) -> Vec<Warning> {
     builder.interface(Bonded).build().unwrap().run(2, |_| {}).unwrap().warnings
 }
 
-/// More than 512 cells are too many for the gate; a user's ground may say so too.
+/// Of more than 512 cells the passivity check samples some; a user's ground may do so too.
 #[test]
 fn sampled_passivity_gives_a_warning() {
     assert_eq!(square_ground(22).description().sampled_cells, None);
@@ -284,9 +284,9 @@ fn travelling_wave() -> TravellingWave {
     TravellingWave::new(el_centro_1940(), 800.0, -3.0).unwrap()
 }
 
-/// A ground in the plane says so if it leaves out what moves along y.
+/// A ground in the plane that leaves out a motion along y causes a warning.
 #[test]
-fn motion_along_y_has_no_place_in_the_plane() {
+fn motion_along_y_on_a_ground_in_the_plane_gives_a_warning() {
     let record = el_centro_1940();
     assert!(!warns_of_motion_across(record.clone()));
     assert!(!warns_of_motion_across(travelling_wave()));

@@ -6,7 +6,7 @@ use basemat::bem::plan::Plan;
 use basemat::interface::Coulomb;
 use basemat::structure::RigidBody;
 
-/// How a base stands under a unit force on springs of one per area.
+/// Static state of a base under a unit force on springs of unit stiffness per area.
 #[derive(Debug)]
 struct StandingBase {
     max_pressure: f64,

@@ -1,4 +1,4 @@
-//! GOAL: a flexible mat on too few contact elements is an error or warns; on enough it does not.
+//! GOAL: a flexible mat on too few contact elements is an error or causes a warning, on enough elements neither.
 //! SCENE: a mat 20 m wide and 0.25 m thick of 40 beams, two columns, on the half-plane.
 //! REFERENCE: the same on 64 elements; twice the elements; numbers of elements.
 
@@ -17,7 +17,7 @@ const YOUNG_MODULUS: f64 = 30.0e9;
 /// A mat with two columns.
 struct Mat {
     model: FemModel,
-    /// Settlement of a column against the middle.
+    /// Settlement of a column relative to the middle.
     settlement: DofCombination,
 }
 
@@ -49,7 +49,7 @@ fn soil() -> Soil {
 
 /// Statics of a mat on contact elements.
 struct StandingMat {
-    /// Settlement of a column against the middle, m.
+    /// Settlement of a column relative to the middle, m.
     settlement: f64,
     /// Warnings of too few elements.
     warnings: Vec<Warning>,
@@ -72,9 +72,9 @@ fn graded_strip(count: usize) -> Strip {
     Strip::graded(-10.0..10.0, count).unwrap()
 }
 
-/// Settlement of the columns against the middle: 20 times too large on four elements, 2.4 times on eight.
+/// Settlement of the columns relative to the middle: 20 times too large on four elements, 2.4 times on eight.
 #[test]
-fn too_few_elements_under_a_mat_are_told() {
+fn too_few_elements_under_a_mat_are_an_error_or_a_warning() {
     let StandingMat { settlement: exact, warnings } = stand(0.25, graded_strip(64)).unwrap();
     assert!((exact + 1.669e-3).abs() < 1e-6 && warnings.is_empty(), "{exact} {warnings:?}");
     for count in [4, 8] {
@@ -120,9 +120,9 @@ fn mat_with_laws(count: usize) -> Result<Simulation> {
         .build()
 }
 
-/// A law for each element makes no difference to the check.
+/// A law for each element has no effect on the check.
 #[test]
-fn too_few_elements_are_told_with_a_law_for_each() {
+fn too_few_elements_with_a_law_for_each_are_an_error() {
     for count in [4, 8] {
         let error = mat_with_laws(count).expect_err("an error");
         assert!(matches!(error, Error::CoarseBase(_)), "{error}");

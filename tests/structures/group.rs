@@ -1,6 +1,6 @@
-//! GOAL: several structures on one ground.
+//! GOAL: several structures on one ground move as they should.
 //! SCENE: far apart on the half-plane; twins; nonlinear members.
-//! REFERENCE: each alone, or its mirror image.
+//! REFERENCE: each structure alone, or the mirror image.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::CheckpointError;
@@ -53,7 +53,7 @@ pub(super) fn states(mut simulation: Simulation, steps: usize) -> Vec<State> {
     states
 }
 
-/// Largest difference of the tractions of two runs over the largest traction of the part.
+/// Largest difference of the tractions of two runs, relative to the largest traction of the part.
 ///
 /// The part's elements begin at `first` among those of the whole.
 pub(super) fn traction_difference(whole: &[State], part: &[State], first: usize) -> f64 {
@@ -77,10 +77,10 @@ fn weightless_run(builder: SimulationBuilder, steps: usize) -> Vec<State> {
     states(bonded.coordinates(Coordinates::Physical).build().unwrap(), steps)
 }
 
-/// GOAL: until waves have gone from one to the other, each moves as if it were alone.
+/// GOAL: until waves have arrived from the other structure, each moves as if it were alone.
 /// CONFIG: half-plane without weight (statics act at any distance), 20 m apart, both bonded.
 #[test]
-fn two_far_apart_are_two_alone_until_waves_arrive() {
+fn structures_move_as_if_alone_until_waves_arrive() {
     let distance = 20.0;
     let travel = (distance - 3.5) / soil().pressure_wave_speed();
     let before = (1_u32..1000).take_while(|&n| f64::from(n) * TIME_STEP <= travel).count();
@@ -96,14 +96,14 @@ fn two_far_apart_are_two_alone_until_waves_arrive() {
     assert!(before > 20 && first[before - 1].contact[0].shear != 0.0);
     for (alone, from) in [(&first, 0), (&second, 6)] {
         assert!(traction_difference(&both[..before], &alone[..before], from) < 1e-12);
-        // Later they do hear of each other.
+        // Later each responds to the other.
         let late = traction_difference(&both, alone, from);
         assert!(late > 1e-6, "{late}");
     }
 }
 
-/// GOAL: twins under a motion that is the same everywhere do mirror images of each other's motion
-/// (one pulled from the left, the other from the right) when the pulse is vertical.
+/// GOAL: under a uniform vertical pulse the motions of two equal blocks are mirror images
+/// (each is pulled towards the other).
 #[test]
 fn twins_mirror_each_other_under_a_vertical_pulse() {
     let pulse = RickerDisplacement::new(0.05, 0.05, 0.3).unwrap().vertical();
@@ -138,7 +138,7 @@ impl Structure for Softening {
 }
 
 impl NonlinearForce for Softening {
-    /// A dead weight's P–Δ, as a force.
+    /// P–Δ of a dead weight, as a force.
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         force[RigidBlock::ROTATION_DOF] -= 2.0e5 * u[RigidBlock::ROTATION_DOF];
         Ok(())
@@ -177,7 +177,7 @@ fn softening_scene(strips: &[Strip]) -> Simulation {
 }
 
 #[test]
-fn nonlinear_members_keep_to_their_places() {
+fn nonlinear_members_act_on_their_degrees_of_freedom() {
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     let mut simulation = softening_scene(&strips);
     simulation.run(100, |_| {}).unwrap();
@@ -187,7 +187,7 @@ fn nonlinear_members_keep_to_their_places() {
     other.resume(&saved).unwrap();
     let again = states(other, 50);
     assert_eq!(then[49].absolute_displacement(), again[49].absolute_displacement());
-    // The P–Δ of the second, linear: the same motion.
+    // The same motion with a linear P–Δ of the second block.
     let linear = block().with_p_delta(2.0e5 / (block().total_mass() * 3.5)).unwrap();
     let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(linear, 5.0).unwrap();
     let reference = base_scene().structure(pair).ground(half_plane(&strips));
@@ -201,12 +201,12 @@ fn block_pair() -> StructureGroup {
 }
 
 #[test]
-fn groups_that_make_no_sense_are_refused() {
+fn invalid_groups_are_refused() {
     let two = StructureGroup::new().with(block(), 0.0).unwrap();
     assert!(matches!(two.with(block(), 2.9), Err(Error::Input { .. })));
     let two = StructureGroup::new().with(block(), 0.0).unwrap();
     assert!(matches!(two.with(block(), f64::NAN), Err(Error::Input { .. })));
-    // An element between the two, and a foundation without any.
+    // An element between the two blocks, and a foundation without elements.
     let across = [strip(0.0, 3.0), Strip::uniform(1.7..2.3, 1).unwrap(), strip(5.0, 3.0)];
     let built = base_scene().structure(block_pair()).ground(half_plane(&across)).build();
     assert!(matches!(built, Err(Error::Part { .. })), "{:?}", built.err());
@@ -219,7 +219,7 @@ fn groups_that_make_no_sense_are_refused() {
     assert!(empty.is_err());
 }
 
-/// A block that replaces the matrix that it is to fill.
+/// A block whose `mass` replaces the matrix that it should fill.
 struct Replacing(RigidBlock);
 
 impl Structure for Replacing {
@@ -243,7 +243,7 @@ impl Structure for Replacing {
     }
 }
 
-/// Replaced by a member alone it is the whole matrix; in a group it would lose all other members.
+/// A single structure may replace the matrix; in a group the entries of the other members would be lost.
 #[test]
 fn members_that_replace_the_matrix_of_their_group_are_refused() {
     let alone = base_scene().structure(Replacing(block())).ground(half_plane(&[strip(0.0, 3.0)]));
@@ -260,7 +260,7 @@ fn tower_and_block() -> StructureGroup {
 }
 
 #[test]
-fn foundations_stay_apart_in_every_wrapper() {
+fn foundations_stay_separate_in_every_wrapper() {
     let wrapped: [Box<dyn Structure>; 3] = [
         Box::new(WithSprings::new(tower_and_block())),
         Box::new(ModalDamping::new(&[0.05]).unwrap().on(tower_and_block()).unwrap()),
@@ -311,7 +311,7 @@ fn foundations_of_one_node_are_refused() {
     assert_eq!(quantity, "list of contact nodes of a foundation");
 }
 
-/// GOAL: a probe of one member never reads another one.
+/// GOAL: a probe of one member has no degrees of freedom of another.
 /// CONFIG: a tower of seven degrees of freedom before a block of three.
 #[test]
 fn rows_and_probes_stay_within_their_member() {
@@ -328,7 +328,7 @@ fn rows_and_probes_stay_within_their_member() {
     assert_eq!(group.row(2, 0), Err(Error::Index { quantity, index: 2, bound: 2 }));
     assert!(matches!(group.row(0, (0, f64::NAN)), Err(Error::Input { .. })));
 
-    // A section has displacements and velocities, and all of them move.
+    // A section has displacements and velocities, whose indices are all shifted.
     let rows = tower().shear(1).unwrap();
     let alone = Probe::section("shear", &rows);
     let group = StructureGroup::new().with(block(), -5.0).unwrap().with(tower(), 0.0).unwrap();

@@ -1,6 +1,6 @@
-//! GOAL: without a soil between them, several structures are as many single runs.
+//! GOAL: on separate spring beds several structures move as if each were alone.
 //! SCENE: a tower and a block on spring beds, in degrees of freedom and in modes.
-//! REFERENCE: each alone.
+//! REFERENCE: each structure alone.
 
 use basemat::Result;
 use basemat::bem::{ContactElement, Ground, SpringGround};
@@ -18,13 +18,13 @@ fn spring_bed(center: f64, width: f64) -> SpringGround {
         .unwrap()
 }
 
-/// GOAL: without a soil between them, two structures are two single runs: modes, weight, uplift,
-/// sliding and all.
+/// GOAL: on separate spring beds two structures move as in two single runs: modes, weight, uplift,
+/// sliding.
 /// CONFIG: spring beds, in degrees of freedom and in modes.
 #[test]
-fn on_springs_each_is_alone() {
+fn structures_on_springs_move_as_if_alone() {
     for coordinates in [Coordinates::Physical, Coordinates::Modes] {
-        // Elements of one bed from −2 to 2 carry the first, of its continuation the second.
+        // The first bed is from −2 to 2, the second from 3 to 6.
         let first =
             base_scene().structure(tower()).ground(spring_bed(0.0, 4.0)).coordinates(coordinates);
         let first = states(first.build().unwrap(), 2000);

@@ -1,15 +1,15 @@
 //! GOAL: a frame of beam elements on two strip footings: its frequency on a fixed base, and statics while the footings
 //! uplift and slide.
 //! SCENE: a portal, each column on a rigid footing, under El Centro.
-//! REFERENCE: slope deflection by hand; the moment of inertia forces against the axial pair and the moments of the
-//! footings, in every step.
+//! REFERENCE: the slope-deflection method; the moment of the inertia forces equals that of the footing forces, in
+//! every step.
 
 use basemat::Result;
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
 use basemat::structure::{CraigBampton, DofCombination};
 
-/// Of the columns, m; the beam is as long as the columns are apart.
+/// Height of the columns and span of the beam, m.
 const COLUMN_HEIGHT: f64 = 5.0;
 const BEAM_SPAN: f64 = 8.0;
 /// Areas (m²/m) and second moments of area (m⁴/m): columns 0.6 × 0.6 m and a beam 0.4 × 0.8 m, every 5 m.
@@ -18,11 +18,11 @@ const COLUMN_SECOND_MOMENT: f64 = 2.16e-3;
 const BEAM_AREA: f64 = 0.064;
 const BEAM_SECOND_MOMENT: f64 = 3.413e-3;
 const YOUNG_MODULUS: f64 = 30.0e9;
-/// Of the roof, frame included, kg/m.
+/// Mass of the roof, frame included, kg/m.
 const ROOF_MASS: f64 = 30.0e3;
 /// Thickness of the footings, m.
 const FOOTING_DEPTH: f64 = 0.6;
-/// Of the footings, kg/m³.
+/// Density of the footings, kg/m³.
 const FOOTING_DENSITY: f64 = 2400.0;
 
 /// A member without mass.
@@ -40,8 +40,8 @@ struct Portal {
 }
 
 impl Portal {
-    /// On footings of `width` (m); the area of columns and beam is `stretch` times what it is.
-    fn new(width: f64, stretch: f64) -> Result<Self> {
+    /// On footings of `width` (m); the areas of columns and beam are multiplied by `area_factor`.
+    fn new(width: f64, area_factor: f64) -> Result<Self> {
         let mut mesh = Mesh::new();
         let mut lines = Vec::new();
         for x in [-0.5 * BEAM_SPAN, 0.5 * BEAM_SPAN] {
@@ -58,14 +58,14 @@ impl Portal {
                 )?)?;
             }
             let top = mesh.add_node(x, COLUMN_HEIGHT)?;
-            let column = member([line[1], top], stretch * COLUMN_AREA, COLUMN_SECOND_MOMENT)?;
+            let column = member([line[1], top], area_factor * COLUMN_AREA, COLUMN_SECOND_MOMENT)?;
             mesh.add(column)?;
             mesh.add(LumpedMass::new(top, 0.5 * ROOF_MASS)?)?;
             lines.push(line);
         }
         let left = mesh.node_at(-0.5 * BEAM_SPAN, COLUMN_HEIGHT)?;
         let right = mesh.node_at(0.5 * BEAM_SPAN, COLUMN_HEIGHT)?;
-        mesh.add(member([left, right], stretch * BEAM_AREA, BEAM_SECOND_MOMENT)?)?;
+        mesh.add(member([left, right], area_factor * BEAM_AREA, BEAM_SECOND_MOMENT)?)?;
         let mut model = FemModel::on_foundations(mesh, &lines)?;
         for line in &lines {
             model = model.with_rigid_link(line[1], &[line[0], line[2]])?;
@@ -86,12 +86,12 @@ impl Portal {
         Ok(Self { model, footing_mass, overturning })
     }
 
-    /// Lowest frequency (Hz) with fixed footings: sway, and nothing has mass but the roof.
+    /// Lowest frequency (Hz) with fixed footings: the sway of the roof, the only mass.
     fn fixed_base_frequency(self) -> Result<f64> {
         Ok(CraigBampton::new(1).reduce(self.model)?.frequencies()[0])
     }
 
-    /// El Centro: statics must hold at rest and in every step.
+    /// Checks equilibrium at rest and in every step under El Centro.
     fn shake(self, law: impl InterfaceLaw + 'static) -> Result<()> {
         let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
         // 5 % of critical damping in the sway on a fixed base.
@@ -125,7 +125,7 @@ impl Portal {
 }
 
 /// First frequency (Hz) on a fixed base when no member changes its length: lateral stiffness
-/// 24 E I_c/h³ · (1 + 6k)/(4 + 6k) with k = (I_b/l)/(I_c/h) (slope deflection by hand).
+/// 24 E I_c/h³ · (1 + 6k)/(4 + 6k) with k = (I_b/l)/(I_c/h) (slope-deflection method).
 fn closed_form_frequency() -> f64 {
     let k = BEAM_SECOND_MOMENT / BEAM_SPAN / (COLUMN_SECOND_MOMENT / COLUMN_HEIGHT);
     let ends = (1.0 + 6.0 * k) / (4.0 + 6.0 * k);
@@ -133,22 +133,22 @@ fn closed_form_frequency() -> f64 {
     (stiffness / ROOF_MASS).sqrt() / std::f64::consts::TAU
 }
 
-/// Error of the frequency on a fixed base of the portal whose members have `stretch` times their area.
-fn fixed_base_error(stretch: f64) -> f64 {
-    let portal = Portal::new(2.0, stretch).unwrap();
+/// Error of the frequency on a fixed base of the portal with member areas multiplied by `area_factor`.
+fn fixed_base_error(area_factor: f64) -> f64 {
+    let portal = Portal::new(2.0, area_factor).unwrap();
     portal.fixed_base_frequency().unwrap() / closed_form_frequency() - 1.0
 }
 
 #[test]
-fn frequency_on_a_fixed_base() {
+fn the_frequency_on_a_fixed_base_is_the_closed_form() {
     let stiff = fixed_base_error(1e5);
     let real = fixed_base_error(1.0);
-    // Members that stretch make it softer.
+    // Extensible members make the frame softer.
     assert!(stiff.abs() < 1e-6 && (-0.01..0.0).contains(&real), "{stiff:e}, {real:e}");
 }
 
 #[test]
-fn statics_of_two_footings_in_every_step() {
+fn footing_forces_balance_inertia_forces_in_every_step() {
     Portal::new(2.0, 1.0).unwrap().shake(Bonded).unwrap();
     Portal::new(2.0, 1.0).unwrap().shake(Coulomb::new(0.3).unwrap()).unwrap();
     Portal::new(2.0, 1.0).unwrap().shake(Coulomb::new(0.5).unwrap()).unwrap();

@@ -1,7 +1,7 @@
 //! A structure of 51 102 degrees of freedom, in full and reduced to its contact nodes and a few modes.
 //!
 //! Elements per second are steps per second: with steps of 0.01 s, 100 are real time. All models
-//! march through the same strong half second of El Centro, again and again.
+//! compute the same strong half second of El Centro repeatedly.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -22,13 +22,13 @@ fn full_model() -> Result<(MatrixModel, DofCombination)> {
     Ok((damped(mass, stiffness, base)?, top))
 }
 
-/// A simulation that marches the same steps again and again.
-struct Passage {
+/// A simulation that computes the same steps repeatedly.
+struct RepeatedSteps {
     simulation: Simulation,
     start: Checkpoint,
 }
 
-impl Passage {
+impl RepeatedSteps {
     fn new(mut simulation: Simulation) -> Result<Self> {
         simulation.run(UNTIMED_STEPS, |_| {})?;
         let start = simulation.checkpoint()?;
@@ -64,9 +64,9 @@ fn steps(criterion: &mut Criterion) {
     }
     cases.push((BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Physical)));
     for (name, simulation) in cases {
-        let mut passage = simulation.and_then(Passage::new).expect("a valid scene");
+        let mut repeated_steps = simulation.and_then(RepeatedSteps::new).expect("a valid scene");
         group.bench_function(name, |bencher| {
-            bencher.iter_custom(|times| passage.march(times).expect("every step is solved"));
+            bencher.iter_custom(|times| repeated_steps.march(times).expect("every step is solved"));
         });
     }
     group.finish();

@@ -54,7 +54,7 @@ fn direct_history(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Whole marches without their preparation.
+/// Times of all steps of a history, without its preparation.
 fn whole_march(criterion: &mut Criterion) {
     const STEP_COUNT: usize = 10_000;
     let elements = Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();

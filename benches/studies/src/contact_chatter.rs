@@ -2,7 +2,7 @@
 //!
 //! A block of 4 m × 8 m rocks and slides on soil under El Centro, twice as strong. For every
 //! scheme and three time steps the table shows the content of the normal force and of the top's
-//! acceleration above 20 Hz, base shear, slip, uplift, rotation, and what the energy balance says.
+//! acceleration above 20 Hz, base shear, slip, uplift, rotation, and the terms of the energy balance.
 //!
 //! ```text
 //! cargo study contact-chatter
@@ -89,11 +89,11 @@ pub(crate) fn run(options: &ContactChatterOptions) -> Result<(), AnyError> {
                     1e3 * outcome.residual_slip,
                     outcome.uplift,
                     1e3 * outcome.rotation,
-                    outcome.contact,
-                    outcome.algorithmic,
+                    outcome.contact_energy,
+                    outcome.algorithmic_energy,
                     1e3 * outcome.penetration,
                     outcome.energy_error,
-                    outcome.changes
+                    outcome.mode_changes
                 );
             }
         }

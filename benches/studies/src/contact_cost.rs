@@ -1,4 +1,4 @@
-//! Processor time of steps in plan that lift and slide.
+//! Processor time of steps in space that lift and slide.
 //!
 //! ```text
 //! cargo study contact-cost
@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A block of 10 × 10 × 15 m on 200 m/s and friction 0.5, under twice El Centro along x and once along y, from 1 s on.
-//! A step that stays bonded measures the time of the ground alone.
+//! The steps of a bonded block measure the time of the ground alone.
 
 use basemat::history::HistoryOptions;
 use basemat::interface::Mode;
@@ -18,21 +18,22 @@ use cpu_time::ThreadTime;
 
 use crate::AnyError;
 
-/// Processor time of steps in plan that lift and slide.
+/// Processor time of steps in space that lift and slide.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ContactCostOptions {
-    /// Few steps, to see that all works.
+    /// Few steps, as a test.
     #[arg(long)]
     short: bool,
-    /// One run of 100 000 steps on a layer of 5 % damping over rock: memory, and the bound of what it leaves out.
+    /// One run of 100 000 steps on a layer of 5 % damping over rock: memory, and the bound of the error of its
+    /// truncated history.
     #[arg(long)]
     long: bool,
-    /// Fraction of the coefficients' sum that the long run may leave out.
+    /// Fraction of the coefficients' sum that the long run may omit.
     #[arg(long, default_value_t = 1e-3)]
     tolerance: f64,
 }
 
-/// Numbers of cells along a side, and ways of pressure waves in a step over a cell.
+/// Numbers of cells along a side, and paths of pressure waves in a step, in cells.
 const CELL_CASES: [(usize, f64); 7] =
     [(8, 1.0), (12, 1.0), (16, 1.0), (24, 1.0), (16, 3.0), (24, 3.0), (16, 7.8)];
 /// Begin and end of the measured time, s.
@@ -43,7 +44,7 @@ const MEASURED_UNTIL: f64 = 4.0;
 struct StepCost {
     median: f64,
     mean: f64,
-    /// 95 of 100 steps are faster.
+    /// Time that 95 of 100 steps do not exceed.
     slow: f64,
     iterations: f64,
     steps: usize,

@@ -62,7 +62,7 @@ pub(crate) fn command_output(command: &str, arguments: &[&str]) -> String {
         .map_or("unknown".into(), |output| String::from_utf8_lossy(&output.stdout).trim().into())
 }
 
-/// Largest resident memory of this process so far, MB; `None` where the system does not tell.
+/// Largest resident memory of this process so far, MB; `None` where it is not available.
 pub(crate) fn peak_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

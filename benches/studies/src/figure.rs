@@ -37,7 +37,7 @@ pub(crate) struct Figure {
 /// Style in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SeriesStyle {
-    /// Wide and pale: references, which lie beneath.
+    /// Wide and pale, below the others: references.
     Wide,
     /// Thin: results of the crate.
     Thin,
@@ -290,7 +290,7 @@ impl FigureSeries {
             return Ok(());
         }
         let drawn = drawn.label(&self.name);
-        // Each kind of marker has another type.
+        // Each marker has a separate type.
         match self.style {
             SeriesStyle::Wide | SeriesStyle::Thin => drawn.legend(move |(x, y)| {
                 PathElement::new(vec![(x, y), (x + PIXEL_SCALE * 22, y)], stroke)

@@ -1,7 +1,7 @@
 //! Number of free-surface elements that the full-plane ground needs.
 //!
 //! Impedances of the bonded rigid strip are compared with their table, a coupled run with the half-plane.
-//! The distance to the same mesh with many free elements separates the error of the truncated surface from the error of
+//! The difference from the same mesh with many free elements separates the error of the truncated surface from the error of
 //! the mesh. Each row states whether its march is bounded.
 //!
 //! ```text
@@ -29,7 +29,7 @@ pub(crate) struct FullPlaneOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/full_plane")]
     out: PathBuf,
-    /// Small meshes, in seconds: to see that all works, not to be quoted.
+    /// Small meshes, as a test in seconds.
     #[arg(long)]
     short: bool,
 }
@@ -49,15 +49,15 @@ struct TruncationRow {
     mesh: FullPlaneMesh,
     /// Growth per step with the base uplifted and bonded.
     growth: [f64; 2],
-    /// Distance from the table.
+    /// Difference from the table.
     total: [f64; 4],
-    /// Distance from the same mesh with four times the largest number of free elements, if that
-    /// can march.
+    /// Difference from the same mesh with four times the largest number of free elements, if its
+    /// march is bounded.
     truncation: Option<[f64; 4]>,
 }
 
 impl TruncationRow {
-    /// Length of the free surface on either side over the half width of the strip.
+    /// Length of the free surface on either side, relative to the half width of the strip.
     fn length(&self) -> f64 {
         2.0 * self.mesh.free as f64 / self.mesh.elements as f64
     }

@@ -42,7 +42,7 @@ pub(crate) struct ExponentialsOptions {
     compared: usize,
 }
 
-/// The direct sum is not marched further than this.
+/// Largest number of steps of the direct sum.
 const LONGEST_DIRECT: usize = 10_000;
 
 /// 1.5 ft elements, steps of half an element over the pressure wave speed.
@@ -53,7 +53,7 @@ fn patch(count: usize) -> Result<Arc<dyn ConvolutionWeights>> {
     Ok(Arc::new(PatchKernel::new(soil, elements, 0.2286 / 396.24)?))
 }
 
-/// Tractions of a step that repeat themselves late.
+/// Tractions of a step, with a long period.
 pub(crate) fn traction(step: usize, traction: &mut [f64]) {
     for (i, value) in traction.iter_mut().enumerate() {
         *value = ((step * 7919 + i * 104_729) % 1009) as f64;
@@ -88,7 +88,7 @@ fn march(
     Ok(MarchTime { total: begin.elapsed().as_secs_f64(), slowest_step })
 }
 
-/// Largest difference from the displacements of the direct sum over the largest of these, and its march.
+/// Largest difference from the displacements of the direct sum, relative to the largest of these, and the time of the sum.
 struct DirectComparison {
     error: f64,
     seconds: f64,

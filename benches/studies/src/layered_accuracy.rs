@@ -29,7 +29,7 @@ const TIME_STEPS: [f64; 4] = [0.2, 0.1, 0.05, 0.025];
 /// Error against run time on layered ground.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LayeredAccuracyOptions {
-    /// Eight elements only, to see that all works.
+    /// Eight elements only, as a test.
     #[arg(long)]
     short: bool,
 }
@@ -54,7 +54,7 @@ fn march(
     let begin = ThreadTime::try_now()?;
     let ground = ElasticGround::new(profile.clone(), Strip::graded(-1.0..1.0, elements)?)?
         .with_stages(stages);
-    // Without dimensions, and without weight.
+    // Dimensionless, without weight.
     let mut simulation = Simulation::builder(step)
         .ground(ground)
         .structure(RigidBlock::new(2.0, 2.0, 1.0)?)
@@ -90,7 +90,7 @@ pub(crate) fn run(options: &LayeredAccuracyOptions) -> Result<(), AnyError> {
         let steps = &TIME_STEPS[..if short { 2 } else { 4 }];
         for elements in counts {
             for step in steps {
-                // Three stages show where the error of the elements is small.
+                // Three stages make a difference where the error of the elements is small.
                 let both = elements == &counts[counts.len() - 1];
                 for stages in &[Stages::Two, Stages::Three][..if both { 2 } else { 1 }] {
                     let march = march(&profile, &reference, *elements, *step, *stages)?;
@@ -98,7 +98,7 @@ pub(crate) fn run(options: &LayeredAccuracyOptions) -> Result<(), AnyError> {
                     println!(
                         "| {name} | {elements} | {step} | {} | {:.1e} | {:.1e} | {setup_seconds:.2} s | {:.1} ms |",
                         stages.count(),
-                        errors.history,
+                        errors.series,
                         errors.peak,
                         1e3 * march_seconds
                     );

@@ -4,7 +4,7 @@
 //! cargo study layered-cost
 //! ```
 //!
-//! Processor time of all threads; weights alone, without the histories' transforms of them.
+//! Processor time of all threads; weights alone, without their transforms for histories.
 
 use basemat::bem::layered::Stages;
 use basemat::bem::plan::Plan;
@@ -19,7 +19,7 @@ use crate::AnyError;
 /// Processor time of the convolution weights of layered ground.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LayeredCostOptions {
-    /// Few steps, to see that all works.
+    /// Few steps, as a test.
     #[arg(long)]
     short: bool,
 }
@@ -131,7 +131,7 @@ fn preparation_time(
 }
 
 /// Prints times for two seconds of 8 × 8 cells on 10 m; pressure waves cross a fraction of a cell in a step.
-fn in_plan(short: bool) -> std::result::Result<(), AnyError> {
+fn in_space(short: bool) -> std::result::Result<(), AnyError> {
     let soil = Soil::new(60.0e6, 1.0 / 3.0, 1900.0)?;
     let rock = Soil::new(600.0e6, 0.3, 2200.0)?;
     let layer = SoilProfile::on_half_plane(rock).with_layer(soil, 6.0)?;
@@ -164,5 +164,5 @@ pub(crate) fn run(options: &LayeredCostOptions) -> std::result::Result<(), AnyEr
         let seconds = preparation_time(&*ground.weights(time_step)?, steps)?;
         println!("| {name} | {elements} | {steps} | {seconds:.2} |");
     }
-    in_plan(options.short)
+    in_space(options.short)
 }

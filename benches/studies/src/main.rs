@@ -1,7 +1,7 @@
-//! Studies of basemat: what the tables and figures of its documents come from, one subcommand each.
+//! Studies of basemat: the sources of the tables and figures of its documents, one subcommand each.
 //!
 //! ```text
-//! cargo study                          # names them
+//! cargo study                          # lists them
 //! cargo study validation --short       # one of them
 //! cargo study validation --help        # its options
 //! ```
@@ -34,6 +34,7 @@ mod precision;
 mod rocking_footing;
 mod settling_cost;
 mod stability;
+mod trench_cost;
 mod validation;
 mod yielding;
 
@@ -70,6 +71,7 @@ enum Study {
     Embedded(embedded::EmbeddedOptions),
     RockingFooting(rocking_footing::RockingFootingOptions),
     SettlingCost(settling_cost::SettlingCostOptions),
+    TrenchCost(trench_cost::TrenchCostOptions),
     Yielding(yielding::YieldingOptions),
 }
 
@@ -101,6 +103,7 @@ fn main() -> ExitCode {
         Study::Embedded(options) => embedded::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
         Study::SettlingCost(options) => settling_cost::run(&options),
+        Study::TrenchCost(options) => trench_cost::run(&options),
         Study::Yielding(options) => {
             yielding::run(&options);
             Ok(())
@@ -108,7 +111,7 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        // As text, for example which shards are missing.
+        // As text, for example the names of missing shards.
         Err(error) => {
             eprintln!("{error}");
             ExitCode::FAILURE

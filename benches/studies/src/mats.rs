@@ -1,4 +1,4 @@
-//! Mats in plan beside their model in plane strain, and their error against run time.
+//! Mats in space beside their model in plane strain, and their error against run time.
 //!
 //! The error is of a block that lifts and slides in two directions.
 //!
@@ -28,22 +28,22 @@ use crate::AnyError;
 use crate::document::splice;
 use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, Figure, FigurePanel};
 
-/// Mats in plan beside plane strain, and their error against run time.
+/// Mats in space beside plane strain, and their error against run time.
 #[derive(Debug, clap::Args)]
 pub(crate) struct MatsOptions {
-    /// Square mats and few steps, to see that all works.
+    /// Square mats and few steps, as a test.
     #[arg(long)]
     short: bool,
     /// Folder for the files.
     #[arg(long, default_value = "target/study/mats")]
     out: PathBuf,
-    /// Folder of the documentation: given, the tables go to benches/studies/tables, and its images/ the picture.
+    /// Folder of the documentation; with it the tables go to benches/studies/tables, and the picture to its images/.
     #[arg(long, conflicts_with = "short")]
     docs: Option<PathBuf>,
 }
 
-/// Length over width, cells along the width, and elements of several rows of cells along the length, from the edge
-/// to the middle, for the block that lifts.
+/// Length over width, cells along the width, and numbers of rows of cells in an element along the length, from the edge
+/// to the middle, for the block that lifts off.
 const MAT_CASES: [(f64, usize, &[usize]); 4] = [
     (1.0, 16, &[]),
     (2.0, 12, &[]),
@@ -69,7 +69,7 @@ const BLOCK_RECORD_FACTOR: f64 = 1.5;
 const TOWER_HEIGHT: f64 = 25.0;
 const TOWER_RECORD_FACTOR: f64 = 0.6;
 
-/// Springs and dashpots of a strip as long as the mat, divided by the mat's.
+/// Springs and dashpots of a strip as long as the mat, divided by those of the mat.
 fn stiffness(short: bool) -> Result<String, AnyError> {
     let soil = soil()?;
     let profile = SoilProfile::from(soil);
@@ -141,7 +141,7 @@ fn contact(short: bool) -> Result<String, AnyError> {
     for (aspect, cells, unions) in
         MAT_CASES.into_iter().take(if short { 1 } else { MAT_CASES.len() })
     {
-        // A quarter of the cells is enough here.
+        // Fewer cells are enough here.
         let cells = if short { 4 } else { cells.min(8) };
         let body = RigidBody::cuboid(
             [2.0 * HALF_WIDTH, 2.0 * HALF_WIDTH * aspect, TOWER_HEIGHT],
@@ -200,7 +200,7 @@ fn mirrored(edge: &[usize], rows: usize) -> Vec<usize> {
 /// Coarsest time step, s; every setting takes samples at its multiples.
 const COARSEST_STEP: f64 = 0.01;
 
-/// Rotations about both axes (rad) or displacements along them (m) of a cube-like block under three records.
+/// Rotations about both axes (rad) or displacements along them (m) of a block under three records.
 fn block(
     law: impl InterfaceLaw + 'static,
     duration: f64,

@@ -60,7 +60,7 @@ pub(crate) fn run(options: &PassivityOptions) {
                     tolerance,
                 };
                 let begin = std::time::Instant::now();
-                let work = scene.least_work();
+                let work = scene.min_work_ratio();
                 let growth = scene.growth_of_tractions();
                 let mesh = if graded { "graded" } else { "uniform" };
                 println!(

@@ -21,10 +21,10 @@ use crate::figure::{CURVE_BLUE, CURVE_GRAY, Figure, FigurePanel};
 
 /// A rocking footing on dry sand: moment, settlement and damping by packets of cycles, measured and computed.
 ///
-/// Prints a table a law, and writes series and a picture.
+/// Prints a table for each law, and writes series and a picture.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RockingFootingOptions {
-    /// Two packets of few steps, to see that all works.
+    /// Two packets of few steps, as a test.
     #[arg(long)]
     short: bool,
     /// Cells along the load.
@@ -45,7 +45,7 @@ pub(crate) struct RockingFootingOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/rocking_footing")]
     out: PathBuf,
-    /// Folder of the documentation: given, the tables go to benches/studies/tables, and its images/ the picture.
+    /// Folder of the documentation; with it the tables go to benches/studies/tables, and the picture to its images/.
     #[arg(long, conflicts_with = "short")]
     docs: Option<PathBuf>,
 }

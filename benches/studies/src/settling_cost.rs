@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A block of 4 × 7 m on 145 m/s under 1.5 times El Centro, whose weight is a third of the bearing pressure: it rocks, lifts
-//! off, and yields in most steps. In plan it is 3 m wide, and shaken across by 0.7 times El Centro.
+//! off, and yields in most steps. In space it is 3 m wide, and shaken across by 0.7 times El Centro.
 
 use basemat::bem::plan::Plan;
 use basemat::interface::{CyclicYielding, Yielding};
@@ -19,7 +19,7 @@ use crate::AnyError;
 /// Processor time of steps on soil that settles in every cycle.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SettlingCostOptions {
-    /// Few steps, to see that all works.
+    /// Few steps, as a test.
     #[arg(long)]
     short: bool,
 }
@@ -44,14 +44,14 @@ const REPETITION_COUNT: usize = 7;
 /// Cells below the block.
 #[derive(Debug, Clone, Copy)]
 enum CellCase {
-    /// In the plane.
+    /// Number of strips in the plane.
     Strips(usize),
-    /// In plan: number along the longer side.
-    Plan(usize),
+    /// Number of cells along the longer side, in space.
+    Cells(usize),
 }
 
 const CELL_CASES: [CellCase; 4] =
-    [CellCase::Strips(16), CellCase::Strips(40), CellCase::Plan(6), CellCase::Plan(12)];
+    [CellCase::Strips(16), CellCase::Strips(40), CellCase::Cells(6), CellCase::Cells(12)];
 
 #[derive(Debug, Clone, Copy)]
 enum LawCase {
@@ -103,7 +103,7 @@ fn simulation(cells: CellCase, law: LawCase) -> basemat::Result<Simulation> {
             let ground = ElasticGround::under(soil, &block, count)?;
             builder.ground(ground).structure(block).motion(strong_motion(1.5)?).build()
         }
-        CellCase::Plan(count) => {
+        CellCase::Cells(count) => {
             let body = RigidBody::cuboid([BLOCK_WIDTH, BLOCK_DEPTH, BLOCK_HEIGHT], BLOCK_DENSITY)?;
             let half = [BLOCK_WIDTH, BLOCK_DEPTH].map(|side| 0.5 * side);
             let plan = Plan::rectangle(-half[0]..half[0], -half[1]..half[1], count)?;
@@ -147,7 +147,7 @@ pub(crate) fn run(options: &SettlingCostOptions) -> Result<(), AnyError> {
         let [Some(yielding), Some(long), Some(short)] = costs else { continue };
         let name = match cells {
             CellCase::Strips(count) => format!("{count} strips"),
-            CellCase::Plan(_) => format!("{} in plan", yielding.cells),
+            CellCase::Cells(_) => format!("{} in plan", yielding.cells),
         };
         println!(
             "| {name} | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} |",

@@ -4,7 +4,7 @@
 //! cargo study yielding
 //! ```
 //!
-//! The source of the pressures of reference is `tests/data/yielding/strip_capacity.md`.
+//! The source of the reference pressures is `tests/data/yielding/strip_capacity.md`.
 
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -25,7 +25,7 @@ pub(crate) struct YieldingOptions {
     short: bool,
 }
 
-/// A strip on a soil, and pressures of reference.
+/// A strip on a soil, and reference pressures.
 struct StripCase {
     name: &'static str,
     mesh: StripSoil,
@@ -33,7 +33,7 @@ struct StripCase {
     strip_elements: usize,
     settlement_step: f64,
     steps: usize,
-    /// Pressures at the settlements of reference, Pa; NaN where the reference has none.
+    /// Pressures at the reference settlements, Pa; NaN where the reference has none.
     reference: [f64; 6],
     /// Capacity of the theory of plasticity, Pa.
     capacity: f64,

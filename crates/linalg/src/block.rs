@@ -22,6 +22,11 @@ impl ComplexBlock {
         Self { row_count, values: vec![Complex64::ZERO; row_count * column_count] }
     }
 
+    /// Matrix of these `values`, column by column.
+    pub fn from_columns(row_count: usize, values: Vec<Complex64>) -> Self {
+        Self { row_count, values }
+    }
+
     /// Number of rows.
     #[inline]
     pub fn rows(&self) -> usize {
@@ -49,11 +54,32 @@ impl ComplexBlock {
         self
     }
 
+    /// Entries of a column.
+    #[inline]
+    pub fn column(&self, column: usize) -> &[Complex64] {
+        &self.values[column * self.row_count..][..self.row_count]
+    }
+
+    /// Entries of a column.
+    #[inline]
+    pub fn column_mut(&mut self, column: usize) -> &mut [Complex64] {
+        &mut self.values[column * self.row_count..][..self.row_count]
+    }
+
     /// Largest magnitude of a real or imaginary part.
     pub fn largest(&self) -> f64 {
-        self.values
-            .iter()
-            .fold(0.0, |maximum, value| maximum.max(value.re.abs()).max(value.im.abs()))
+        // Several maxima at once: each comparison waits for the one before.
+        let mut maxima = [0.0_f64; MAXIMA_AT_ONCE];
+        let (chunks, rest) = self.values.as_chunks::<MAXIMA_AT_ONCE>();
+        for values in chunks {
+            for (maximum, value) in maxima.iter_mut().zip(values) {
+                *maximum = maximum.max(value.re.abs()).max(value.im.abs());
+            }
+        }
+        rest.iter()
+            .flat_map(|value| [value.re.abs(), value.im.abs()])
+            .chain(maxima)
+            .fold(0.0, f64::max)
     }
 
     /// Subtracts Cᵀ M⁻¹ C from this symmetric matrix: eliminates the rows of the symmetric `pivot` M.
@@ -64,6 +90,18 @@ impl ComplexBlock {
     /// # Errors
     /// [`Error::Singular`] for a pivot that is singular or not finite.
     pub fn eliminate(&mut self, pivot: &Self, coupling: &Self) -> Result<()> {
+        if pivot.row_count > 0 && self.row_count > 0 {
+            self.eliminate_in_lower(pivot, coupling)?;
+            self.mirror_lower();
+        }
+        Ok(())
+    }
+
+    /// The same as [`eliminate`](Self::eliminate) for the lower triangle alone.
+    ///
+    /// # Errors
+    /// [`Error::Singular`] for a pivot that is singular or not finite.
+    pub fn eliminate_in_lower(&mut self, pivot: &Self, coupling: &Self) -> Result<()> {
         let pivot_order = pivot.row_count;
         let order = self.row_count;
         if pivot_order == 0 || order == 0 {
@@ -71,7 +109,7 @@ impl ComplexBlock {
         }
         let mut factor = DenseFactor::with_columns(pivot_order, order);
         let is_regular = factor.factor_columns(pivot_order, |column, values| {
-            values.extend_from_slice(&pivot.values[column * pivot_order..][..pivot_order]);
+            values.extend_from_slice(pivot.column(column));
         });
         if !is_regular {
             // All callers eliminate degrees of freedom of these elements.
@@ -91,14 +129,22 @@ impl ComplexBlock {
             Complex64::new(-1.0, 0.0),
             Par::Seq,
         );
+        Ok(())
+    }
+
+    /// Overwrites the upper triangle with the lower one.
+    pub fn mirror_lower(&mut self) {
+        let order = self.row_count;
         for column in 1..order {
             for row in 0..column {
                 self.values[column * order + row] = self.values[row * order + column];
             }
         }
-        Ok(())
     }
 }
+
+/// Number of maxima at once in [`ComplexBlock::largest`].
+const MAXIMA_AT_ONCE: usize = 8;
 
 impl Index<(usize, usize)> for ComplexBlock {
     type Output = Complex64;

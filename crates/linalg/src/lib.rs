@@ -17,6 +17,7 @@
 extern crate basemat_base;
 
 mod block;
+mod block_lu;
 mod complex;
 mod complex_arithmetic;
 mod compressed_matrix;

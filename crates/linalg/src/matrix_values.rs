@@ -51,13 +51,16 @@ impl SparseMatrix {
         self.row_starts == other.row_starts && self.columns == other.columns
     }
 
-    /// Copies another matrix into this one; allocates only if the pattern differs.
-    pub fn copy_from(&mut self, other: &Self) {
-        if self.has_pattern_of(other) {
-            self.values.copy_from_slice(&other.values);
-        } else {
-            self.clone_from(other);
-        }
+    /// Copies the values of another matrix of the same pattern.
+    pub fn copy_values(&mut self, other: &Self) {
+        self.values.copy_from_slice(&other.values);
+    }
+
+    /// Whether another matrix has other entries.
+    ///
+    /// Values are compared before places: matrices of one pattern mostly differ in a value.
+    pub fn differs_from(&self, other: &Self) -> bool {
+        self.values != other.values || self != other
     }
 
     /// Values of all stored entries, row by row.
@@ -126,8 +129,13 @@ mod tests {
         sum.set_sum(&constant_values, 0.3, &changing, &indices);
         assert_eq!(sum, expected);
         assert!(sum.indices_in(&changing).is_none());
-        let mut copy = expected.clone();
-        copy.copy_from(&changing);
-        assert!(copy == changing && !copy.has_pattern_of(&sum));
+        let mut copy = sum.clone();
+        copy.values.fill(0.0);
+        assert!(copy.differs_from(&sum) && copy.has_pattern_of(&sum));
+        copy.copy_values(&sum);
+        assert!(!copy.differs_from(&sum) && !copy.has_pattern_of(&changing));
+        let mut moved = sum.clone();
+        moved.columns.swap(0, 1);
+        assert!(moved.differs_from(&sum));
     }
 }

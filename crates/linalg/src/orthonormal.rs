@@ -70,18 +70,19 @@ impl<'a> OrthonormalRows<'a> {
     pub fn extend(&mut self, mut block: Vec<f64>, min_remainder: MinRemainder) {
         let n = self.mass.order().max(1);
         let old_count = self.count();
+        let mut block_momenta = vec![0.0; block.len()];
         // The block and its orthogonalised copy exchange their memory after each pass.
-        let mut images = vec![0.0; block.len()];
-        let mut orthogonal = vec![0.0; block.len()];
+        let mut orthogonal_rows = vec![0.0; block.len()];
         let mut projections = row_products(&self.momenta, &block, n);
         for pass in 0..2 {
             let count = block.len() / n;
             if old_count > 0 {
                 add_combined_rows(&projections, &self.vectors, n, -1.0, &mut block);
             }
-            images.truncate(block.len());
-            self.mass.multiply_many(&block, &mut images);
-            let mut products = symmetric_products(&images, &block, n);
+            block_momenta.truncate(block.len());
+            self.mass.multiply_many(&block, &mut block_momenta);
+            let mut products = symmetric_products(&block_momenta, &block, n);
+            // Lengths of the rows before their projections were subtracted.
             let mut lengths = Vec::with_capacity(count);
             for i in 0..count {
                 let projected_square: f64 =
@@ -114,33 +115,33 @@ impl<'a> OrthonormalRows<'a> {
             for row in weights.chunks_exact_mut(count.max(1)) {
                 row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
             }
-            let columns = transpose(&weights, count);
-            orthogonal.clear();
-            append_combined_rows(&columns, &block, n, rank, &mut orthogonal);
+            let weight_columns = transpose(&weights, count);
+            orthogonal_rows.clear();
+            append_combined_rows(&weight_columns, &block, n, rank, &mut orthogonal_rows);
             if pass == 0 {
-                projections = row_products(&self.momenta, &orthogonal, n);
+                projections = row_products(&self.momenta, &orthogonal_rows, n);
             }
             if pass == 1 || rounding_error.max(largest(&projections)) < self.tolerance {
-                append_combined_rows(&columns, &images, n, rank, &mut self.momenta);
-                self.vectors.append(&mut orthogonal);
+                append_combined_rows(&weight_columns, &block_momenta, n, rank, &mut self.momenta);
+                self.vectors.append(&mut orthogonal_rows);
                 return;
             }
-            std::mem::swap(&mut block, &mut orthogonal);
+            std::mem::swap(&mut block, &mut orthogonal_rows);
         }
     }
 }
 
-/// Appends `count` combinations of `rows`, each of length `order`, to `sum`.
+/// Appends `count` combinations of `rows`, each of length `order`, to `destination`.
 fn append_combined_rows(
     weights: &[f64],
     rows: &[f64],
     order: usize,
     count: usize,
-    sum: &mut Vec<f64>,
+    destination: &mut Vec<f64>,
 ) {
-    let start = sum.len();
-    sum.resize(start + count * order, 0.0);
-    add_combined_rows(weights, rows, order, 1.0, &mut sum[start..]);
+    let start = destination.len();
+    destination.resize(start + count * order, 0.0);
+    add_combined_rows(weights, rows, order, 1.0, &mut destination[start..]);
 }
 
 /// Weights of orthonormal combinations of vectors, a row each, from the vectors' scalar products.
@@ -154,15 +155,16 @@ pub fn independent_combinations(mut products: Vec<f64>, count: usize, min_square
         .collect();
     let mut weights = Vec::new();
     let mut candidates: Vec<usize> = (0..count).collect();
-    let square = |products: &[f64], i: usize| products[i * (count + 1)];
+    let squared_length = |products: &[f64], i: usize| products[i * (count + 1)];
     while let Some(candidate_index) = (0..candidates.len())
         .max_by(|a, b| {
-            square(&products, candidates[*a]).total_cmp(&square(&products, candidates[*b]))
+            squared_length(&products, candidates[*a])
+                .total_cmp(&squared_length(&products, candidates[*b]))
         })
-        .filter(|index| square(&products, candidates[*index]) > min_square)
+        .filter(|index| squared_length(&products, candidates[*index]) > min_square)
     {
         let pivot = candidates.swap_remove(candidate_index);
-        let scale = square(&products, pivot).sqrt().recip();
+        let scale = squared_length(&products, pivot).sqrt().recip();
         let pivot_weights: Vec<f64> =
             remainder_weights[pivot].iter().map(|weight| scale * weight).collect();
         let projections: Vec<f64> =
@@ -182,8 +184,10 @@ pub fn independent_combinations(mut products: Vec<f64>, count: usize, min_square
 }
 
 /// The columns of a row-major matrix, one after the other.
-pub fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
-    (0..columns).flat_map(|j| rows.iter().skip(j).step_by(columns).copied()).collect()
+pub fn transpose(matrix: &[f64], column_count: usize) -> Vec<f64> {
+    (0..column_count)
+        .flat_map(|j| matrix.iter().skip(j).step_by(column_count).copied())
+        .collect()
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ mod changing;
 
 pub use changing::ChangingFactor;
 
+use crate::block_lu::BlockLu;
 use crate::elimination::{Elimination, by_columns};
 use crate::error::{Error, Result};
 use crate::product::symmetric_product;
@@ -32,10 +33,18 @@ pub struct SparseFactor {
     buffer: MemBuffer,
 }
 
-/// Factors by one of the two methods.
+/// Factors by one of the methods.
 enum Factors {
-    Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
-    Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
+    Cholesky {
+        symbolic: SymbolicCholesky<usize>,
+        values: Vec<f64>,
+    },
+    Lu {
+        symbolic: SymbolicLu<usize>,
+        numeric: NumericLu<usize, f64>,
+    },
+    /// Of a matrix that changes.
+    BlockLu(Box<BlockLu>),
 }
 
 impl Factors {
@@ -48,6 +57,7 @@ impl Factors {
             Self::Lu { symbolic, .. } => {
                 symbolic.solve_in_place_scratch::<f64>(column_count, Par::Seq)
             }
+            Self::BlockLu(blocks) => blocks.solve_scratch(),
         }
     }
 }
@@ -151,6 +161,7 @@ impl SparseFactor {
         match &self.factors {
             Factors::Cholesky { values, .. } => values.len(),
             Factors::Lu { .. } => self.order * self.order,
+            Factors::BlockLu(blocks) => blocks.value_count(),
         }
     }
 
@@ -234,8 +245,13 @@ impl SparseFactor {
         buffer: &mut MemBuffer,
     ) {
         let stack = MemStack::new(buffer);
+        if let Factors::BlockLu(blocks) = factors {
+            let columns = rhs.chunks_exact_mut(order.max(1));
+            return columns.for_each(|column| blocks.solve(column, is_transposed, stack));
+        }
         let rhs = MatMut::from_column_major_slice_mut(rhs, order, column_count);
         match factors {
+            Factors::BlockLu(_) => {}
             Factors::Cholesky { symbolic, values } => {
                 let factor = LltRef::new(symbolic, values);
                 factor.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);

@@ -53,7 +53,7 @@ impl SparseMatrix {
     }
 
     /// Index of the mirrored entry of each stored entry; `usize::MAX` if it is not stored.
-    pub(super) fn mirrored_indices(&self) -> impl Iterator<Item = usize> {
+    fn mirrored_indices(&self) -> impl Iterator<Item = usize> {
         // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search
         // there.
         let mut search_starts = self.row_starts.clone();
@@ -69,7 +69,7 @@ impl SparseMatrix {
 }
 
 /// Largest difference of mirrored entries relative to the largest entry, from the pairs of all stored entries.
-pub(super) fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let mut max_value = 0.0_f64;
     let mut max_difference = 0.0_f64;
     for (value, mirrored_value) in pairs {
@@ -77,6 +77,50 @@ pub(super) fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64
         max_difference = max_difference.max((value - mirrored_value).abs());
     }
     if max_value > 0.0 { max_difference / max_value } else { 0.0 }
+}
+
+/// Places of mirrored entries in the pattern of a matrix, for its asymmetry with other values.
+pub(super) struct MirroredPairs {
+    /// Indices of an entry above the diagonal and of its mirrored entry.
+    pairs: Vec<[usize; 2]>,
+    /// Indices of entries whose mirrored entry is not stored.
+    single_indices: Vec<usize>,
+}
+
+impl MirroredPairs {
+    /// Pairs in the pattern of a matrix.
+    pub(super) fn of(matrix: &SparseMatrix) -> Self {
+        let mut pairs = Vec::new();
+        let mut single_indices = Vec::new();
+        for (index, mirrored_index) in matrix.mirrored_indices().enumerate() {
+            if mirrored_index == usize::MAX {
+                single_indices.push(index);
+            } else if index < mirrored_index {
+                pairs.push([index, mirrored_index]);
+            }
+        }
+        Self { pairs, single_indices }
+    }
+
+    /// Whether the mirrored entry of each entry is stored.
+    pub(super) fn is_symmetric_pattern(&self) -> bool {
+        self.single_indices.is_empty()
+    }
+
+    /// Largest |a_ij − a_ji| relative to the largest |a_ij|, as [`SparseMatrix::asymmetry`].
+    pub(super) fn asymmetry(&self, matrix: &SparseMatrix) -> f64 {
+        let values = &matrix.values;
+        let max_value = largest_of(values.iter().map(|value| value.abs()));
+        let differences = self.pairs.iter().map(|[a, b]| (values[*a] - values[*b]).abs());
+        let single_values = self.single_indices.iter().map(|index| values[*index].abs());
+        let max_difference = largest_of(differences).max(largest_of(single_values));
+        if max_value > 0.0 { max_difference / max_value } else { 0.0 }
+    }
+}
+
+/// Largest of numbers above zero.
+fn largest_of(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |max, number| if number > max { number } else { max })
 }
 
 #[cfg(test)]
@@ -89,6 +133,8 @@ mod tests {
     fn asymmetry_is_that_of_the_dense_matrix() {
         let mut triplets = Triplets::new(7);
         (0..25).for_each(|k| triplets.add(k * k % 7, (5 * k + 2) % 7, k as f64 - 9.5));
+        // The only entry whose mirrored entry is stored.
+        triplets.add(2, 0, 4.5);
         let matrix = SparseMatrix::new("test", &triplets).unwrap();
         let mut dense = [[0.0; 7]; 7];
         matrix.entries().for_each(|(i, j, value)| dense[i][j] = value);
@@ -100,6 +146,9 @@ mod tests {
         }
         assert!(max_difference > 0.0);
         assert_eq!(matrix.asymmetry(), max_difference / max_value);
+        let pairs = MirroredPairs::of(&matrix);
+        assert!(!pairs.pairs.is_empty() && !pairs.single_indices.is_empty());
+        assert_eq!(pairs.asymmetry(&matrix), max_difference / max_value);
         let (row, column, pair) = matrix.unsymmetric_pair(|_, _| 0.0).unwrap();
         assert_eq!(pair, [dense[row][column], dense[column][row]]);
         assert_eq!((pair[0] - pair[1]).abs(), max_difference);

@@ -11,13 +11,13 @@ pub struct Triplets {
     order: usize,
     entries: Vec<(usize, usize, f64)>,
     /// Offset of indices while a block is written, see [`Triplets::block`].
-    shift: Option<usize>,
+    index_offset: Option<usize>,
 }
 
 impl Triplets {
     /// Empty matrix of `order` rows and columns.
     pub fn new(order: usize) -> Self {
-        Self { order, entries: Vec::new(), shift: None }
+        Self { order, entries: Vec::new(), index_offset: None }
     }
 
     /// Matrix of `order` rows and columns from its entries (row, column, value).
@@ -34,7 +34,7 @@ impl Triplets {
         order: usize,
         entries: impl IntoIterator<Item = (usize, usize, f64)>,
     ) -> Self {
-        Self { order, entries: entries.into_iter().collect(), shift: None }
+        Self { order, entries: entries.into_iter().collect(), index_offset: None }
     }
 
     /// Matrix of `order` rows and columns from all its `values`, row-major; zeros are omitted.
@@ -88,10 +88,10 @@ impl Triplets {
             in_bounds("column of a matrix", *column, order)?;
         }
         let mut entries = Vec::with_capacity(values.len());
-        for (row, ends) in pointers.windows(2).enumerate() {
-            entries.extend((ends[0]..ends[1]).map(|k| (row, columns[k], values[k])));
+        for (row, bounds) in pointers.windows(2).enumerate() {
+            entries.extend((bounds[0]..bounds[1]).map(|k| (row, columns[k], values[k])));
         }
-        Ok(Self { order, entries, shift: None })
+        Ok(Self { order, entries, index_offset: None })
     }
 
     /// Number of rows and columns.
@@ -103,15 +103,15 @@ impl Triplets {
     /// Adds `value` at (`row`, `column`).
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.entries.push((self.shifted(row), self.shifted(column), value));
+        self.entries.push((self.index_in_matrix(row), self.index_in_matrix(column), value));
     }
 
     /// Index in the whole matrix of an index in the current block.
     #[inline]
-    fn shifted(&self, index: usize) -> usize {
-        match self.shift {
+    fn index_in_matrix(&self, index: usize) -> usize {
+        match self.index_offset {
             None => index,
-            Some(shift) if index < self.order => index + shift,
+            Some(offset) if index < self.order => index + offset,
             // An index outside the block must not become a valid index of the whole matrix.
             Some(_) => usize::MAX,
         }
@@ -122,7 +122,15 @@ impl Triplets {
     /// A full block has `indices.len()` squared entries; entries missing at the end count as zeros.
     #[inline]
     pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
-        for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
+        let rows = indices.iter().zip(block.chunks(indices.len().max(1)));
+        if self.index_offset.is_none() {
+            for (&row, values) in rows {
+                let columns = indices.iter().zip(values);
+                self.entries.extend(columns.map(|(&column, &value)| (row, column, value)));
+            }
+            return;
+        }
+        for (row, values) in rows {
             for (column, &value) in indices.iter().zip(values) {
                 self.add(*row, *column, value);
             }
@@ -156,7 +164,7 @@ impl Triplets {
         &self.entries
     }
 
-    /// Calls `write` with indices relative to a diagonal block: `order` rows from `first_row` on.
+    /// Calls `write`, whose indices are relative to a diagonal block of `order` rows from `first_row` on.
     #[doc(hidden)]
     pub fn block<T>(
         &mut self,
@@ -165,15 +173,15 @@ impl Triplets {
         write: impl FnOnce(&mut Self) -> T,
     ) -> T {
         let outer_order = self.order;
-        let outer_shift = self.shift;
-        let block_shift = Some(outer_shift.unwrap_or(0) + first_row);
+        let outer_offset = self.index_offset;
+        let block_offset = Some(outer_offset.unwrap_or(0) + first_row);
         self.order = order;
-        self.shift = block_shift;
+        self.index_offset = block_offset;
         let result = write(self);
         // If `write` has replaced the triplets, their order is kept, and a later check of the order fails.
-        if self.order == order && self.shift == block_shift {
+        if self.order == order && self.index_offset == block_offset {
             self.order = outer_order;
-            self.shift = outer_shift;
+            self.index_offset = outer_offset;
         }
         result
     }
@@ -193,7 +201,7 @@ impl FromIterator<(usize, usize, f64)> for Triplets {
         let entries: Vec<_> = entries.into_iter().collect();
         let max_index = entries.iter().map(|&(row, column, _)| row.max(column)).max();
         let order = max_index.map_or(0, |index| index.saturating_add(1));
-        Self { order, entries, shift: None }
+        Self { order, entries, index_offset: None }
     }
 }
 

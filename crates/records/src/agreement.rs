@@ -2,7 +2,9 @@
 
 use crate::error::FileFault;
 
-/// Largest difference from a stated duration or time that counts as rounding, relative to the stated value.
+/// Largest accepted difference from a stated duration or time, relative to the stated value.
+///
+/// Some stated durations are approximate; a wrong unit or time step causes a larger difference.
 const DURATION_TOLERANCE: f64 = 0.03;
 /// Largest ratio of a stated peak and the samples' peak that a change of the baseline may explain.
 ///
@@ -32,7 +34,7 @@ pub(super) fn check_duration(
     }
 }
 
-/// Error unless two places state the same number, up to its last printed digit.
+/// Error unless two places state the same number, up to [`PRINTED_NUMBER_TOLERANCE`].
 pub(super) fn check_number(
     quantity: &'static str,
     value: f64,
@@ -58,11 +60,11 @@ pub(super) fn check_peak(samples: &[f64], stated_peak: f64) -> Result<(), FileFa
     Err(contradiction("peak acceleration (m/s²)", computed_peak, stated_peak))
 }
 
-/// Largest magnitude of the differences of the samples from `mean`.
-fn max_deviation(samples: &[f64], mean: f64) -> f64 {
+/// Largest magnitude of the differences of the samples from `reference`.
+fn max_deviation(samples: &[f64], reference: f64) -> f64 {
     samples
         .iter()
-        .fold(0.0_f64, |max_magnitude, sample| max_magnitude.max((sample - mean).abs()))
+        .fold(0.0_f64, |max_magnitude, sample| max_magnitude.max((sample - reference).abs()))
 }
 
 /// Whether the stated peak may be that of the samples.
@@ -83,7 +85,7 @@ pub(super) fn check_extreme(
     stated_value: f64,
 ) -> Result<(), FileFault> {
     check_peak(samples, stated_value)?;
-    let mut first_sample_time = None;
+    let mut first_match_time = None;
     for (index, sample) in samples.iter().enumerate() {
         if (sample - stated_value).abs() <= PRINTED_NUMBER_TOLERANCE * stated_value.abs() {
             let sample_time = index as f64 * time_step;
@@ -92,13 +94,13 @@ pub(super) fn check_extreme(
             {
                 return Ok(());
             }
-            first_sample_time.get_or_insert(sample_time);
+            first_match_time.get_or_insert(sample_time);
         }
     }
-    match first_sample_time {
+    match first_match_time {
         None => Ok(()),
-        Some(sample_time) => {
-            Err(contradiction("time of the peak acceleration (s)", sample_time, stated_time))
+        Some(match_time) => {
+            Err(contradiction("time of the peak acceleration (s)", match_time, stated_time))
         }
     }
 }
@@ -116,8 +118,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn durations_are_rounded_and_no_more() {
-        for (sample_count, time_step, stated, rounding) in [
+    fn durations_agree_up_to_rounding() {
+        for (sample_count, time_step, stated_duration, stated_rounding) in [
             (400, 0.005, 2.0, 0.0),
             (401, 0.005, 2.0, 0.0),
             (7000, 0.01, 70.0, 1.0),
@@ -126,32 +128,32 @@ mod tests {
             (1560, 0.02, 31.0, 1.0),
         ] {
             assert_eq!(
-                check_duration(sample_count, time_step, stated, rounding),
+                check_duration(sample_count, time_step, stated_duration, stated_rounding),
                 Ok(()),
                 "{sample_count} {time_step}"
             );
         }
-        for (sample_count, time_step, stated, rounding) in [
+        for (sample_count, time_step, stated_duration, stated_rounding) in [
             (400, 5e-6, 2.0, 1.0),
             (400, 5.0, 2.0, 1.0),
             (7000, 0.005, 70.0, 1.0),
             (400, 0.005, 2.5, 0.0),
         ] {
             assert!(
-                check_duration(sample_count, time_step, stated, rounding).is_err(),
+                check_duration(sample_count, time_step, stated_duration, stated_rounding).is_err(),
                 "{sample_count} {time_step}"
             );
         }
     }
 
     #[test]
-    fn peaks_show_units() {
+    fn peak_in_another_unit_is_an_error() {
         let samples = [0.1, -0.4, 0.2];
-        for stated in [0.4, -0.4, 0.0, 0.37, 0.25] {
-            assert_eq!(check_peak(&samples, stated), Ok(()), "{stated}");
+        for stated_peak in [0.4, -0.4, 0.0, 0.37, 0.25] {
+            assert_eq!(check_peak(&samples, stated_peak), Ok(()), "{stated_peak}");
         }
-        for stated in [0.04, 3.92, 0.4 / 2.54, 1.01] {
-            assert!(check_peak(&samples, stated).is_err(), "{stated}");
+        for stated_peak in [0.04, 3.92, 0.4 / 2.54, 1.01] {
+            assert!(check_peak(&samples, stated_peak).is_err(), "{stated_peak}");
         }
         assert_eq!(check_peak(&[10.1, 10.0, 9.9], 0.1), Ok(()));
         assert_eq!(check_peak(&[0.0, 0.0], 3.0), Ok(()));

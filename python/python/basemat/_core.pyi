@@ -1203,8 +1203,8 @@ class Probe:
         """
     @staticmethod
     def section(name: str, section: SectionRows, *, unit: str | None = None) -> Probe:
-        """Resultant of a ``section`` (`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
-        series ``name``; ``unit``: its label; unless given, the section's.
+        """Resultant of a ``section`` (`SectionRows`), a force (N/m, in plan N) or a moment (N·m/m, in plan N·m), as the
+        time series ``name``; ``unit``: its label; unless given, the section's.
         """
     @property
     def name(self) -> str:
@@ -1640,9 +1640,10 @@ class Run(Summary):
         `Simulation.run`.
         """
     def rocking(self, foundation: int = 0, *, across: bool = False) -> dict[str, NDArray[np.float64]]:
-        """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
-        of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-        "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
+        """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across``
+        about x: dict of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its
+        middle (N·m/m, in plan N·m), "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ,
+        J/m, in plan J).
         """
     def equivalent_damping(
         self,
@@ -2284,9 +2285,10 @@ class Simulation:
     def set_load(self, index: int, value: float | None) -> None:
         """Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
 
-        ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
-        of the load; None restores that function. A controller computes the force from the last state and sets it before
-        each `step`. A checkpoint contains the force that was set; `reset` restores the functions.
+        ``value``: the total force (N/m; on a rotation N·m/m; in plan N and N·m), which includes the static force, in
+        place of the function of the load; None restores that function. A controller computes the force from the last
+        state and sets it before each `step`. A checkpoint contains the force that was set; `reset` restores the
+        functions.
         """
     def interaction(self, duration: float | None = None) -> Interaction:
         """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; the
@@ -2423,8 +2425,8 @@ class Load:
     """A force that acts on a structure from outside.
 
     ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
-    force (N/m; on a rotation a moment, N·m/m); it may raise an exception. Its value at t = 0 belongs to the static
-    state: it is applied slowly after the weight, while the interface law acts.
+    force (N/m; on a rotation a moment, N·m/m); it may raise an exception. In plan forces are in N and moments in N·m.
+    Its value at t = 0 belongs to the static state: it is applied slowly after the weight, while the interface law acts.
     """
 
     def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
@@ -2931,8 +2933,8 @@ class BeamEndRows:
 class Structure:
     """A structure with n degrees of freedom, which only the ground supports.
 
-    Degrees of freedom are in m and rad. The object is a description from which each simulation builds a separate
-    structure.
+    Degrees of freedom are in m and rad. Matrices are per metre of thickness in the plane, of the whole structure in
+    plan. The object is a description from which each simulation builds a separate structure.
     """
 
     @property
@@ -3499,7 +3501,7 @@ class Grid:
 @disjoint_base
 class Hysteresis:
     """A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
-    are per metre of thickness.
+    are per metre of thickness in the plane, of the whole spring in plan (N and N/m).
     """
 
     def path(self, deformations: ArrayLike) -> list[float]:
@@ -3617,8 +3619,8 @@ class WithSprings(Structure):
 
 @final
 class Material:
-    """Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
-    ``density`` (kg/m³).
+    """Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
+    ``poisson``, ``density`` (kg/m³).
     """
 
     def __new__(cls, young_modulus: float, poisson: float, density: float) -> Self: ...

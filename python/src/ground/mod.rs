@@ -1,4 +1,4 @@
-//! Grounds.
+//! Python classes of grounds, their outlines and their impedances.
 
 mod elastic;
 mod plan;

@@ -22,9 +22,9 @@ use crate::ticker::with_progress;
 
 /// A damping law that several grounds read.
 #[derive(Debug, Clone)]
-struct SharedLaw(Arc<dyn Relaxation>);
+struct SharedRelaxation(Arc<dyn Relaxation>);
 
-impl Relaxation for SharedLaw {
+impl Relaxation for SharedRelaxation {
     fn modulus(&self, s: Complex) -> Complex {
         self.0.modulus(s)
     }
@@ -51,18 +51,18 @@ struct BackfillArguments {
     /// Width beside each wall, m.
     width: f64,
     soil: PySoil,
-    damping: SharedLaw,
+    damping: SharedRelaxation,
 }
 
 extracts!(BackfillArguments, object => {
     if let Ok((width, soil)) = object.extract::<(f64, Bound<'_, PySoil>)>() {
-        let damping = SharedLaw(law_or_elastic(None));
+        let damping = SharedRelaxation(law_or_elastic(None));
         return Ok(Self { width, soil: PySoil(soil.get().0), damping });
     }
     let requirement = "a tuple (width, Soil) or (width, Soil, DampingLaw)";
     match object.extract::<(f64, Bound<'_, PySoil>, Bound<'_, PyDampingLaw>)>() {
         Ok((width, soil, damping)) => {
-            let damping = SharedLaw(law_or_elastic(Some(damping.get())));
+            let damping = SharedRelaxation(law_or_elastic(Some(damping.get())));
             Ok(Self { width, soil: PySoil(soil.get().0), damping })
         }
         Err(_) => Err(type_error(&object, requirement)),

@@ -52,7 +52,7 @@ impl PyTrenchMotion {
         wave: Bound<'_, PyAny>,
     ) -> PyResult<Py<Self>> {
         let field = free_field_object(&wave)?.get();
-        let requirement = "the wave runs along the surface: a travelling_wave, or a field of a PlaneWave or an InclinedWave";
+        let requirement = "the wave must travel along the surface: give a travelling_wave, or a field of a PlaneWave or an InclinedWave";
         let make_wave = field.wave.as_ref().ok_or_else(|| input_error(requirement))?;
         let wave = make_wave().or_raise()?;
         let ground = (ground.get().make)().or_raise()?;

@@ -37,9 +37,10 @@ impl PyRun {
         Ok(OrderedDict(columns))
     }
 
-    /// Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
-    /// of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-    /// "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
+    /// Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across``
+    /// about x: dict of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its
+    /// middle (N·m/m, in plan N·m), "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ,
+    /// J/m, in plan J).
     #[pyo3(signature = (foundation=0, *, across=false))]
     fn rocking(
         &self,

@@ -318,9 +318,10 @@ impl PySimulation {
 
     /// Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
     ///
-    /// ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
-    /// of the load; None restores that function. A controller computes the force from the last state and sets it before
-    /// each `step`. A checkpoint contains the force that was set; `reset` restores the functions.
+    /// ``value``: the total force (N/m; on a rotation N·m/m; in plan N and N·m), which includes the static force, in
+    /// place of the function of the load; None restores that function. A controller computes the force from the last
+    /// state and sets it before each `step`. A checkpoint contains the force that was set; `reset` restores the
+    /// functions.
     fn set_load(
         &self,
         #[pyo3(from_py_with = whole_numbers)] index: usize,

@@ -14,8 +14,8 @@ use crate::row::{RowLike, WeightCount};
 /// A force that acts on a structure from outside.
 ///
 /// ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
-/// force (N/m; on a rotation a moment, N·m/m); it may raise an exception. Its value at t = 0 belongs to the static
-/// state: it is applied slowly after the weight, while the interface law acts.
+/// force (N/m; on a rotation a moment, N·m/m); it may raise an exception. In plan forces are in N and moments in N·m.
+/// Its value at t = 0 belongs to the static state: it is applied slowly after the weight, while the interface law acts.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Factory<Load>,

@@ -206,8 +206,8 @@ impl Options {
     }
 }
 
-/// Groups of options: the argument of the simulation, the class, and names that a user may give to `Simulation` instead
-/// of the option, which then may have a prefix.
+/// Groups of options: the argument of the simulation, the class, and names of its options, as a user may pass them to
+/// `Simulation` by mistake: some have a prefix.
 const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
     (
         "initial",

@@ -25,7 +25,7 @@ const _: () = assert!(
 );
 
 /// A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
-/// are per metre of thickness.
+/// are per metre of thickness in the plane, of the whole spring in plan (N and N/m).
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
     make: Recipe<dyn Hysteresis>,

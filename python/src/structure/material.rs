@@ -25,8 +25,8 @@ pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<Quad
     choice("formulation", name, &choices)
 }
 
-/// Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
-/// ``density`` (kg/m³).
+/// Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
+/// ``poisson``, ``density`` (kg/m³).
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 

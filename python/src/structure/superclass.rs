@@ -16,8 +16,8 @@ use crate::user::UserStructure;
 
 /// A structure with n degrees of freedom, which only the ground supports.
 ///
-/// Degrees of freedom are in m and rad. The object is a description from which each simulation builds a separate
-/// structure.
+/// Degrees of freedom are in m and rad. Matrices are per metre of thickness in the plane, of the whole structure in
+/// plan. The object is a description from which each simulation builds a separate structure.
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,

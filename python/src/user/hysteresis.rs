@@ -56,7 +56,8 @@ pub(crate) fn hysteresis_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dy
 struct UserHysteresis {
     object: UserObject,
     committed: CommittedState,
-    /// Initial stiffness, N/m; if the object has no method `energy`, it is also the stiffness of unloading.
+    /// Initial stiffness, N/m; if the object has no method `energy`, its elastic energy is computed with this
+    /// stiffness.
     stiffness: f64,
     /// The deformation of the last call of `response`, and its result.
     last_response: Cell<Option<(f64, SpringResponse)>>,

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use basemat_fourier::num_complex::Complex64;
 
-use super::column::{EdgeLoads, ElementBasis, ElementColumn, Moduli};
-use super::grid::{Interval, TrenchGrid, WallInterval};
-use super::polynomials::IntervalFunctions;
-use super::stack::{CoarseStack, InterpolationEntry, Stack, StackElement};
+use super::column::ElementColumn;
+use super::element::{ColumnElement, ElementBasis};
+use super::forms::Moduli;
+use super::grid::{Interval, TrenchGrid};
+use super::mesh::{ColumnMesh, MeshKey, MeshPlans};
+use super::stack::{Stack, StackElement};
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
 
@@ -52,6 +54,7 @@ fn relative_difference(matrix: &ComplexBlock, other_matrix: &ComplexBlock) -> f6
 /// Finite elements around a trench at one Laplace variable.
 pub(super) struct TrenchModel<'a> {
     pub(super) grid: &'a TrenchGrid,
+    pub(super) plans: &'a MeshPlans,
     pub(super) degree: usize,
     pub(super) bottom: &'a Bottom,
     /// Elastic constants of the soils from the surface down, and then of the backfill if there is any.
@@ -64,50 +67,59 @@ impl TrenchModel<'_> {
     /// # Errors
     /// [`Error::Singular`](crate::Error::Singular).
     pub(super) fn compliances(&self) -> Result<Option<HalfCompliances>> {
-        let Self { grid, degree, .. } = self;
-        let functions = ElementBasis::new(*degree, self.bottom.degree);
-        let full_stack = self.stack(false);
-        let CoarseStack { stack: coarse_stack, interpolation } =
-            full_stack.coarsened(&self.element_groups());
-        let regular_column = functions.column(
-            grid.regular_column_width,
-            &coarse_stack,
-            self.soils,
-            EdgeLoads::NO_LOADS,
-        )?;
-        let coarse_node_count = coarse_stack.node_count();
-        let Some(far_stiffness) = far_side_stiffness(regular_column, coarse_node_count)? else {
+        let stack = self.stack(false);
+        let joined = stack.joined(&self.element_groups());
+        let mesh = ColumnMesh { grid: self.grid, stack: &stack, joined: &joined };
+        let key = MeshKey {
+            degree: self.degree,
+            stretched_degree: self.bottom.degree,
+            stretched_count: self.bottom.heights.len(),
+        };
+        let plan = self.plans.plan(key, || mesh.plan(key));
+        let width = self.grid.regular_column_width;
+        let column = ElementColumn::new(&plan.basis, width, &joined.stack, self.soils)?;
+        let Some(far_stiffness) = far_side_stiffness(column, joined.stack.node_count())? else {
             return Ok(None);
         };
-        let mut side =
-            SideStiffness { matrix: far_stiffness, node_count: coarse_node_count, load_count: 0 };
-        let load_count = self.load_count();
-        let no_edge_loads = EdgeLoads { count: load_count, first_load: None };
-        for (k, width) in grid.column_widths.iter().enumerate().rev() {
-            let stack = self.stack(k < grid.backfilled_column_count);
-            let column = functions.column(*width, &stack, self.soils, no_edge_loads)?;
-            let is_outermost = k + 1 == grid.column_widths.len();
-            let line_interpolation = is_outermost.then_some(&interpolation[..]);
-            side = side.with_column(&column, stack.node_count(), load_count, line_interpolation)?;
-        }
-        self.load_wall(&mut side);
-        let stack_below_base = Stack(full_stack.0[grid.wall_intervals.len()..].to_vec());
-        for (k, length) in grid.base_lengths.iter().enumerate().rev() {
-            let loads = EdgeLoads { count: load_count, first_load: Some(2 * k) };
-            let column = functions.column(*length, &stack_below_base, self.soils, loads)?;
-            side = side.with_column(&column, stack_below_base.node_count(), load_count, None)?;
-        }
-        let node_count = side.node_count;
+        let mut matrices = self.element_matrices(&mesh, &plan.basis)?;
+        matrices.push(far_stiffness);
+        let matrix = plan.elimination.retained_matrix(matrices)?;
+        let node_count = mesh.axis_node_count();
         // On the axis the horizontal displacement of symmetric fields is fixed, and the vertical one of others.
         Ok(Some(HalfCompliances {
-            symmetric: side.compliance(node_count..2 * node_count)?,
-            antisymmetric: side.compliance(0..node_count)?,
+            symmetric: compliance(&matrix, 2 * node_count, node_count..2 * node_count)?,
+            antisymmetric: compliance(&matrix, 2 * node_count, 0..node_count)?,
         }))
     }
 
-    /// Number of loads: two for each element of the base and of a wall.
-    fn load_count(&self) -> usize {
-        2 * (self.grid.base_lengths.len() + self.grid.wall_element_count())
+    /// Matrices of all elements between the axis and the regular columns.
+    fn element_matrices(
+        &self,
+        mesh: &ColumnMesh,
+        basis: &ElementBasis,
+    ) -> Result<Vec<ComplexBlock>> {
+        let filled_stack = self.stack(true);
+        let filled_column_count = self.grid.backfilled_column_count;
+        let mut matrices = vec![];
+        for cell in mesh.cells() {
+            let index = mesh.column_beyond_wall(cell.column);
+            let is_filled = index.is_some_and(|index| index < filled_column_count);
+            let stack = if is_filled { &filled_stack } else { mesh.stack };
+            let StackElement { height, soil_index, degree } = stack.0[cell.row];
+            let width = mesh.column_width(cell.column);
+            let moduli = self.soils[soil_index];
+            let element = ColumnElement { width, height, degree, moduli };
+            let loaded_edge = mesh.load(cell).map(|(edge, _)| edge);
+            let mut matrix = basis.stiffness(&element, loaded_edge)?;
+            let place = &mesh.joined.places[cell.row];
+            if let Some(interpolation) = &place.interpolation
+                && mesh.is_outermost(cell.column)
+            {
+                interpolate_right_side(&mut matrix, interpolation, degree + 1);
+            }
+            matrices.push(matrix);
+        }
+        Ok(matrices)
     }
 
     /// Elements of a column from the surface to the fixed bottom.
@@ -161,137 +173,53 @@ impl TrenchModel<'_> {
         }
         groups
     }
+}
 
-    /// Adds the loads on the wall to the matrix of the line of the wall.
-    fn load_wall(&self, side: &mut SideStiffness) {
-        let function_means = IntervalFunctions::lagrange(self.degree).means();
-        let mut top_node = 0;
-        let base_count = self.grid.base_lengths.len();
-        for WallInterval { interval, element } in &self.grid.wall_intervals {
-            for (j, mean) in function_means.iter().enumerate() {
-                let node = top_node + j;
-                if node >= side.node_count {
-                    continue;
-                }
-                for component in 0..2 {
-                    let row = component * side.node_count + node;
-                    let load_row = 2 * side.node_count + 2 * (base_count + element) + component;
-                    side.matrix[(row, load_row)] -= mean * interval.length;
-                    side.matrix[(load_row, row)] -= mean * interval.length;
-                }
+/// Replaces the functions of the right side of an element by those of a joined element.
+///
+/// `interpolation`: functions of the joined element at the nodes of the side, node by node.
+fn interpolate_right_side(matrix: &mut ComplexBlock, interpolation: &[f64], node_count: usize) {
+    let order = matrix.rows();
+    for component in [2, 3] {
+        let rows = component * node_count..(component + 1) * node_count;
+        for column in 0..order {
+            let values: Vec<_> = rows.clone().map(|row| matrix[(row, column)]).collect();
+            for (function, row) in rows.clone().enumerate() {
+                matrix[(row, column)] = interpolated(&values, interpolation, function);
             }
-            top_node += self.degree;
+        }
+        for row in 0..order {
+            let values: Vec<_> = rows.clone().map(|column| matrix[(row, column)]).collect();
+            for (function, column) in rows.clone().enumerate() {
+                matrix[(row, column)] = interpolated(&values, interpolation, function);
+            }
         }
     }
 }
 
-/// Stiffness of the soil beyond a vertical line, bordered by the loads there.
-struct SideStiffness {
-    matrix: ComplexBlock,
-    node_count: usize,
-    load_count: usize,
+/// Sum of `values` at nodes times a function of a joined element there.
+fn interpolated(values: &[Complex64], interpolation: &[f64], function: usize) -> Complex64 {
+    let functions = interpolation.chunks_exact(values.len());
+    values
+        .iter()
+        .zip(functions)
+        .map(|(value, functions)| value * functions[function])
+        .sum()
 }
 
-impl SideStiffness {
-    /// Stiffness beyond the left side of a column that is joined to this line.
-    ///
-    /// `node_count`: of the left side. `line_interpolation`: of the displacements of this line (coarse) at the nodes of
-    /// the column (fine); `None` if the column has the lowest nodes of this line.
-    fn with_column(
-        self,
-        column: &ElementColumn,
-        node_count: usize,
-        load_count: usize,
-        line_interpolation: Option<&[InterpolationEntry]>,
-    ) -> Result<Self> {
-        let line_order = 2 * self.node_count;
-        let order = 2 * node_count + load_count;
-        let mut matrix = column.mean(1.0);
-        let cross_stiffness = column.mean(-1.0);
-        let mut pivot = self.matrix.submatrix(0..line_order, 0..line_order);
-        let mut coupling = ComplexBlock::zeros(line_order, order);
-        let interpolation = self.dof_interpolation(node_count, line_interpolation);
-        for InterpolationEntry { fine_index: dof, coarse_index: line_dof, value } in &interpolation
-        {
-            for j in 0..order {
-                let stiffness = mirrored(*dof, node_count, cross_stiffness[(*dof, j)]);
-                coupling[(*line_dof, j)] += stiffness * *value;
-            }
-        }
-        let mut column_stiffness = ComplexBlock::zeros(line_order, 2 * node_count);
-        for InterpolationEntry { fine_index: dof, coarse_index: line_dof, value } in &interpolation
-        {
-            for j in 0..2 * node_count {
-                let stiffness =
-                    mirrored(*dof, node_count, mirrored(j, node_count, matrix[(*dof, j)]));
-                column_stiffness[(*line_dof, j)] += stiffness * *value;
-            }
-        }
-        for InterpolationEntry { fine_index: dof, coarse_index: line_dof, value } in &interpolation
-        {
-            for i in 0..line_order {
-                pivot[(i, *line_dof)] += column_stiffness[(i, *dof)] * *value;
-            }
-        }
-        // Both triangles are equal to the last bit for any order of the sums.
-        for i in 0..self.load_count {
-            for line_dof in 0..line_order {
-                coupling[(line_dof, 2 * node_count + i)] += self.matrix[(line_dof, line_order + i)];
-            }
-            for j in 0..self.load_count {
-                matrix[(2 * node_count + i, 2 * node_count + j)] +=
-                    self.matrix[(line_order + i, line_order + j)];
-            }
-        }
-        matrix.eliminate(&pivot, &coupling)?;
-        Ok(Self { matrix, node_count, load_count })
-    }
-
-    /// Interpolation of this line's degrees of freedom: horizontal displacements, then vertical ones.
-    fn dof_interpolation(
-        &self,
-        node_count: usize,
-        line_interpolation: Option<&[InterpolationEntry]>,
-    ) -> Vec<InterpolationEntry> {
-        let line_node_count = self.node_count;
-        let node_interpolation: Vec<_> = match line_interpolation {
-            Some(entries) => entries.to_vec(),
-            None => (0..node_count)
-                .map(|node| InterpolationEntry {
-                    fine_index: node,
-                    coarse_index: line_node_count - node_count + node,
-                    value: 1.0,
-                })
-                .collect(),
-        };
-        let mut dof_interpolation = Vec::with_capacity(2 * node_interpolation.len());
-        for component in 0..2 {
-            for entry in &node_interpolation {
-                dof_interpolation.push(InterpolationEntry {
-                    fine_index: component * node_count + entry.fine_index,
-                    coarse_index: component * line_node_count + entry.coarse_index,
-                    value: entry.value,
-                });
-            }
-        }
-        dof_interpolation
-    }
-
-    /// Compliance of the loads with the `free` degrees of freedom of this line.
-    ///
-    /// All other degrees of freedom are fixed.
-    fn compliance(&self, free: Range<usize>) -> Result<ComplexBlock> {
-        let loads = 2 * self.node_count..2 * self.node_count + self.load_count;
-        let mut compliance = self.matrix.submatrix(loads.clone(), loads.clone());
-        let pivot = self.matrix.submatrix(free.clone(), free.clone());
-        compliance.eliminate(&pivot, &self.matrix.submatrix(free, loads))?;
-        Ok(compliance.negated())
-    }
-}
-
-/// Mirror image of a value of a degree of freedom: horizontal components change sign.
-fn mirrored(dof: usize, node_count: usize, value: Complex64) -> Complex64 {
-    if dof < node_count { -value } else { value }
+/// Compliance of the loads with the `free` degrees of freedom of the axis; all others there are fixed.
+///
+/// `matrix`: of the degrees of freedom of the axis, whose number is `axis_order`, and then of the loads.
+fn compliance(
+    matrix: &ComplexBlock,
+    axis_order: usize,
+    free: Range<usize>,
+) -> Result<ComplexBlock> {
+    let loads = axis_order..matrix.rows();
+    let mut compliance = matrix.submatrix(loads.clone(), loads.clone());
+    let pivot = matrix.submatrix(free.clone(), free.clone());
+    compliance.eliminate(&pivot, &matrix.submatrix(free, loads))?;
+    Ok(compliance.negated())
 }
 
 /// Stiffness of a side of infinitely many equal columns.

@@ -4,20 +4,26 @@
 //! |---|---|
 //! | trench | the trench and its contact elements |
 //! | grid | lines of the mesh around the trench |
-//! | polynomials, stack, column | functions of finite elements; their order in a column; matrices of a column |
+//! | polynomials, forms, element | functions and matrices of finite elements |
+//! | stack, column | elements one below the other; matrices of a column |
+//! | mesh, cliques | degrees of freedom of the mesh; their elimination |
 //! | compliance | compliances F(s) of the faces; stretched elements below the near field |
 //! | soil, free_field | the soil; vertical waves at the faces |
 //! | pairs, source | classes and compliances of pairs of elements; convolution weights |
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance | a rigid body in the trench |
 
+mod cliques;
 mod column;
 mod compliance;
 mod earth_pressure;
+mod element;
+mod forms;
 mod free_field;
 mod grid;
 mod ground;
 mod impedance;
+mod mesh;
 mod pairs;
 mod polynomials;
 mod soil;

@@ -11,6 +11,7 @@ pub(super) struct IntervalFunctions {
 }
 
 /// Integrals of products of two sets of functions; row by row.
+#[derive(Debug)]
 pub(super) struct ProductIntegrals {
     column_count: usize,
     values: Vec<f64>,

@@ -2,10 +2,11 @@
 
 use basemat_fourier::num_complex::Complex64;
 
-use super::column::Moduli;
 use super::compliance::{Bottom, HalfCompliances, TrenchModel};
+use super::forms::Moduli;
 use super::free_field::{FieldOverPiece, ProfilePiece, VerticalField};
 use super::grid::{GridLayer, TrenchGrid, WallInterval};
+use super::mesh::MeshPlans;
 use super::trench::TrenchElements;
 use crate::error::{GroundError, Result, positive, require};
 use crate::linalg::Complex;
@@ -18,6 +19,7 @@ pub(super) struct TrenchSoil {
     elements: TrenchElements,
     backfill: Option<Backfill>,
     grid: TrenchGrid,
+    plans: MeshPlans,
 }
 
 /// Soil that fills the space beside the walls.
@@ -81,7 +83,7 @@ impl TrenchSoil {
             || depth + INTERFACE_TOLERANCE * elements.trench().half_width() < profile.depth();
         require("depth of a trench", depth, is_above_bedrock, "above rigid bedrock")?;
         let grid = trench_grid(&profile, &elements, 0.0);
-        Ok(Self { profile, elements, backfill: None, grid })
+        Ok(Self { profile, elements, backfill: None, grid, plans: MeshPlans::default() })
     }
 
     /// Replaces the soil beside the walls by backfill of a `width` (m), from the surface to the base.
@@ -96,6 +98,7 @@ impl TrenchSoil {
     ) -> Result<Self> {
         positive("width of the backfill", width)?;
         self.grid = trench_grid(&self.profile, &self.elements, width);
+        self.plans = MeshPlans::default();
         let profile = SoilProfile::on_half_plane(soil).with_bedrock_damping(damping);
         self.backfill = Some(Backfill { width, profile });
         Ok(self)
@@ -105,7 +108,8 @@ impl TrenchSoil {
     pub(super) fn halved(&self) -> Self {
         let width = self.backfill.as_ref().map_or(0.0, |backfill| backfill.width);
         let elements = self.elements.halved();
-        Self { grid: trench_grid(&self.profile, &elements, width), elements, ..self.clone() }
+        let grid = trench_grid(&self.profile, &elements, width);
+        Self { grid, plans: MeshPlans::default(), elements, ..self.clone() }
     }
 
     /// Soil beside and below the trench.
@@ -276,7 +280,7 @@ impl TrenchSoil {
         soils: &[Moduli],
     ) -> Result<HalfCompliances> {
         let TrenchMesh { degree, bottom } = mesh;
-        TrenchModel { grid: &self.grid, degree: *degree, bottom, soils }
+        TrenchModel { grid: &self.grid, plans: &self.plans, degree: *degree, bottom, soils }
             .compliances()?
             .ok_or_else(|| GroundError::GuidedWave { re: s.re, im: s.im }.into())
     }

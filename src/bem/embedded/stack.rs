@@ -1,4 +1,4 @@
-//! Stack of elements of a column: its nodes, and the interpolation between a coarse and a fine stack.
+//! Stack of elements of a column: its nodes, and the interpolation between joined elements and the original ones.
 
 use std::ops::Range;
 
@@ -20,19 +20,20 @@ pub(super) struct StackElement {
 #[derive(Debug, Clone)]
 pub(super) struct Stack(pub(super) Vec<StackElement>);
 
-/// Entry of the matrix that interpolates values of a coarse stack at the nodes of a fine stack.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct InterpolationEntry {
-    pub(super) fine_index: usize,
-    pub(super) coarse_index: usize,
-    /// Value of the function of the coarse node at the fine node.
-    pub(super) value: f64,
+/// Place of an element in a stack of joined elements.
+#[derive(Debug, Clone)]
+pub(super) struct JoinedPlace {
+    /// Index of the joined element.
+    pub(super) element: usize,
+    /// Functions of the joined element at the nodes of the element, node by node; `None` if both are the same.
+    pub(super) interpolation: Option<Vec<f64>>,
 }
 
-/// Stack of joined elements, and its interpolation at the nodes of the original stack.
-pub(super) struct CoarseStack {
+/// Stack of joined elements, and the place of each of the original elements.
+#[derive(Debug, Clone)]
+pub(super) struct JoinedStack {
     pub(super) stack: Stack,
-    pub(super) interpolation: Vec<InterpolationEntry>,
+    pub(super) places: Vec<JoinedPlace>,
 }
 
 impl Stack {
@@ -41,56 +42,37 @@ impl Stack {
         self.0.iter().map(|element| element.degree).sum()
     }
 
-    /// Index of the top node of each element.
-    fn top_nodes(&self) -> Vec<usize> {
-        let mut top_nodes = Vec::with_capacity(self.0.len());
-        let mut node = 0;
-        for element in &self.0 {
-            top_nodes.push(node);
-            node += element.degree;
-        }
-        top_nodes
+    /// Index of the top node of an element; the number of nodes for the index after the last element.
+    pub(super) fn top_node(&self, element: usize) -> usize {
+        self.0[..element].iter().map(|element| element.degree).sum()
     }
 
-    /// Joins each group of elements to one element.
-    pub(super) fn coarsened(&self, element_groups: &[Range<usize>]) -> CoarseStack {
+    /// Joins each group of elements, which have real heights, to one element.
+    pub(super) fn joined(&self, element_groups: &[Range<usize>]) -> JoinedStack {
         let mut stack = Self(vec![]);
-        let mut interpolation = vec![];
-        let top_nodes = self.top_nodes();
-        let node_count = self.node_count();
-        let mut top_coarse_node = 0;
-        for group in element_groups {
+        let mut places = vec![];
+        for (index, group) in element_groups.iter().enumerate() {
             let top_element = self.0[group.start];
             let height: Complex64 =
                 self.0[group.clone()].iter().map(|element| element.height).sum();
-            let coarse_nodes = lobatto_nodes(top_element.degree);
+            let joined_nodes = lobatto_nodes(top_element.degree);
             let mut height_above = Complex64::ZERO;
-            for k in group.clone() {
-                let element = self.0[k];
-                let nodes = lobatto_nodes(element.degree);
-                // The last node of an element is the first one of the next element.
-                for (j, position) in nodes.iter().enumerate().take(element.degree) {
-                    let fine_index = top_nodes[k] + j;
-                    let x = ((height_above + element.height * *position) / height).re;
-                    for i in 0..=top_element.degree {
-                        let value = if group.len() == 1 {
-                            f64::from(u8::from(i == j))
-                        } else {
-                            lagrange(&coarse_nodes, i, x)
-                        };
-                        if value != 0.0 && fine_index < node_count {
-                            let coarse_index = top_coarse_node + i;
-                            let entry = InterpolationEntry { fine_index, coarse_index, value };
-                            interpolation.push(entry);
-                        }
+            for element in &self.0[group.clone()] {
+                let mut interpolation = None;
+                if group.len() > 1 {
+                    let mut values = vec![];
+                    for position in lobatto_nodes(element.degree) {
+                        let x = ((height_above + element.height * position) / height).re;
+                        let functions = 0..joined_nodes.len();
+                        values.extend(functions.map(|i| lagrange(&joined_nodes, i, x)));
                     }
+                    interpolation = Some(values);
                 }
+                places.push(JoinedPlace { element: index, interpolation });
                 height_above += element.height;
             }
-            top_coarse_node += top_element.degree;
             stack.0.push(StackElement { height, ..top_element });
         }
-        interpolation.retain(|entry| entry.coarse_index < top_coarse_node);
-        CoarseStack { stack, interpolation }
+        JoinedStack { stack, places }
     }
 }

@@ -131,9 +131,9 @@ mod tests {
         let kappa = modified_bessel(z, true).quotient;
         let k1 = besselk_seq(0.0, z, 2, Scaling::Unscaled).unwrap().values[1];
         assert!((kappa - (k1 / z - 1.0 / (z * z))).norm() < 1e-14);
-        let tiny = Complex64::new(3e-9, 1e-9);
-        let leading = 0.5 * (0.5 * tiny).ln() + 0.5 * EULER_GAMMA - 0.25;
-        assert!((modified_bessel(tiny, true).quotient - leading).norm() < 1e-14);
+        let small_argument = Complex64::new(3e-9, 1e-9);
+        let leading = 0.5 * (0.5 * small_argument).ln() + 0.5 * EULER_GAMMA - 0.25;
+        assert!((modified_bessel(small_argument, true).quotient - leading).norm() < 1e-14);
     }
 
     /// Means over [0, z] and [0, z/2] against a Gauss rule from z/2 to z, away from the logarithm.

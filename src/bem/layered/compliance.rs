@@ -45,16 +45,12 @@ pub(crate) struct SurfaceCompliance {
     pub(crate) xz: Complex,
 }
 
-/// Layer with its moduli at one Laplace variable.
+/// Layer with its shear modulus μ(s), q₁, q₂ and a² at one Laplace variable.
 #[derive(Debug, Clone, Copy)]
 struct LaplaceLayer {
-    /// Shear modulus μ(s), Pa.
     modulus: Complex,
-    /// q₁ of the table above, 1/m².
     q1: Complex,
-    /// q₂ of the table above, 1/m².
     q2: Complex,
-    /// Squared ratio a² of the wave speeds.
     a2: f64,
     /// Thickness, m; infinite for a half-plane.
     thickness: f64,
@@ -293,11 +289,9 @@ fn one_less_exponential(x: Complex) -> Complex {
     x * exponents.fold(one, |sum, n| one - (x * sum).scale(1.0 / n))
 }
 
-/// Down-going and up-going waves of a layer.
+/// Down-going and up-going waves of a layer with the roots α and β.
 struct LayerWaves {
-    /// Root α of P waves, 1/m.
     alpha: Complex,
-    /// Root β of S waves, 1/m.
     beta: Complex,
     /// Difference β − α, 1/m.
     root_difference: Complex,

@@ -58,9 +58,7 @@ pub(super) struct CornerWaves {
     distances: Vec<f64>,
     /// Wavenumber at the start of the first band, 1/m.
     first_wavenumber: f64,
-    /// Chebyshev coefficients of the amplitudes on each band.
-    ///
-    /// Degree by degree, wave by wave, real and imaginary parts, all corners.
+    /// Chebyshev coefficients of each band's amplitudes: degree by degree, wave by wave, real and imaginary, all corners.
     bands: Vec<OnceLock<Vec<f64>>>,
 }
 

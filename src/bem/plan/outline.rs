@@ -12,7 +12,7 @@
 //! results are continuous in D.
 
 use super::boundary::MatBoundary;
-use super::region::{CellPart, PlanGrid, Region};
+use super::region::{AREA_TOLERANCE, CellPart, PlanGrid, Region};
 
 /// Overhang of outer cells beyond the outline of a rigid mat, as a fraction of their side.
 pub(super) const RIGID_MAT_OVERHANG: f64 = 0.105;
@@ -20,7 +20,7 @@ pub(super) const RIGID_MAT_OVERHANG: f64 = 0.105;
 ///
 /// Fitted to discs and squares at several angles.
 const RIGID_EDGE_SHIFT: f64 = 0.03;
-/// Additional shift on few cells, in cells: it is divided by √n for n cells along the shorter side.
+/// Additional shift on few cells, in cells, times √n for n cells along the shorter side.
 const FEW_CELLS_EDGE_SHIFT: f64 = 0.15;
 /// Additional shift under very flexible mats, in cells.
 ///
@@ -35,19 +35,19 @@ const MAX_EDGE_SHIFT: f64 = 0.12;
 const MAX_SHIFT_PER_OVERHANG: f64 = 2.0;
 /// Sine of the angle to the lattice at which an edge has the full shift of oblique edges.
 const OBLIQUE_EDGE_SINE: f64 = 0.1;
-/// Smallest fraction of a contact element's cell inside the outline: slivers would have very soft springs.
+/// Smallest fraction of a contact element's cell inside the shifted outline, because slivers would have very soft springs.
 const MIN_INSIDE_FRACTION: f64 = 0.02;
 /// Smallest area of a cut cell, relative to its part inside the shifted outline.
 const MIN_CUT_AREA_RATIO: f64 = 0.25;
-/// Smallest area of a mat, relative to its area with shifted edges: a narrower mat has no cells.
+/// Smallest area of a mat with cells, relative to its area with shifted edges; a narrower mat has no cells.
 const MIN_MAT_AREA_RATIO: f64 = 0.5;
 /// Fraction by which the spring's compliance exceeds C/g − C if the cell is cut along a side, or nearly whole or empty.
 const CUT_CELL_SOFTENING: f64 = 0.3;
-/// Smallest area of a cut cell, relative to the product of the smallest ratio and the smallest fraction inside.
+/// Smallest area of a cut cell after the correction, relative to its smallest area before.
+///
+/// The latter is the product of the smallest ratio and the smallest fraction inside.
 const MIN_CUT_AREA_MARGIN: f64 = 0.1;
-/// Fraction of a cell below which an area is rounding.
-const AREA_TOLERANCE: f64 = 1e-9;
-/// Smallest fraction of a cell inside a mat for which the cell belongs to the mat: half, but for rounding.
+/// Smallest fraction of a cell inside a mat for which the cell belongs to the mat: half, reduced by the rounding error.
 const MIN_MEMBER_FRACTION: f64 = 0.5 - AREA_TOLERANCE;
 
 /// A cell of a mat whose outline cuts cells.
@@ -74,8 +74,9 @@ pub(super) struct MatCells {
 /// Cells of a mat row by row, each with its contact element.
 #[derive(Default)]
 pub(super) struct CellsOfMat {
+    /// Column and row of each cell.
     pub(super) cells: Vec<[usize; 2]>,
-    /// Empty if all cells of all mats are whole.
+    /// Contact element of each cell; empty if all cells of all mats are whole.
     pub(super) cut_cells: Vec<CutCell>,
 }
 
@@ -215,7 +216,7 @@ impl PlanGrid {
         cut_cells
     }
 
-    /// Contact element of a cell: the cell, or a rectangle of this `area` (in cells) about the centre of area.
+    /// Contact element of a cell with this `area` (in cells): the cell itself, or a rectangle about the centre of area.
     fn cut_cell(&self, cell: [usize; 2], part: &CellPart, area: f64) -> CutCell {
         let mut center = [0.5; 2];
         let mut half_sides = [0.5; 2];

@@ -1,8 +1,8 @@
 //! Overhang of cells under a flexible mat.
 //!
 //! The pressure under a stiff mat rises towards the edge, but the pressure on a cell is constant. Cells that extend beyond
-//! the outline compensate for it. Near its edge a mat is stiff over a distance of (D/G)^(1/3), so that the overhang
-//! depends on the ratio x of this distance to the side of a cell:
+//! the outline compensate for this error. Near its edge a mat is stiff over a distance of (D/G)^(1/3), so that the
+//! overhang depends on the ratio x of this distance to the side of a cell:
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -27,11 +27,15 @@ use crate::structure::{BaseNode, DofCombination, Triplets};
 /// Grounds under mats of similar stiffness then share their convolution weights, and a very stiff mat has the cells of a
 /// rigid one.
 const OVERHANG_STEP_COUNT: f64 = 7.0;
-/// Number of layers of elements above the base with free degrees of freedom: a mat of more layers is stiff.
+/// Number of layers of elements above the base with free degrees of freedom.
+///
+/// The others are restrained, so that a mat of more layers has a large stiffness.
 const FREE_ELEMENT_LAYERS: usize = 6;
-/// Ratio of D to the stiffness against waves on a mat with free edges: between 1 and 3 for mats of a few wavelengths.
+/// Ratio of D to the stiffness against waves on a mat with free edges.
+///
+/// The ratio is between 1 and 3 for mats of a few wavelengths.
 const FREE_EDGE_FACTOR: f64 = 1.5;
-/// Stiffness added to each degree of freedom, relative to the largest entry: it prevents a singular matrix.
+/// Stiffness added to each degree of freedom, relative to the largest entry, so that the matrix is not singular.
 const RESTRAINT_FACTOR: f64 = 1e-13;
 /// Name of the structure's stiffness matrix in errors.
 pub(super) const STIFFNESS_MATRIX_NAME: &str = "stiffness matrix";
@@ -41,7 +45,7 @@ pub(super) const STIFFNESS_MATRIX_NAME: &str = "stiffness matrix";
 pub(super) struct EdgeStiffness {
     /// Overhang of the outer cells, as a fraction of a cell.
     pub(super) overhang: f64,
-    /// D/(G R³).
+    /// Relative rigidity D/(G R³).
     pub(super) rigidity: f64,
 }
 
@@ -215,14 +219,14 @@ impl<'a> MatCorners<'a> {
         }
     }
 
-    /// Integral over the mat of the product of two functions.
-    fn area_product(&self, one: &[f64], other: &[f64]) -> f64 {
-        let terms = self.corners.iter().zip(one).zip(other);
-        terms.map(|(((_, area), one), other)| area * one * other).sum()
+    /// Integral over the mat of the product of two functions f and g, from their values at the corners.
+    fn area_product(&self, f: &[f64], g: &[f64]) -> f64 {
+        let terms = self.corners.iter().zip(f).zip(g);
+        terms.map(|(((_, area), f), g)| area * f * g).sum()
     }
 }
 
-/// Terms of a combination in free degrees of freedom, with their indices among these.
+/// Terms of a combination of degrees of freedom that are free, with their indices among the free ones.
 fn free_terms(combination: &DofCombination, free_dofs: &[Option<usize>]) -> Vec<(usize, f64)> {
     combination
         .iter()

@@ -11,8 +11,9 @@ pub(crate) type Point = [f64; 2];
 pub(crate) struct PointIndex {
     /// Distance below which two points are the same point, m.
     touch_distance: f64,
+    /// Coordinates of each distinct point.
     points: Vec<Point>,
-    /// Indices of the points in each square of a fine grid.
+    /// Indices of the points in each square of a grid with sides of twice the distance.
     grid: HashMap<[i64; 2], Vec<usize>>,
 }
 
@@ -52,7 +53,7 @@ impl PointIndex {
 
     /// Points on each edge in order, each with its position on the edge from 0 to 1.
     ///
-    /// The first point and the last are the ends of the edge. Only ends of edges count as points.
+    /// The first point and the last are the ends of the edge. The others are ends of other edges.
     pub(crate) fn on_edges(&self, edges: &[[usize; 2]]) -> Vec<Vec<(f64, usize)>> {
         let mut ends: Vec<usize> = edges.iter().flatten().copied().collect();
         ends.sort_by(|one, other| self.points[*one][0].total_cmp(&self.points[*other][0]));
@@ -91,7 +92,7 @@ impl PointIndex {
     }
 }
 
-/// Edges without pairs of opposite edges between the same points.
+/// The edges that remain after pairs of opposite edges between the same points are removed.
 pub(crate) fn without_pairs(mut edges: Vec<[usize; 2]>) -> Vec<[usize; 2]> {
     edges.sort_by_key(|edge| (ascending(*edge), edge[0]));
     let mut unpaired = vec![];

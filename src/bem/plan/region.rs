@@ -3,24 +3,29 @@
 use crate::geometry::span;
 use crate::linalg::gauss::Rule;
 
-/// Area below which a part of a cell is rounding, in cells.
-const AREA_TOLERANCE: f64 = 1e-9;
-/// Number of Gauss points between two levels: exact for moments of segments whose ends are linear in y.
+/// Bound of the rounding error of the area of a part of a cell, in cells.
+pub(super) const AREA_TOLERANCE: f64 = 1e-9;
+/// Number of Gauss points between two levels.
+///
+/// Three points are exact for the moments of segments whose ends are linear in y.
 const LEVEL_POINT_COUNT: usize = 3;
 
-/// Lattice in plan: its corner (m), sides of a cell (m), and numbers of columns and rows.
+/// Lattice in plan.
 #[derive(Clone, Copy)]
 pub(super) struct PlanGrid {
+    /// Smallest coordinates, m.
     pub(super) corner: [f64; 2],
+    /// Sides of a cell, m.
     pub(super) pitch: [f64; 2],
+    /// Numbers of columns and rows.
     pub(super) counts: [usize; 2],
 }
 
-/// Inside of closed lines, for the areas of the cells of a lattice in it.
+/// Inside of closed lines, from which the part inside each cell of a lattice is computed.
 ///
-/// A point is inside if the lines turn about it counter-clockwise at least once.
+/// A point is inside if the sum of the lines' counter-clockwise turns about it is at least one.
 pub(super) struct Region {
-    /// Edges of the lines in each row, relative to the row's first corner in units of the cells' sides.
+    /// Edges of the lines in each row, relative to the corner of the row's first cell in units of the cells' sides.
     rows: Vec<Vec<CellEdge>>,
 }
 
@@ -34,6 +39,7 @@ pub(super) struct CellPart {
     pub(super) area: f64,
     /// Centre of area, from the cell's first corner in units of its sides.
     pub(super) center: [f64; 2],
+    /// Whether the part is a rectangle along the cell's sides.
     pub(super) is_rectangle: bool,
 }
 
@@ -107,12 +113,15 @@ impl Region {
 }
 
 impl CellPart {
+    /// Part of a cell outside the outline.
     pub(super) const EMPTY_PART: Self = Self { area: 0.0, center: [0.5; 2], is_rectangle: false };
 
+    /// Whether some of the cell lies outside the outline.
     pub(super) fn is_cut(&self) -> bool {
         self.area < 1.0 - AREA_TOLERANCE
     }
 
+    /// Whether the whole cell lies outside the outline.
     pub(super) fn is_empty(&self) -> bool {
         self.area <= AREA_TOLERANCE
     }

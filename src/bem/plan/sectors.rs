@@ -12,15 +12,15 @@ use basemat_fourier::num_complex::Complex64;
 
 use super::cells::Plan;
 use crate::error::{Error, Result, memory};
-use crate::geometry::{COMPLIANCES_PER_OFFSET, offset};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_SPACE, offset};
 use crate::linalg::{Complex, DenseFactor};
 
 /// Number of rigid motions: along x, y, z (up) and about these axes.
 pub(super) const RIGID_MOTION_COUNT: usize = 6;
-/// Number of components of a cell's traction: down, along x, along y.
-const CELL_COMPONENT_COUNT: usize = 3;
-/// Relative difference of mirrored cells below which they are equal but for rounding.
+/// Largest difference between a cell and a mirror image that is attributed to rounding, relative to its side or compliance.
 const MIRROR_TOLERANCE: f64 = 1e-9;
+/// Memory per entry of the matrix of a sector, bytes: two matrices of complex numbers, one of them factored.
+const BYTES_PER_SECTOR_ENTRY: f64 = 32.0;
 
 /// Reflection of a plan in x, in y, or in both, which maps the plan to itself.
 #[derive(Debug)]
@@ -73,7 +73,7 @@ fn are_equal(one: f64, other: f64, scale: f64) -> bool {
     (one - other).abs() <= MIRROR_TOLERANCE * scale
 }
 
-/// Symmetry of a plan, to solve for tractions on one element of each orbit.
+/// Symmetry of a plan, which reduces the unknown tractions to those on one element of each orbit.
 #[derive(Debug)]
 pub(super) struct Sectors<'a> {
     plan: &'a Plan,
@@ -86,7 +86,7 @@ pub(super) struct Sectors<'a> {
 }
 
 /// Row of each component of an element in the equations of a sector; `None` for a component without an equation.
-type ComponentRows = [Option<usize>; CELL_COMPONENT_COUNT];
+type ComponentRows = [Option<usize>; COMPONENTS_IN_SPACE];
 
 /// Receiver and source cell, with the rows and columns of their elements.
 struct CellPair<'a> {
@@ -168,7 +168,8 @@ impl<'a> Sectors<'a> {
     ) -> Result<()> {
         let (rows, order) = self.sector_rows(components, parity);
         let cell_count = self.plan.cells.len() as f64;
-        memory::check("cells of a mat", cell_count, 32.0 * (order as f64).powi(2))?;
+        let bytes = BYTES_PER_SECTOR_ENTRY * (order as f64).powi(2);
+        memory::check("cells of a mat", cell_count, bytes)?;
         let mut matrix = vec![Complex64::default(); order * order];
         let mut loads = vec![Complex64::default(); order * RIGID_MOTION_COUNT];
         for (receiver, element) in &self.cells {
@@ -212,7 +213,7 @@ impl<'a> Sectors<'a> {
             let mut block = self.plan.lattice.block(values, offset(receiver_cell, image_cell));
             if image_cell == receiver_cell {
                 let factor = 1.0 + self.plan.spring_ratio(receiver);
-                for k in 0..CELL_COMPONENT_COUNT {
+                for k in 0..COMPONENTS_IN_SPACE {
                     block[k][k] = block[k][k].scale(factor);
                 }
             }
@@ -233,7 +234,7 @@ impl<'a> Sectors<'a> {
     /// An element on an axis has no odd components.
     fn sector_rows(&self, components: &[usize], parity: [f64; 2]) -> (Vec<ComponentRows>, usize) {
         let mut order = 0;
-        let mut rows = vec![[None; CELL_COMPONENT_COUNT]; self.elements.len()];
+        let mut rows = vec![[None; COMPONENTS_IN_SPACE]; self.elements.len()];
         for (element, element_rows) in self.elements.iter().zip(&mut rows) {
             for component in components {
                 let is_allowed = self.group.iter().all(|h| {
@@ -249,12 +250,12 @@ impl<'a> Sectors<'a> {
         (rows, order)
     }
 
-    /// Forces and moments (N, N m) of unit tractions on a reflected cell, for each component of the traction.
+    /// Forces (N) and moments (N m) of unit tractions on a reflected cell, for each component of the traction.
     fn resultants(
         &self,
         axes: [bool; 2],
         cell: usize,
-    ) -> [[f64; RIGID_MOTION_COUNT]; CELL_COMPONENT_COUNT] {
+    ) -> [[f64; RIGID_MOTION_COUNT]; COMPONENTS_IN_SPACE] {
         let arms = self.plan.arms(cell);
         let area = self.plan.lattice.pitch[0] * self.plan.lattice.pitch[1];
         let x = if axes[0] { -arms[0] } else { arms[0] };
@@ -280,7 +281,7 @@ fn character(parity: [f64; 2], axes: [bool; 2], component: usize) -> f64 {
     character
 }
 
-/// Adds LᵀF⁻¹L to a stiffness: F are the compliances of a sector (`matrix`), L the resultants (`loads`).
+/// Adds LᵀF⁻¹L to a stiffness, with the compliances F of a sector (`matrix`) and the resultants L (`loads`).
 fn add_resultants(
     matrix: &[Complex64],
     loads: &[Complex64],
@@ -305,7 +306,7 @@ fn add_resultants(
     Ok(())
 }
 
-/// Mirror image of a cell in the middle of the lattice.
+/// Mirror image of a cell about the middle of the lattice.
 fn mirror_image(axes: [bool; 2], cell: [usize; 2], counts: [usize; 2]) -> [usize; 2] {
     [0, 1].map(|axis| if axes[axis] { counts[axis] - 1 - cell[axis] } else { cell[axis] })
 }

@@ -9,7 +9,7 @@ use crate::linalg::SparseMatrix;
 use crate::soil::Soil;
 use crate::structure::{Base, BaseNode, Structure, Triplets};
 
-/// Largest number of cells to which the plan under flexible faces is refined: more would slow down every step.
+/// Largest number of cells to which the plan under flexible faces is refined, because more would slow down every step.
 const MAX_REFINED_CELLS: f64 = 1000.0;
 /// Relative rounding error of the number of faces along a side.
 const FACE_COUNT_ROUNDING: f64 = 1e-9;
@@ -79,14 +79,15 @@ impl Plan {
         base.check(structure.dofs())?;
         structure.stiffness(&mut triplets)?;
         let stiffness = SparseMatrix::new(STIFFNESS_MATRIX_NAME, &triplets)?;
-        let mut smallest = EdgeStiffness { overhang: RIGID_MAT_OVERHANG, rigidity: f64::MAX };
+        let mut min_stiffness = EdgeStiffness { overhang: RIGID_MAT_OVERHANG, rigidity: f64::MAX };
         let cell_side = shorter_side / shorter_side_cells as f64;
         for mat in &flexible_mats {
             let mat_stiffness = edge_stiffness(&stiffness, mat, soil, cell_side);
-            smallest.overhang = smallest.overhang.min(mat_stiffness.overhang);
-            smallest.rigidity = smallest.rigidity.min(mat_stiffness.rigidity);
+            min_stiffness.overhang = min_stiffness.overhang.min(mat_stiffness.overhang);
+            min_stiffness.rigidity = min_stiffness.rigidity.min(mat_stiffness.rigidity);
         }
-        Self::on_outlines(faces, shorter_side_cells, smallest.overhang, smallest.rigidity).map(Some)
+        Self::on_outlines(faces, shorter_side_cells, min_stiffness.overhang, min_stiffness.rigidity)
+            .map(Some)
     }
 }
 

@@ -24,7 +24,7 @@ pub(in crate::bem) struct Unions {
     spring_compliances: Vec<f64>,
     /// Traction of each spring in the last step, component by component, Pa.
     pub(in crate::bem) last_traction: Vec<f64>,
-    /// Buffer for a contact vector of cells.
+    /// Contact vector of cells, overwritten in each step.
     cell_values: Vec<f64>,
 }
 
@@ -189,7 +189,7 @@ impl Unions {
         Ok(())
     }
 
-    /// Tractions of the cells from tractions of elements; missing values count as zero.
+    /// Tractions of the cells from tractions of elements; missing values are zero.
     pub(in crate::bem) fn spread(&mut self, element_values: &[f64]) -> &[f64] {
         self.last_traction.fill(0.0);
         for (last_traction, traction) in self.last_traction.iter_mut().zip(element_values) {
@@ -265,7 +265,7 @@ fn union_indices(widths: &[usize], column_count: usize) -> Result<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// The tractions are step means of a traction that grows linearly from zero at t = 0.
+    /// The tractions are the means over each step of a traction that grows linearly from zero at t = 0.
     #[test]
     fn springs_are_displaced_as_at_the_end_of_the_step() {
         let cut_cells = [(1.0, 0.0), (0.5, 0.8)].into_iter();

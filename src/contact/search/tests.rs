@@ -145,7 +145,7 @@ fn scene_delassus(count: usize, random: &mut Random) -> Vec<f64> {
         Box::new(FemModel::on_base(mesh).unwrap())
     };
     let (assembled, _) =
-        Assembled::new(structure.as_ref(), &Patch::new(ground.elements().to_vec()).unwrap())
+        Assembled::new(structure.as_ref(), &Patch::new(ground.elements().to_vec()).unwrap(), &[])
             .unwrap();
     let model = Model::new(&assembled);
     let tangent = SparseMatrix::default();

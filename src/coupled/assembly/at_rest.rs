@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use super::backfilled;
 use super::static_stages::{state_under_load, state_under_weight};
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::gravity_stage::GravityStage;
@@ -16,7 +17,7 @@ use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::step_compliance::diagonal_inside_outline;
 use crate::error::{Result, all_finite, finite};
-use crate::interface::InterfaceLaw;
+use crate::interface::{InterfaceLaw, Mode, law_of};
 use crate::linalg::{CompressedMatrix, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
@@ -35,11 +36,12 @@ pub(crate) fn solve(
     condensed: &mut Option<Condensed>,
     shared_compliance: &RefCell<Option<Compliance>>,
 ) -> Result<StaticState> {
-    let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
+    let mut state = StaticState::weightless(assembled.base.layout(), assembled.dofs());
+    open_gaps(&mut state, &assembled.base, &parts.builder.laws);
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
     let mut ground_compliance = CompressedMatrix::dense(Vec::new());
     if parts.builder.has_static_loads() {
-        ground_compliance = static_compliance(parts)?;
+        ground_compliance = static_compliance(parts, &assembled.base)?;
         let loads = StaticLoads::new(parts, assembled)?;
         let weight = &loads.weight;
         let load = &loads.load;
@@ -67,7 +69,7 @@ pub(crate) fn solve(
         };
         state.load = loads.structure_load;
     } else if has_p_delta {
-        ground_compliance = static_compliance(parts)?;
+        ground_compliance = static_compliance(parts, &assembled.base)?;
     }
     // On a fixed base the assembly has already checked buckling.
     if has_p_delta && !is_fixed_base(parts.ground.as_ref()) {
@@ -93,10 +95,21 @@ pub(crate) fn solve(
     Ok(state)
 }
 
+/// Opens the joints of an unloaded structure that have a gap.
+fn open_gaps(state: &mut StaticState, base: &PlacedBase, laws: &[Box<dyn InterfaceLaw>]) {
+    for e in base.joints().iter().flat_map(|joint| joint.elements.clone()) {
+        let gap = base.initial_gap(e);
+        if gap > 0.0 && law_of(laws, e).modes().contains(&Mode::Open) {
+            state.gap[e] = gap;
+            state.modes[e] = Mode::Open;
+        }
+    }
+}
+
 /// Static compliance of the ground, for tractions inside the outline.
 ///
-/// It is a diagonal if the step compliance is one.
-pub(crate) fn static_compliance(parts: &Parts) -> Result<CompressedMatrix> {
+/// It is a diagonal if the step compliance is one, and zero at joints.
+pub(crate) fn static_compliance(parts: &Parts, base: &PlacedBase) -> Result<CompressedMatrix> {
     if parts.step_compliance.as_diagonal().is_some()
         && let Some(compliance) = parts.ground.diagonal_compliance()?
     {
@@ -107,7 +120,7 @@ pub(crate) fn static_compliance(parts: &Parts) -> Result<CompressedMatrix> {
     let mut compliance = vec![0.0; parts.elements.layout().matrix_len()];
     parts.ground.static_compliance(&mut compliance)?;
     parts.elements.refer_inside(&mut compliance);
-    Ok(CompressedMatrix::dense(compliance))
+    Ok(CompressedMatrix::dense(base.spread_ground_matrix(compliance)))
 }
 
 /// Weight, and all other loads at t = 0, N; empty without a static state.
@@ -181,12 +194,13 @@ pub(crate) fn state_under_loads(
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
     let Parts { structure, builder, .. } = parts;
+    let gaps = assembled.base.initial_gaps();
     let problem = StaticProblem {
         assembled,
         structure: structure.as_ref(),
         ground_compliance: ground.compliance,
         is_frictionless: false,
-        jump_offset: &[],
+        jump_offset: &gaps,
         shared_compliance: ground.shared_compliance,
     };
     let has_walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
@@ -195,11 +209,11 @@ pub(crate) fn state_under_loads(
     if has_walls && is_backfilled {
         return backfilled::state(parts, &problem, laws, [weight, load]);
     }
-    let mut jump_offset = vec![];
+    let mut jump_offset = gaps.clone();
     if has_walls {
         // Jumps are zero under the tractions of the soil at rest.
-        let traction = backfilled::traction_at_rest(parts, assembled.base.elements(), true)?;
-        jump_offset = vec![0.0; traction.len()];
+        let traction = backfilled::traction_at_rest(parts, &assembled.base, true)?;
+        jump_offset.resize(traction.len(), 0.0);
         dense_multiply_add(ground.compliance, -1.0, &traction, &mut jump_offset);
     }
     let problem = StaticProblem { jump_offset: &jump_offset, ..problem };

@@ -14,6 +14,7 @@ use std::cell::RefCell;
 
 use super::static_stages::{GRAVITY_STAGE_TIME_STEP, state_under_load, state_under_weight};
 use crate::bem::GroundDescription;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::equilibrium::StaticProblem;
@@ -32,29 +33,31 @@ pub(super) fn state(
 ) -> Result<StaticState> {
     let base = &problem.assembled.base;
     let elements = base.elements();
-    let layout = elements.layout();
+    let layout = base.layout();
     let floor = elements.floor();
     let floor_patch = Patch::new(elements[floor.clone()].to_vec())?;
-    let assembled = Assembled::new(problem.structure, &floor_patch)?.0;
-    let floor_indices: Vec<usize> = contact_indices(layout, floor.clone()).collect();
-    let mut floor_compliance = Vec::with_capacity(floor_indices.len() * floor_indices.len());
-    for row_index in &floor_indices {
-        let row = &problem.ground_compliance[row_index * layout.len()..][..layout.len()];
-        floor_compliance.extend(floor_indices.iter().map(|column| row[*column]));
-    }
-    let floor_compliance = CompressedMatrix::dense(floor_compliance);
+    let assembled = Assembled::new(problem.structure, &floor_patch, &parts.joints)?.0;
+    // Joints act during backfilling too.
+    let bearing_elements: Vec<usize> = floor.chain(elements.len()..layout.elements()).collect();
+    let floor_indices: Vec<usize> = contact_indices(layout, &bearing_elements).collect();
+    let floor_compliance = submatrix(problem.ground_compliance, layout.len(), &floor_indices);
     let shared_compliance = RefCell::default();
     let floor_problem = StaticProblem {
         assembled: &assembled,
         ground_compliance: &floor_compliance,
         shared_compliance: &shared_compliance,
+        jump_offset: &assembled.base.initial_gaps(),
         ..*problem
     };
 
-    let mut traction = traction_at_rest(parts, elements, false)?;
+    let mut traction = traction_at_rest(parts, base, false)?;
     let mut weight_and_backfill = weight.to_vec();
     base.add_forces(-1.0, &traction, &mut weight_and_backfill);
-    let floor_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
+    let floor_laws = match laws.len() {
+        1 => laws,
+        _ if parts.joints.is_empty() => &laws[elements.floor()],
+        _ => &parts.bearing_laws,
+    };
     let gravity_stage = parts.builder.gravity_stage;
     let (floor_state, floor_contact) =
         state_under_weight(&floor_problem, floor_laws, gravity_stage, &weight_and_backfill)?;
@@ -63,13 +66,15 @@ pub(super) fn state(
         traction[*index] = *value;
     }
     let (mut state, mut contact) = closed_state(laws, layout, traction, weight.len())?;
-    state.gap[floor.clone()].copy_from_slice(&floor_state.gap);
-    state.modes[floor.clone()].copy_from_slice(&floor_state.modes);
     state.state_variables = vec![Vec::new(); layout.elements()];
-    state.state_variables[floor.clone()].clone_from_slice(&floor_state.state_variables);
+    for (k, &e) in bearing_elements.iter().enumerate() {
+        state.gap[e] = floor_state.gap[k];
+        state.modes[e] = floor_state.modes[k];
+        state.state_variables[e].clone_from(&floor_state.state_variables[k]);
+        contact[e] = floor_contact[k];
+    }
     state.displacement = floor_state.displacement;
     state.substituted_friction = floor_state.substituted_friction;
-    contact[floor].copy_from_slice(&floor_contact);
 
     // Slip counts from the backfilled state, whose jumps define the offset.
     for element_contact in &mut contact {
@@ -82,6 +87,16 @@ pub(super) fn state(
     jump_offset.iter_mut().zip(&state.gap).for_each(|(offset, gap)| *offset += gap);
     let problem = StaticProblem { jump_offset: &jump_offset, ..*problem };
     state_under_load(&problem, laws, (state, contact), [weight, load])
+}
+
+/// Rows and columns of a matrix of this order at some indices.
+fn submatrix(matrix: &[f64], order: usize, indices: &[usize]) -> CompressedMatrix {
+    let mut entries = Vec::with_capacity(indices.len() * indices.len());
+    for row in indices {
+        let row = &matrix[row * order..][..order];
+        entries.extend(indices.iter().map(|column| row[*column]));
+    }
+    CompressedMatrix::dense(entries)
 }
 
 /// State of `dofs` degrees of freedom at rest and closed contact under these tractions.
@@ -106,13 +121,14 @@ fn closed_state(
 
 /// Tractions of the soil at rest on the walls, and on the floor if `includes_floor`, Pa.
 ///
-/// `elements` are the ground's elements, or equal divisions of them.
+/// Those of `base` are the ground's elements, or equal divisions of them. Joints have none.
 pub(super) fn traction_at_rest(
     parts: &Parts,
-    elements: &Patch,
+    base: &PlacedBase,
     includes_floor: bool,
 ) -> Result<Vec<f64>> {
-    let layout = elements.layout();
+    let elements = base.elements();
+    let layout = base.layout();
     let mut traction = vec![0.0; layout.len()];
     let GroundDescription {
         pressure_at_rest: pressures, depth_of_pressure_at_rest: depths, ..
@@ -138,10 +154,7 @@ pub(super) fn traction_at_rest(
 }
 
 /// Indices of all components of some elements in a contact vector.
-fn contact_indices(
-    layout: ContactLayout,
-    elements: std::ops::Range<usize>,
-) -> impl Iterator<Item = usize> {
+fn contact_indices(layout: ContactLayout, elements: &[usize]) -> impl Iterator<Item = usize> {
     (0..layout.components())
-        .flat_map(move |component| elements.clone().map(move |e| layout.place(component, e)))
+        .flat_map(move |component| elements.iter().map(move |e| layout.place(component, *e)))
 }

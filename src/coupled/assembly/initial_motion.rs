@@ -71,8 +71,8 @@ fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) ->
         }
     } else {
         let mut previous_contacts = Vec::with_capacity(scene.element_count());
-        for (e, (contact, mode)) in state.contact.iter_mut().zip(&mut state.modes).enumerate() {
-            contact.gap = -displacement[layout.place(0, e)];
+        for (e, (contact, mode)) in state.elements_mut().enumerate() {
+            contact.gap = scene.base.initial_gap(e) - displacement[layout.place(0, e)];
             contact.slip = displacement[layout.place(1, e)];
             if layout.components() > 2 {
                 contact.slip_across = displacement[layout.place(2, e)];

@@ -50,7 +50,8 @@ use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::joint_losses::JointLosses;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::Result;
 
 impl Simulation {
@@ -82,7 +83,9 @@ impl SimulationBuilder {
     /// * [`crate::Error::Stopped`] by the observer.
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
-        let (assembled, fixed_factor) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let (assembled, fixed_factor) =
+            Assembled::new(parts.structure.as_ref(), &parts.elements, &parts.joints)?;
+        parts.spread_over_joints(&assembled.base);
         let mut fixed_base = FixedBaseResults::new(&parts, &assembled, fixed_factor)?;
         let shared_compliance = RefCell::default();
         let static_state =
@@ -104,8 +107,9 @@ impl SimulationBuilder {
             &static_state.displacement,
             &static_state.force,
         )?;
-        let SteppedStructure { model, base, operators } =
+        let SteppedStructure { model, base, operators, step_compliance } =
             SteppedStructure::new(&parts, &assembled, reduction, &static_state)?;
+        parts.step_compliance = step_compliance;
         let scene = Scene::new(&mut parts, model, base, static_state, is_connected_by_force);
         start(parts, &assembled, fixed_base, scene, operators, coarse_base_warning)
     }
@@ -121,7 +125,7 @@ fn start(
     coarse_base_warning: Option<Warning>,
 ) -> Result<Simulation> {
     let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } = parts;
-    let mut solver = Solver::new(&scene, operators, builder.search);
+    let mut solver = StepSolver::new(&scene, operators, builder.search);
     let mut state = State::at_rest(&scene)?;
     let is_compliant = scene.is_compliant(&state.start)?;
     let mass = &assembled.mass;
@@ -130,6 +134,7 @@ fn start(
     if builder.has_energy_balance {
         energies = Some(EnergyAccumulator::new(&scene, structure.as_ref(), &state, is_compliant)?);
     }
+    JointLosses::set(energies.as_ref().map(|energies| &energies.joint_losses), &mut state);
     state.energy_balance =
         energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
     let mut warnings =

@@ -83,7 +83,7 @@ pub(super) fn state_under_load(
         return Ok(state);
     }
     // Under further loads the base sticks at its present position.
-    state.modes = state.modes_with(laws);
+    state.modes = state.initial_modes(laws);
     state_under_growing_load(problem, laws, (state, &contact), [weight, load])
 }
 

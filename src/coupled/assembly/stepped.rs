@@ -1,6 +1,7 @@
 //! The structure in its stepping coordinates: degrees of freedom, all modes, or Ritz modes.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::vibration_modes::vibration_modes;
 use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
@@ -10,6 +11,7 @@ use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::Model;
 use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::joint_compliance::{step_compliance_ratio, with_joint_compliance};
 use crate::coupled::model::mechanism::unresisted_mechanism;
 use crate::coupled::model::operators::{Operators, StiffnessFactorization};
 use crate::coupled::parts::Parts;
@@ -17,7 +19,7 @@ use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::interface::LawForm;
-use crate::linalg::SparseMatrix;
+use crate::linalg::{CompressedMatrix, SparseMatrix};
 use crate::structure::{NonlinearForce, Structure, Tangent};
 
 /// Number of steps for the choice of coordinates if the expected number is unknown.
@@ -53,6 +55,8 @@ pub(crate) struct SteppedStructure {
     pub(crate) model: Model,
     pub(crate) base: PlacedBase,
     pub(crate) operators: Operators,
+    /// Step compliance of the ground, with the numerical compliance of joints.
+    pub(crate) step_compliance: Arc<CompressedMatrix>,
 }
 
 impl SteppedStructure {
@@ -115,9 +119,28 @@ impl SteppedStructure {
             (physical, StiffnessFactorization::Sparse(factor))
         };
         let base = assembled.base.stepped(&model.transformation);
-        let operators = Operators::new(&model, &base, &parts.step_compliance, factor, tangent)?;
-        Ok(Self { model, base, operators })
+        let mut factor = factor;
+        let step_compliance = compliance_with_joints(parts, &base, &model, &mut factor);
+        let operators = Operators::new(&model, &base, &step_compliance, factor, tangent)?;
+        Ok(Self { model, base, operators, step_compliance })
     }
+}
+
+/// Step compliance of the ground, with the numerical compliance of joints.
+fn compliance_with_joints(
+    parts: &Parts,
+    base: &PlacedBase,
+    model: &Model,
+    factor: &mut StiffnessFactorization,
+) -> Arc<CompressedMatrix> {
+    let ground_compliance = Arc::clone(&parts.step_compliance);
+    if base.joints().is_empty() {
+        return ground_compliance;
+    }
+    let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
+    let count = model.coordinate_count;
+    let ratio = step_compliance_ratio(parts.builder.time_step);
+    Arc::new(with_joint_compliance(solve, base, &ground_compliance, count, ratio))
 }
 
 /// Returns an error for an unsymmetric tangent in plan, where contact needs a symmetric compliance.

@@ -64,9 +64,10 @@ impl RefinedBase {
             return None;
         }
         refined_patch.refer_inside(&mut compliance);
+        let base = PlacedBase::of(parts.structure.as_ref(), &refined_patch, &parts.joints).ok()?;
         Some(Self {
-            base: PlacedBase::of(parts.structure.as_ref(), &refined_patch).ok()?,
-            ground_compliance: CompressedMatrix::dense(compliance),
+            ground_compliance: CompressedMatrix::dense(base.spread_ground_matrix(compliance)),
+            base,
         })
     }
 }

@@ -7,12 +7,13 @@
 //! | γ | stiffness of the springs between the nodes of a foundation |
 
 use crate::bem::{DiagonalCompliance, Ground};
+use crate::coupled::base::joint_line::JointLine;
 use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{dot, largest};
 use crate::structure::{
-    BaseNode, MassAndStiffness, NonlinearForce, SpringSupportedBase, Structure, Triplets,
+    Base, BaseNode, MassAndStiffness, NonlinearForce, SpringSupportedBase, Structure, Triplets,
     mass_and_stiffness, max_diagonal_stiffness,
 };
 
@@ -27,9 +28,10 @@ const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 pub(crate) fn on_fixed_base(
     structure: Box<dyn Structure>,
     elements: &Patch,
+    joints: &[JointLine],
     time_step: f64,
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
-    let base = PlacedBase::of(structure.as_ref(), elements)?;
+    let base = PlacedBase::of(structure.as_ref(), elements, joints)?;
     let dofs = structure.dofs();
     let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure.as_ref())?;
     let springs =
@@ -71,6 +73,15 @@ pub(crate) fn without_rigid_foundations(structure: &dyn Structure) -> &dyn Struc
     wrapper
         .downcast_ref::<StructureOnRigidFoundations>()
         .map_or(structure, |wrapper| wrapper.structure.as_ref())
+}
+
+/// The structure that the builder received, by value.
+pub(crate) fn into_structure(mut structure: Box<dyn Structure>) -> Box<dyn Structure> {
+    let wrapper: &mut dyn std::any::Any = structure.as_mut();
+    match wrapper.downcast_mut::<StructureOnRigidFoundations>() {
+        Some(wrapper) => std::mem::replace(&mut wrapper.structure, Box::new(NoStructure)),
+        None => structure,
+    }
 }
 
 /// Whether the ground belongs to a fixed base.
@@ -191,6 +202,27 @@ impl Structure for StructureOnRigidFoundations {
         for &(row, column, value) in self.foundation_stiffness.entries() {
             matrix.add(row, column, value);
         }
+        Ok(())
+    }
+}
+
+/// What stays in a wrapper without its structure.
+struct NoStructure;
+
+impl Structure for NoStructure {
+    fn dofs(&self) -> usize {
+        0
+    }
+
+    fn base(&self) -> Base {
+        Base::Lines(Vec::new())
+    }
+
+    fn mass(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+
+    fn stiffness(&self, _matrix: &mut Triplets) -> Result<()> {
         Ok(())
     }
 }

@@ -7,6 +7,7 @@
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::SparseVector;
+use crate::error::{Error, Result};
 use crate::linalg::matrix::spread;
 use crate::structure::BaseNode;
 
@@ -14,6 +15,8 @@ use crate::structure::BaseNode;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Influence {
     parts: Vec<ConnectedPart>,
+    /// Indices of the parts of the upper and of the lower side of each joint.
+    joint_parts: Vec<[usize; 2]>,
     /// Number of directions of translation: right, up and, in plan, horizontally along y.
     direction_count: usize,
 }
@@ -28,19 +31,42 @@ pub(crate) struct ConnectedPart {
     ///
     /// A vector is empty if the part cannot move in its direction.
     pub(crate) vectors: [SparseVector; 3],
+    /// Ground elements under the part, or under the parts on which it stands.
     elements: Vec<usize>,
+    /// The part on which it stands; `None` for a part with foundations.
+    support: Option<Support>,
+}
+
+/// Joint by which a part without foundations stands on another part.
+#[derive(Debug, Clone, Copy)]
+struct Support {
+    /// Index of the other part.
+    part: usize,
+    /// Contact element of the joint.
+    element: usize,
+    /// Sign of the part's displacement in the rows of B: −1 for the lower side.
+    sign: f64,
 }
 
 impl Influence {
     /// Splits the rigid translations of the whole structure into translations of its parts.
     ///
-    /// `part_labels` has a number for each degree of freedom; degrees of freedom of one part have equal numbers.
+    /// `part_labels` has a number for each degree of freedom; degrees of freedom of one part have equal numbers. Returns an
+    /// error for a side of a joint with nodes of several parts, and for a part that no joints connect to the ground.
     pub(crate) fn split(
         base: &PlacedBase,
         translations: &[Vec<f64>],
         part_labels: &[usize],
-    ) -> Self {
+    ) -> Result<Self> {
         let mut parts: Vec<(usize, ConnectedPart)> = Vec::new();
+        let new_part = |part_label: usize, elements, support| {
+            let vectors = [0, 1, 2].map(|direction| {
+                let terms = translations.get(direction).into_iter().flatten().enumerate();
+                let part_terms = terms.filter(|&(i, r)| part_labels[i] == part_label && *r != 0.0);
+                part_terms.map(|(i, r)| (i, *r)).collect()
+            });
+            (part_label, ConnectedPart { vectors, elements, support })
+        };
         for (nodes, elements) in base.foundations() {
             let Some(dof) = nodes.iter().find_map(|node| node.dofs().next()) else {
                 continue;
@@ -50,15 +76,75 @@ impl Influence {
                 part.elements.extend(elements);
                 continue;
             }
-            let vectors = [0, 1, 2].map(|direction| {
-                let terms = translations.get(direction).into_iter().flatten().enumerate();
-                let part_terms = terms.filter(|&(i, r)| part_labels[i] == part_label && *r != 0.0);
-                part_terms.map(|(i, r)| (i, *r)).collect()
-            });
-            parts.push((part_label, ConnectedPart { vectors, elements: elements.collect() }));
+            parts.push(new_part(part_label, elements.collect(), None));
+        }
+        let labels = joint_labels(base, part_labels)?;
+        while let Some(next) = next_supported(base, &labels, &parts) {
+            let NextPart { label, elements, support } = next;
+            parts.push(new_part(label, elements, Some(support)));
+        }
+        let index = |label: usize| parts.iter().position(|(other, _)| *other == label);
+        let mut joint_parts = Vec::with_capacity(labels.len());
+        for [upper, lower] in labels {
+            let (Some(upper), Some(lower)) = (index(upper), index(lower)) else {
+                let needed = "must connect each part to the ground, directly or by other parts";
+                return Err(Error::Scene { quantity: "joints", needed });
+            };
+            joint_parts.push([upper, lower]);
         }
         let parts = parts.into_iter().map(|(_, part)| part).collect();
-        Self { parts, direction_count: translations.len() }
+        Ok(Self { parts, joint_parts, direction_count: translations.len() })
+    }
+
+    /// Mean translation `[right, up, along_y]` of each part's base, from element means of the displacement.
+    pub(crate) fn base_translations<'a>(
+        &'a self,
+        base: &'a PlacedBase,
+        means: &'a [f64],
+    ) -> impl Iterator<Item = [f64; 3]> + 'a {
+        self.parts.iter().map(move |part| self.base_translation(part, base, means))
+    }
+
+    /// Mean translation of the base of one part.
+    ///
+    /// Of a part without foundations it is the translation of the part on which it stands, and the relative displacement
+    /// at one element of the joint between them.
+    pub(crate) fn base_translation(
+        &self,
+        part: &ConnectedPart,
+        base: &PlacedBase,
+        means: &[f64],
+    ) -> [f64; 3] {
+        let Some(Support { part: lower, element, sign }) = part.support else {
+            return part.mean_translation(base, means);
+        };
+        let translation = self.base_translation(&self.parts[lower], base, means);
+        let relative = base.element_displacement(element, means);
+        [0, 1, 2].map(|k| translation[k] + sign * relative[k])
+    }
+
+    /// Sets the entries of the joints in soil displacements from which the translation of each part is subtracted.
+    ///
+    /// They are the translation y of the ground under the lower side minus that under the upper side.
+    pub(crate) fn set_joint_distortion(
+        &self,
+        base: &PlacedBase,
+        translation: impl Fn(usize) -> [f64; 3],
+        distortion: &mut [f64],
+    ) {
+        let layout = base.layout();
+        for (joint, &[upper, lower]) in base.joints().iter().zip(&self.joint_parts) {
+            let upper_translation = translation(upper);
+            let lower_translation = translation(lower);
+            let [right, up, along_y] =
+                [0, 1, 2].map(|k| lower_translation[k] - upper_translation[k]);
+            for e in joint.elements.clone() {
+                let values = base.element(e).components([right, along_y, up]);
+                for (component, value) in (0..layout.components()).zip(values) {
+                    distortion[layout.place(component, e)] = value;
+                }
+            }
+        }
     }
 
     /// The connected parts, ordered by their leftmost foundation.
@@ -72,7 +158,8 @@ impl Influence {
         for vector in parts.iter_mut().flat_map(|part| &mut part.vectors) {
             *vector = convert(vector);
         }
-        Self { parts, direction_count: self.direction_count }
+        let joint_parts = self.joint_parts.clone();
+        Self { parts, joint_parts, direction_count: self.direction_count }
     }
 
     /// Adds factor · R y to `displacement`.
@@ -121,13 +208,18 @@ impl Influence {
 }
 
 impl ConnectedPart {
-    /// Contact elements of the part.
+    /// Ground elements under the part's foundations.
     pub(crate) fn elements(&self) -> &[usize] {
-        &self.elements
+        if self.support.is_some() { &[] } else { &self.elements }
     }
 
-    /// The contact nodes of its foundations.
+    /// The contact nodes of its foundations; of a part without foundations, of its side of the joint below it.
     pub(crate) fn nodes<'a>(&self, base: &'a PlacedBase) -> Vec<&'a BaseNode> {
+        if let Some(Support { element, sign, .. }) = self.support {
+            let joint = base.joints().iter().find(|joint| joint.elements.contains(&element));
+            let side = usize::from(sign < 0.0);
+            return joint.into_iter().flat_map(|joint| &joint.line.sides()[side]).collect();
+        }
         base.foundations()
             .filter(|(_, elements)| self.elements.contains(&elements.start))
             .flat_map(|(nodes, _)| nodes)
@@ -173,11 +265,77 @@ impl ConnectedPart {
         displacement: &mut [f64],
     ) {
         let layout = base.layout();
-        for &e in &self.elements {
+        for &e in self.elements() {
             let values = base.elements()[e].components([right, along_y, up]);
             for (component, value) in (0..layout.components()).zip(values) {
                 displacement[layout.place(component, e)] -= value;
             }
         }
     }
+}
+
+/// Labels of the parts of the upper and of the lower side of each joint.
+///
+/// Returns an error for a side with nodes of several parts, and for nodes without degrees of freedom.
+fn joint_labels(base: &PlacedBase, part_labels: &[usize]) -> Result<Vec<[usize; 2]>> {
+    let needed = "must have nodes of one connected part on each side";
+    let fault = Error::Scene { quantity: "joint", needed };
+    let mut labels = Vec::with_capacity(base.joints().len());
+    for joint in base.joints() {
+        let mut side_labels = [0; 2];
+        for (side_label, nodes) in side_labels.iter_mut().zip(joint.line.sides()) {
+            let mut dofs = nodes.iter().flat_map(BaseNode::dofs);
+            *side_label = part_labels[dofs.next().ok_or_else(|| fault.clone())?];
+            if !dofs.all(|dof| part_labels[dof] == *side_label) {
+                return Err(fault);
+            }
+        }
+        labels.push(side_labels);
+    }
+    Ok(labels)
+}
+
+/// The next part without foundations, the ground elements below it, and its support.
+struct NextPart {
+    label: usize,
+    elements: Vec<usize>,
+    support: Support,
+}
+
+/// Finds a part that stands on, or else hangs from, a part that is connected to the ground.
+fn next_supported(
+    base: &PlacedBase,
+    joint_labels: &[[usize; 2]],
+    parts: &[(usize, ConnectedPart)],
+) -> Option<NextPart> {
+    let index = |label: usize| parts.iter().position(|(other, _)| *other == label);
+    // Sides of the part, and whether all parts below it must be connected: a part that stands on others comes before one
+    // that hangs from others.
+    [(0, true), (0, false), (1, false)].into_iter().find_map(|(side, needs_all)| {
+        let is_complete = |label: usize| {
+            let mut below = joint_labels.iter().filter(|labels| labels[side] == label);
+            !needs_all || below.all(|labels| index(labels[1 - side]).is_some())
+        };
+        let mut joints = joint_labels.iter().zip(base.joints());
+        let (labels, first_joint) = joints.find(|(labels, _)| {
+            index(labels[side]).is_none()
+                && index(labels[1 - side]).is_some()
+                && is_complete(labels[side])
+        })?;
+        let label = labels[side];
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let element = first_joint.elements.start;
+        let support = Support { part: index(labels[1 - side])?, element, sign };
+        let supporting = joint_labels
+            .iter()
+            .filter(|labels| labels[side] == label)
+            .filter_map(|labels| index(labels[1 - side]));
+        let mut elements: Vec<usize> = Vec::new();
+        for e in supporting.flat_map(|part| &parts[part].1.elements) {
+            if !elements.contains(e) {
+                elements.push(*e);
+            }
+        }
+        Some(NextPart { label, elements, support })
+    })
 }

@@ -107,7 +107,7 @@ fn chord_rotation(nodes: &[BaseNode]) -> SparseVector {
 }
 
 /// The nodes on the line of an element.
-struct NodesOnElement {
+pub(super) struct NodesOnElement {
     /// Index of the first node in its line.
     first_node: usize,
     /// Coordinates of the nodes along the element's tangent, m.
@@ -117,6 +117,13 @@ struct NodesOnElement {
 }
 
 impl NodesOnElement {
+    /// All nodes of a straight line parallel to an element, which they cover.
+    pub(super) fn along(nodes: &[BaseNode], element: &ContactElement) -> Self {
+        let coordinate = |node: &BaseNode| element.components([node.x, node.y, node.z])[1];
+        let coordinates = nodes.iter().map(coordinate).collect();
+        Self { first_node: 0, coordinates, ends: element.span() }
+    }
+
     /// Selects the nodes on the line of an element; an error unless they cover the element.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         // Coordinates along the element's normal and tangent.
@@ -164,7 +171,7 @@ impl NodesOnElement {
     }
 
     /// Indices and weights of nodes in the mean displacement of the element.
-    fn mean_weights(&self) -> Vec<(usize, f64)> {
+    pub(super) fn mean_weights(&self) -> Vec<(usize, f64)> {
         let length = self.ends[1] - self.ends[0];
         let mut weights = Vec::new();
         for ElementPiece { node, x0, x1, start, end } in self.pieces() {

@@ -4,26 +4,28 @@ mod corner_weights;
 pub(crate) mod faces;
 pub(crate) mod fixed_base;
 pub(crate) mod influence;
+pub(crate) mod joint_line;
+mod joints;
 mod line;
 mod tears;
 pub(crate) mod transformation;
+mod uncovered;
 
 use std::ops::Range;
 
+use joint_line::{JointLine, PlacedJoint};
 pub(crate) use tears::tears;
 
 use crate::coupled::base::transformation::{
     Rows, SparseVector, Transformation, Weights, accumulate,
 };
 use crate::error::{Error, Result, at_least};
-use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, enclosing_interval, span};
+use crate::geometry::{ContactElement, ContactLayout, Patch};
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
 /// Number of passes that correct the translations of the contact nodes: each removes the rounding of the pass before.
 const TRANSLATION_CORRECTION_COUNT: usize = 4;
-/// Fraction of a foundation's length that may extend beyond the elements: its effect on the response is small.
-const MAX_UNCOVERED_FRACTION: f64 = 0.1;
 
 /// Base on contact elements: B from coordinates to element means of displacement, and BᵀA from tractions to forces.
 ///
@@ -35,7 +37,14 @@ pub(crate) struct PlacedBase {
     /// Rows of B, component by component.
     rows: Rows,
     foundations: Vec<PlacedFoundation>,
+    /// Elements of the ground.
     elements: Patch,
+    joints: Vec<PlacedJoint>,
+    /// Order of the numbers of a contact vector: elements of the ground, then of the joints.
+    layout: ContactLayout,
+    /// Areas of all elements, m².
+    areas: Vec<f64>,
+    /// Nodes of the foundations, then of the joints.
     nodes: Vec<BaseNode>,
     /// Integration points under flexible foundations; empty in stepping coordinates.
     points: Vec<BasePoint>,
@@ -67,8 +76,18 @@ pub(crate) struct PlacedFoundation {
 }
 
 impl PlacedBase {
+    /// Places the base of `structure` on the elements of a ground, with joints.
+    pub(crate) fn of(
+        structure: &dyn Structure,
+        patch: &Patch,
+        joints: &[JointLine],
+    ) -> Result<Self> {
+        joints.iter().try_for_each(|joint| joint.check(structure.dofs()))?;
+        Self::on_ground(structure, patch)?.with_joints(joints)
+    }
+
     /// Places the base of `structure` on the elements of a ground.
-    pub(crate) fn of(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
+    fn on_ground(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
         let base = structure.base();
         base.check(structure.dofs())?;
         let scene_error = |needed| Err(Error::Scene { quantity: "structure", needed });
@@ -102,8 +121,16 @@ impl PlacedBase {
                 rows[layout.place(component, e)] = terms;
             }
         }
-        let elements = elements.clone();
-        Self { rows: Rows::Sparse(rows), foundations, elements, nodes, points }
+        Self {
+            rows: Rows::Sparse(rows),
+            foundations,
+            areas: elements.areas().to_vec(),
+            elements: elements.clone(),
+            joints: Vec::new(),
+            layout,
+            nodes,
+            points,
+        }
     }
 
     /// Whether a foundation can bend.
@@ -191,45 +218,21 @@ impl PlacedBase {
         self.foundations.iter().map(|foundation| &foundation.corners[..])
     }
 
-    /// Lengths by which foundations extend too far beyond the ground's elements.
-    ///
-    /// An entry is the foundation's number, in plan the axis, and the overhang, m. An overhang is too long if it exceeds
-    /// the longest side of the elements along the axis, or a tenth of the foundation.
-    pub(crate) fn long_overhangs(&self) -> Vec<(usize, Option<char>, f64)> {
-        let mut overhangs = Vec::new();
-        for (foundation, (nodes, elements)) in self.foundations().enumerate() {
-            for axis in self.layout().axes() {
-                let ends =
-                    self.elements[elements.clone()].iter().map(|element| element.ends()[axis]);
-                let sides = ends.clone().map(|[low, high]| high - low);
-                let longest_side = sides.fold(0.0, |longest: f64, side| side.max(longest));
-                let edges = enclosing_interval(ends);
-                let node_ends = span(nodes.iter().map(|node| node.place()[axis]));
-                let limit =
-                    longest_side.min(MAX_UNCOVERED_FRACTION * (node_ends[1] - node_ends[0]));
-                let overhang = (edges[0] - node_ends[0]).max(node_ends[1] - edges[1]);
-                if overhang > limit {
-                    let axis_letter = axis_name(self.elements.is_plan(), axis);
-                    overhangs.push((foundation, axis_letter, overhang));
-                }
-            }
-        }
-        overhangs
-    }
-
-    /// The contact elements.
+    /// The contact elements of the ground.
     pub(crate) fn elements(&self) -> &Patch {
         &self.elements
     }
 
-    /// Areas A of the elements, m²; in the plane their lengths.
+    /// Areas A of all elements, m²; in the plane their lengths.
+    ///
+    /// Elements of joints follow those of the ground.
     pub(crate) fn areas(&self) -> &[f64] {
-        self.elements.areas()
+        &self.areas
     }
 
-    /// Order of the numbers of a contact vector.
+    /// Order of the numbers of a contact vector, of the ground and the joints.
     pub(crate) fn layout(&self) -> ContactLayout {
-        self.elements.layout()
+        self.layout
     }
 
     /// Area of the element of contact component `i`, m²; in the plane its length, m.
@@ -248,13 +251,15 @@ impl PlacedBase {
     }
 
     /// Displacement `[right, up, along_y]` of element `e`, from contact displacements.
+    ///
+    /// On an element of a joint it is that of the upper side relative to the lower side.
     pub(crate) fn element_displacement(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
         let mut components = [0.0; 3];
         for (component, value) in components.iter_mut().take(layout.components()).enumerate() {
             *value = displacement[layout.place(component, e)];
         }
-        let vector = self.elements[e].vector(components);
+        let vector = self.element(e).vector(components);
         [vector[0], vector[2], vector[1]]
     }
 
@@ -263,8 +268,10 @@ impl PlacedBase {
     /// The component along y is zero in the plane.
     pub(crate) fn mean_displacement(&self, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
-        let [down, tangential_x, tangential_y] = layout.split(displacement);
-        let areas = self.areas();
+        let areas = self.elements.areas();
+        let ground_count = areas.len();
+        let [down, tangential_x, tangential_y] =
+            layout.split(displacement).map(|values| &values[..ground_count.min(values.len())]);
         let total_area: f64 = areas.iter().sum();
         if self.elements.has_walls() {
             let mut mean = [0.0; 3];

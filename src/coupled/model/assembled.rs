@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
+use crate::coupled::base::joint_line::JointLine;
 use crate::coupled::model::mechanism::StructureAtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
@@ -47,12 +48,16 @@ pub(crate) struct Assembled {
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements`, and factors its stiffness at rest with a fixed base.
+    /// Assembles a structure over `elements` with joints, and factors its stiffness at rest with a fixed base.
     ///
     /// Returns an error for matrices of wrong sign, parts without connection to the base, supports besides the ground, and
     /// mechanisms that cannot be factored.
-    pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
-        let base = PlacedBase::of(structure, elements)?;
+    pub(crate) fn new(
+        structure: &dyn Structure,
+        elements: &Patch,
+        joints: &[JointLine],
+    ) -> Result<(Self, SparseFactor)> {
+        let base = PlacedBase::of(structure, elements, joints)?;
         let dofs = structure.dofs();
         let is_linear = structure.nonlinear().is_none();
         at_least("list of degrees of freedom", dofs, 1)?;
@@ -255,8 +260,10 @@ impl Assembled {
         let spring = self.base_spring_stiffness();
         let springs = SpringSupportedBase::new(self.base.nodes(), stiffness, spring);
         let matrix = SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &springs.matrix)?;
-        let is_condensed =
-            self.is_linear && self.base.is_flexible() && !self.base.elements().has_walls();
+        let is_condensed = self.is_linear
+            && self.base.is_flexible()
+            && self.base.joints().is_empty()
+            && !self.base.elements().has_walls();
         let elimination_ending_with_base =
             if is_condensed { self.elimination.ending_with(&self.base.dofs()) } else { None };
         let elimination = elimination_ending_with_base.as_ref().unwrap_or(&self.elimination);
@@ -295,8 +302,14 @@ impl Assembled {
                 node_dofs.for_each(|dof| parts.join(first_dof, dof));
             }
         }
+        for node in self.base.joints().iter().flat_map(|joint| joint.line.sides()).flatten() {
+            let mut node_dofs = node.dofs();
+            if let Some(first_dof) = node_dofs.next() {
+                node_dofs.for_each(|dof| parts.join(first_dof, dof));
+            }
+        }
         let part_labels: Vec<usize> = (0..dofs).map(|dof| parts.root(dof)).collect();
-        let influence = Influence::split(&self.base, &translations, &part_labels);
+        let influence = Influence::split(&self.base, &translations, &part_labels)?;
         supports::check_parts(&influence, &self.base, dofs)?;
         Ok((influence, factor))
     }

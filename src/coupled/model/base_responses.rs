@@ -19,8 +19,8 @@ pub(super) struct BaseResponses {
     unit_forces: Vec<f64>,
     /// Responses K_eff⁻¹ BᵀA on the base, one column after the other.
     responses: Vec<f64>,
-    /// B, row-major.
-    means: Vec<f64>,
+    /// Entries of each row of B: position among the degrees of freedom of the base, and weight.
+    mean_rows: Vec<Vec<(usize, f64)>>,
 }
 
 impl BaseResponses {
@@ -37,31 +37,31 @@ impl BaseResponses {
             unit_traction[i] = 0.0;
             unit_forces.extend(dofs.iter().map(|dof| force[*dof]));
         }
-        let mut means = vec![0.0; order * dofs.len()];
+        let mut mean_rows = vec![Vec::new(); order];
         let mut displacement = vec![0.0; dof_count];
         let mut element_means = vec![0.0; order];
         for (k, dof) in dofs.iter().enumerate() {
             displacement[*dof] = 1.0;
             base.means(&displacement, &mut element_means);
             displacement[*dof] = 0.0;
-            means
-                .chunks_exact_mut(dofs.len())
-                .zip(&element_means)
-                .for_each(|(row, mean)| row[k] = *mean);
+            for (row, mean) in mean_rows.iter_mut().zip(&element_means) {
+                if *mean != 0.0 {
+                    row.push((k, *mean));
+                }
+            }
         }
-        Self { dofs, responses: unit_forces.clone(), unit_forces, means }
+        Self { dofs, responses: unit_forces.clone(), unit_forces, mean_rows }
     }
 
     /// Adds B K_eff⁻¹ BᵀA to the row-major `operator`, without allocating.
     pub(super) fn add_to(&mut self, factor: &mut ChangingFactor, operator: &mut [f64]) {
-        let Self { dofs, unit_forces, responses, means } = self;
+        let Self { dofs, unit_forces, responses, mean_rows } = self;
         responses.copy_from_slice(unit_forces);
         factor.solve_on_last_rows(responses);
-        let dof_count = dofs.len();
-        let order = means.len() / dof_count;
-        for (mean_row, row) in means.chunks_exact(dof_count).zip(operator.chunks_exact_mut(order)) {
-            for (response, entry) in responses.chunks_exact(dof_count).zip(row) {
-                *entry += mean_row.iter().zip(response).map(|(b, u)| b * u).sum::<f64>();
+        let order = mean_rows.len();
+        for (mean_row, row) in mean_rows.iter().zip(operator.chunks_exact_mut(order)) {
+            for (response, entry) in responses.chunks_exact(dofs.len()).zip(row) {
+                *entry += mean_row.iter().map(|(k, weight)| weight * response[*k]).sum::<f64>();
             }
         }
     }

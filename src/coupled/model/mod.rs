@@ -4,6 +4,7 @@ pub(crate) mod assembled;
 mod base_responses;
 pub(crate) mod condensed;
 pub(crate) mod effective_stiffness;
+pub(crate) mod joint_compliance;
 pub(crate) mod kinematics;
 pub(crate) mod load;
 pub(crate) mod mechanism;

@@ -94,7 +94,11 @@ impl Operators {
                 *factorization = StiffnessFactorization::Changing(Box::new(stiffness));
             }
         }
-        self.tangent.copy_from(tangent);
+        if has_same_pattern {
+            self.tangent.copy_values(tangent);
+        } else {
+            self.tangent.clone_from(tangent);
+        }
         let factorization = &mut self.factorization;
         if self.delassus.on_bed().is_some() {
             let solve = |rhs: &mut [f64]| factorization.solve_many(rhs);
@@ -222,7 +226,7 @@ impl StiffnessFactorization {
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.
-    fn solve_many(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn solve_many(&mut self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
             Self::Changing(stiffness) => stiffness.factor.solve_many(rhs),

@@ -149,6 +149,18 @@ pub enum Warning {
         /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
         axis: Option<char>,
     },
+    /// A flexible side of a joint on fewer contact elements than segments between its nodes.
+    ///
+    /// The contact of the joint does not resist bending between the middles of its elements.
+    #[error("elements of joint {joint}: {elements}, its flexible side needs {needed}")]
+    CoarseJoint {
+        /// Number of the joint, in the order of the builder, from 0.
+        joint: usize,
+        /// Elements of the joint.
+        elements: usize,
+        /// Number needed: of the segments between nodes, along the elements.
+        needed: usize,
+    },
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.

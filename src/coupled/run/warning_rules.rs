@@ -66,6 +66,7 @@ impl Warning {
         for (foundation, axis, reach) in scene.base.long_overhangs() {
             warnings.push(Self::UncoveredBase { foundation, reach, axis });
         }
+        warnings.extend(Self::of_joints(scene));
         warnings.extend(Self::of_time_step(scene.time_step, motion, period));
         if scene.layout().is_plan() {
             warnings.extend(Self::of_high_friction(scene));
@@ -79,6 +80,15 @@ impl Warning {
             warnings.push(Self::SampledPassivity { checked, cells });
         }
         warnings
+    }
+
+    /// Warnings of joints with fewer elements than segments of a flexible side.
+    fn of_joints(scene: &Scene) -> impl Iterator<Item = Self> {
+        scene.base.joints().iter().enumerate().filter_map(|(joint, placed)| {
+            let elements = placed.elements.len();
+            let needed = placed.line.segments();
+            (elements < needed).then_some(Self::CoarseJoint { joint, elements, needed })
+        })
     }
 
     /// Warnings of the end of a run: an early end, a peak at the end, or an overturned base.

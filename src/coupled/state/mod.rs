@@ -4,7 +4,11 @@ pub(crate) mod energy_balance;
 #[cfg(feature = "embedded")]
 pub(crate) mod face_forces;
 pub(crate) mod foundation;
+pub(crate) mod joint_state;
 pub(crate) mod sequence;
+mod transition;
+
+pub use transition::Transition;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,42 +17,13 @@ use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::{DofResponse, Kinematics};
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::state::foundation::{Foundation, FoundationChecks};
+use crate::coupled::state::joint_state::JointState;
 use crate::error::Result;
 use crate::geometry::resultant;
 use crate::geometry::{Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
 use crate::structure::Probe;
 use crate::structure::probe_index;
-
-/// Change of an element's contact mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[non_exhaustive]
-pub struct Transition {
-    /// Number of the step of the change, from 1.
-    pub step: usize,
-    /// Time at the end of that step, s.
-    pub time: f64,
-    /// Index of the element from the left, from 0.
-    pub element: usize,
-    /// Mode before the change.
-    pub from: Mode,
-    /// Mode after the change.
-    pub to: Mode,
-}
-
-impl Transition {
-    /// Whether the element opened.
-    pub(crate) fn is_debonding(&self) -> bool {
-        self.from.is_closed() && !self.to.is_closed()
-    }
-
-    /// Whether the element closed again.
-    pub(crate) fn is_rebonding(&self) -> bool {
-        !self.from.is_closed() && self.to.is_closed()
-    }
-}
 
 /// Identity of the simulation to which a state belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,11 +65,11 @@ pub struct State {
     pub step: usize,
     /// Time, s.
     pub time: f64,
-    /// Gap, slip and total tractions of each element.
+    /// Gap, slip and total tractions of each element of the ground.
     pub contact: Vec<ContactState>,
-    /// Mode of each element.
+    /// Mode of each element of the ground.
     pub modes: Vec<Mode>,
-    /// Changes of modes in this step.
+    /// Changes of modes in this step, of elements of the ground.
     pub transitions: Vec<Transition>,
     /// Values of the probes, in the order of the builder.
     pub probes: Vec<f64>,
@@ -118,6 +93,8 @@ pub struct State {
     pub base_rotation: f64,
     /// Results of each foundation, from left to right; in plan in the order of the structure's faces.
     pub foundations: Vec<Foundation>,
+    /// Results of each joint, in the order of the builder.
+    pub joints: Vec<JointState>,
     /// Mean horizontal and vertical (up) displacement of the free field at the base and its walls, m.
     pub free_field: [f64; 2],
     /// In plan: mean displacement of the free field along y, m; zero in the plane.
@@ -160,6 +137,7 @@ impl PartialEq for State {
             mean_slip,
             base_rotation,
             foundations,
+            joints,
             free_field,
             free_field_across,
             energy_balance,
@@ -184,6 +162,7 @@ impl PartialEq for State {
             && *mean_slip == other.mean_slip
             && *base_rotation == other.base_rotation
             && *foundations == other.foundations
+            && *joints == other.joints
             && *free_field == other.free_field
             && *free_field_across == other.free_field_across
             && *energy_balance == other.energy_balance
@@ -258,6 +237,24 @@ impl State {
         probe_index(probes, name, |probe| &probe.name).map(|index| self.probes[index])
     }
 
+    /// Copies the modes of all elements, of the ground and then of the joints.
+    pub(crate) fn copy_modes(&self, modes: &mut [Mode]) {
+        let ground_count = self.modes.len();
+        modes[..ground_count].copy_from_slice(&self.modes);
+        let joint_modes = self.joints.iter().flat_map(|joint| &joint.modes);
+        modes[ground_count..]
+            .iter_mut()
+            .zip(joint_modes)
+            .for_each(|(copy, mode)| *copy = *mode);
+    }
+
+    /// Contact and mode of each element, of the ground and then of the joints.
+    pub(crate) fn elements_mut(&mut self) -> impl Iterator<Item = (&mut ContactState, &mut Mode)> {
+        let ground = self.contact.iter_mut().zip(&mut self.modes);
+        let joints = self.joints.iter_mut();
+        ground.chain(joints.flat_map(|joint| joint.contact.iter_mut().zip(&mut joint.modes)))
+    }
+
     /// Largest rotation of a foundation about a horizontal axis, rad.
     pub(crate) fn tilt(&self) -> f64 {
         let tilts = self.foundations.iter().map(|foundation| {
@@ -274,7 +271,7 @@ impl State {
     /// State variables of the law of an element.
     ///
     /// See [`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables). Empty if the law
-    /// has none, or the element does not exist.
+    /// has none, or the element does not exist. Elements of joints count after those of the ground, joint by joint.
     pub fn state_variables(&self, element: usize) -> &[f64] {
         if element < self.start.len() { self.start.state_variables_of(element) } else { &[] }
     }

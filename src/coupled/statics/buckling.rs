@@ -24,6 +24,8 @@ use crate::structure::{Structure, Tangent, max_diagonal_stiffness};
 const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
 /// Name of S in errors.
 const GROUND_COMPLIANCE_NAME: &str = "static compliance of the ground";
+/// Compliance of an element of a joint, relative to the largest entry of the ground's compliance.
+const CLOSED_JOINT_COMPLIANCE_RATIO: f64 = 1e-6;
 /// Uniform compliance that is added to a compliance without a datum, relative to the largest entry of the latter.
 const UNIFORM_COMPLIANCE_FACTOR: f64 = 10.0;
 
@@ -202,11 +204,17 @@ fn factored_compliance(
             }
         }
     }
+    let entries = compliance.entries().iter();
+    let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
+    // The compliance of hard contact between bodies is zero.
+    for (row, &i) in contact_indices.iter().enumerate() {
+        if layout.origin(i)[1] >= base.elements().len() {
+            compliance.add(row, row, CLOSED_JOINT_COMPLIANCE_RATIO * max_entry);
+        }
+    }
     if let Some(factor) = positive_definite(&compliance) {
         return Some(factor);
     }
-    let entries = compliance.entries().iter();
-    let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
     let mut means = vec![0.0; layout.len()];
     for translation in assembled.influence.whole_vectors(assembled.dofs()) {
         base.means(&translation, &mut means);

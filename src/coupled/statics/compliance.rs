@@ -8,6 +8,7 @@ use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
+use crate::coupled::model::joint_compliance::{JOINT_COMPLIANCE_RATIO, with_joint_compliance};
 use crate::coupled::model::operators::condense;
 use crate::error::{Error, Result};
 use crate::linalg::{CompressedMatrix, SparseFactor, SparseMatrix, sparse_condition};
@@ -73,6 +74,16 @@ impl Compliance {
         ground_compliance: &CompressedMatrix,
     ) -> Result<Self> {
         let order = factor.matrix.order();
+        let ground_with_joints;
+        let ground_compliance = if base.joints().is_empty() {
+            ground_compliance
+        } else {
+            let solve = |rhs: &mut [f64]| factor.factor.solve_many(rhs);
+            let ratio = JOINT_COMPLIANCE_RATIO;
+            ground_with_joints =
+                with_joint_compliance(solve, base, ground_compliance, order, ratio);
+            &ground_with_joints
+        };
         let (traction_responses, delassus) =
             condense(|rhs| factor.factor.solve_many(rhs), base, ground_compliance, order)?;
         Ok(Self { factor, traction_responses, delassus })
@@ -100,7 +111,7 @@ fn vertical_mass(assembled: &Assembled) -> f64 {
 
 /// Vertical force of a uniform pressure per settlement of the ground, N/m.
 fn vertical_stiffness(ground_compliance: &CompressedMatrix, base: &PlacedBase) -> f64 {
-    let areas = base.areas();
+    let areas = base.elements().areas();
     let order = base.layout().len();
     let element_count = areas.len();
     let total_area = areas.iter().sum::<f64>();

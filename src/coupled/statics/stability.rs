@@ -59,6 +59,10 @@ fn base_failure(
     let at_rest = assembled.structure_at_rest(problem.structure);
     let (springs, regularised) = RegularisedStiffness::on_springs(&at_rest, FIRM_SPRING_FACTOR);
     let mut factor = regularised.factor()?;
+    // The load on the base of a part that carries others does not follow from its own weight.
+    if !base.joints().is_empty() {
+        return None;
+    }
     assembled.influence.parts().iter().find_map(|part| {
         let [right, upward, away] = part.resultants(load);
         let nodes = part.nodes(base);

@@ -15,6 +15,7 @@ pub(crate) struct StaticState {
     pub(crate) gap: Vec<f64>,
     /// Displacement of the degrees of freedom, m and rad.
     pub(crate) displacement: Vec<f64>,
+    /// Contact mode of each element.
     pub(crate) modes: Vec<Mode>,
     /// Load that the structure defines at t = 0, N.
     pub(crate) load: Vec<f64>,
@@ -31,15 +32,15 @@ pub(crate) struct StaticState {
 
 impl StaticState {
     /// State without weight: all elements are closed, without pressure.
-    pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
+    pub(crate) fn weightless(layout: ContactLayout, dof_count: usize) -> Self {
         let element_count = layout.elements();
         Self {
             layout,
             traction: vec![0.0; layout.len()],
             gap: vec![0.0; element_count],
-            displacement: vec![0.0; dofs],
+            displacement: vec![0.0; dof_count],
             modes: vec![Mode::Stick; element_count],
-            load: vec![0.0; dofs],
+            load: vec![0.0; dof_count],
             state_variables: Vec::new(),
             force: Vec::new(),
             energy: None,
@@ -47,8 +48,8 @@ impl StaticState {
         }
     }
 
-    /// Modes at the start of the next stage or run: closed elements stick.
-    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+    /// Contact modes at the start of the next static stage or of the run: closed elements stick.
+    pub(crate) fn initial_modes(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
             let law_modes = law_of(laws, e).modes();
@@ -67,13 +68,13 @@ impl StaticState {
     pub(crate) fn set_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
-        start: &PreviousContacts,
+        previous_contacts: &PreviousContacts,
         states: &[ContactState],
     ) -> Result<()> {
         let form = LawForm::of(self.layout);
         for (e, gap) in self.gap.iter_mut().enumerate() {
             let law = law_of(laws, e);
-            let previous = start.element(e);
+            let previous = previous_contacts.element(e);
             let mode = self.modes[e];
             let pressure = self.traction[e];
             let prescribed = match form {

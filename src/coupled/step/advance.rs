@@ -5,6 +5,7 @@ use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::state::foundation::{ContactSums, Foundation, FoundationChecks};
+use crate::coupled::state::joint_state::JointState;
 use crate::coupled::state::{ResultContext, SimulationId, State, Transition};
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
@@ -26,7 +27,7 @@ impl State {
                 )
             })
             .collect();
-        let modes = static_state.modes_with(&scene.laws);
+        let modes = static_state.initial_modes(&scene.laws);
         let previous_contacts: Vec<_> = (0..element_count)
             .map(|e| {
                 let previous = PreviousContact::new(contact[e], modes[e], scene.time_step);
@@ -39,6 +40,7 @@ impl State {
         for (_, elements) in scene.base.foundations() {
             foundations.push(Foundation { elements, ..Foundation::default() });
         }
+        let ground_count = scene.base.elements().len();
         let mut state = Self {
             step: 0,
             time: 0.0,
@@ -46,8 +48,8 @@ impl State {
             simulation: SimulationId::new(),
             context: scene.context.clone(),
             kinematics: Kinematics::new(model),
-            contact,
-            modes,
+            contact: contact[..ground_count].to_vec(),
+            modes: modes[..ground_count].to_vec(),
             transitions: Vec::with_capacity(element_count),
             probes: vec![0.0; scene.context.probes.len()],
             base_shear: 0.0,
@@ -57,6 +59,7 @@ impl State {
             mean_slip: 0.0,
             base_rotation: 0.0,
             foundations,
+            joints: JointState::all_at_rest(&scene.base, &contact, &modes),
             free_field: [0.0; 2],
             free_field_across: 0.0,
             energy_balance: EnergyBalance::default(),
@@ -83,7 +86,8 @@ impl State {
         let free_field = scene.base.mean_displacement(&forcing.free_field);
         self.free_field = [free_field[0], free_field[1]];
         self.free_field_across = free_field[2];
-        self.contact.copy_from_slice(&increment.contact);
+        let ground_count = self.contact.len();
+        self.contact.copy_from_slice(&increment.contact[..ground_count]);
         self.transitions.clear();
         let step = self.step;
         let time = self.time;
@@ -93,7 +97,11 @@ impl State {
                 *from = to;
             }
         }
-        self.start.advance(&self.contact, &self.modes, &increment.state_variables);
+        let Increment { contact, modes, state_variables, .. } = &*increment;
+        for (state, joint) in self.joints.iter_mut().zip(scene.base.joints()) {
+            state.advance(joint, contact, modes, step, time);
+        }
+        self.start.advance(contact, modes, state_variables);
         self.trials = increment.trials;
         self.method = increment.method;
         self.update_resultants(scene);
@@ -141,6 +149,9 @@ impl State {
         [state.base_shear, state.normal_force, state.base_moment] = resultants;
         state.uplifted_fraction = sums.open_area / sums.area;
         state.mean_slip = sums.slip / sums.area;
+        for (joint_state, joint) in state.joints.iter_mut().zip(scene.base.joints()) {
+            joint_state.update_resultants(joint, &scene.base);
+        }
         let translations = &state.kinematics.translations;
         for (value, probe) in state.probes.iter_mut().zip(&scene.stepped_probes) {
             let [u, v, a] = &probe.weights;

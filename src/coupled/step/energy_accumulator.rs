@@ -17,6 +17,7 @@ use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
+use crate::coupled::step::joint_losses::JointLosses;
 use crate::error::LawError;
 use crate::linalg::matrix::spread;
 use crate::linalg::{LatticeScratch, dot};
@@ -32,10 +33,10 @@ pub(crate) struct EnergyAccumulator {
     pub(crate) soil_displacement: Vec<f64>,
     /// Jump at the end of the last step, m, 2Q or 3Q.
     pub(crate) jump: Vec<f64>,
-    /// Normal and shear compliance of each element at the end of the last step, m/Pa.
-    ///
-    /// Empty without compliant laws.
+    /// Normal and shear compliance of each element at the end of the last step, m/Pa; empty without compliant laws.
     pub(crate) compliance: Vec<[f64; 2]>,
+    /// Energy lost by friction and impact in each joint, J/m.
+    pub(crate) joint_losses: JointLosses,
     /// Stored energy of the nonlinear force; its work so far if the stored energy is unknown.
     pub(crate) nonlinear_energy: f64,
     /// Rᵀ M Δu of the last step, for each part.
@@ -79,8 +80,8 @@ impl EnergyAccumulator {
         }
         let mut compliance = Vec::new();
         if is_compliant {
-            for (e, &mode) in state.modes.iter().enumerate() {
-                compliance.push(scene.compliance(e, mode, &state.start)?);
+            for (e, start) in state.start.iter().enumerate() {
+                compliance.push(scene.compliance(e, start.mode, &state.start)?);
             }
         }
         let parts = scene.model.influence.parts();
@@ -104,6 +105,7 @@ impl EnergyAccumulator {
             soil_displacement: vec![0.0; component_count],
             jump,
             compliance,
+            joint_losses: JointLosses::new(scene),
             nonlinear_energy: 0.0,
             momentum: vec![[0.0; 3]; parts.len()],
             translation_increment: vec![[0.0; 3]; parts.len()],
@@ -147,8 +149,7 @@ impl EnergyAccumulator {
 
     /// Energy of the static state in compliant interfaces, and in a nonlinear force that returns its energy.
     ///
-    /// The balance counts these energies relative to the static state. The rounding of their changes is proportional to this
-    /// energy.
+    /// The balance counts energies relative to the static state. Rounding of changes is proportional to this energy.
     fn static_energy(&self, scene: &Scene) -> f64 {
         let static_state = &scene.static_state;
         let layout = scene.layout();
@@ -170,6 +171,7 @@ impl EnergyAccumulator {
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
         numbers.extend(contact.into_iter().flatten());
         numbers.extend(self.compliance.iter_mut().flatten());
+        numbers.extend(&mut self.joint_losses.0);
         let parts = [&mut self.momentum, &mut self.translation_increment].into_iter().flatten();
         numbers.extend(parts.flat_map(|values| values.iter_mut().take(components)));
         numbers
@@ -325,6 +327,8 @@ impl EnergyAccumulator {
             .step_compliance
             .multiply_add_with(lattice, &increment.traction, soil_displacement);
         let layout = scene.layout();
+        let ground_count = scene.base.elements().len();
+        let joint_losses = &mut self.joint_losses;
         let error_bound = ground.increment_error_bound();
         for i in 0..layout.len() {
             let [k, e] = layout.origin(i);
@@ -338,6 +342,7 @@ impl EnergyAccumulator {
             let free_traction = forcing.free_traction.get(i).copied().unwrap_or(0.0);
             let soil_increment = soil_displacement[i] - self.soil_displacement[i];
             energy_balance.soil += area * (change - free_traction) * soil_increment;
+            let error_bound = if e < ground_count { error_bound } else { 0.0 };
             energy_balance.soil_error_bound += area * (change - free_traction).abs() * error_bound;
             // Elastic increment of the jump.
             let mut elastic_opening = 0.0;
@@ -355,10 +360,12 @@ impl EnergyAccumulator {
                     energy_balance.algorithmic += loss;
                 } else {
                     energy_balance.contact += loss;
+                    joint_losses.add(scene, e, loss);
                 }
             }
-            energy_balance.contact -=
-                area * (static_traction + change) * (opening - elastic_opening);
+            let work = area * (static_traction + change) * (opening - elastic_opening);
+            energy_balance.contact -= work;
+            joint_losses.add(scene, e, -work);
             energy_balance.static_contact += area * static_traction * opening;
             energy_balance.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
             if free_traction != 0.0 {

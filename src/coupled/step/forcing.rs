@@ -40,6 +40,9 @@ pub(crate) struct Forcing {
     dof_load: Vec<f64>,
     /// Time integral of the free field's tractions, Pa s; empty on the surface.
     impulse: Vec<f64>,
+    /// Displacements of the ground's elements, and the tractions' integral; empty without joints.
+    ground_displacement: Vec<f64>,
+    ground_impulse: Vec<f64>,
 }
 
 impl Forcing {
@@ -49,6 +52,8 @@ impl Forcing {
         let structure_zeros = vec![0.0; scene.model.coordinate_count];
         let wall_zeros =
             if scene.base.elements().has_walls() { contact_zeros.clone() } else { Vec::new() };
+        let has_joints = !scene.base.joints().is_empty();
+        let ground_count = if has_joints { scene.base.elements().layout().len() } else { 0 };
         Self {
             load: structure_zeros.clone(),
             has_load: false,
@@ -56,7 +61,9 @@ impl Forcing {
             distortion: contact_zeros.clone(),
             history: contact_zeros,
             free_traction: wall_zeros.clone(),
+            ground_impulse: if wall_zeros.is_empty() { vec![] } else { vec![0.0; ground_count] },
             impulse: wall_zeros,
+            ground_displacement: vec![0.0; ground_count],
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             translation_increment: structure_zeros.clone(),
             translation_velocity: structure_zeros,
@@ -78,8 +85,7 @@ impl Forcing {
         for (value, initial) in self.free_field.iter_mut().zip(&scene.initial_free_field) {
             *value -= initial;
         }
-        // An error of the ground ends the step.
-        ground.history(&mut self.history).map_err(StepError::part("history of the ground"))?;
+        self.update_history(scene, ground)?;
         for (values, quantity) in
             [(&self.free_field, "free field"), (&self.history, "history of the ground")]
         {
@@ -95,6 +101,12 @@ impl Forcing {
             *translation = previous.next(displacement, &scene.coefficients);
             part.subtract_translation(&scene.base, displacement, &mut self.distortion);
         }
+        let Self { translations, distortion, .. } = self;
+        influence.set_joint_distortion(
+            &scene.base,
+            |part| translations[part].displacement,
+            distortion,
+        );
         self.translation_increment.fill(0.0);
         let increments = self.translations.iter().map(|translation| translation.increment);
         influence.translate(1.0, increments, &mut self.translation_increment);
@@ -126,6 +138,17 @@ impl Forcing {
 }
 
 impl Forcing {
+    /// Computes the convolution history of the ground; zero at joints. An error of the ground ends the step.
+    fn update_history(&mut self, scene: &Scene, ground: &mut dyn Ground) -> Result<(), StepError> {
+        let part_error = StepError::part("history of the ground");
+        if self.ground_displacement.is_empty() {
+            return ground.history(&mut self.history).map_err(part_error);
+        }
+        ground.history(&mut self.ground_displacement).map_err(part_error)?;
+        scene.base.set_ground_part(&self.ground_displacement, &mut self.history);
+        Ok(())
+    }
+
     /// Subtracts the effect of the free field's tractions in this step from the history.
     fn subtract_free_traction(&mut self, scene: &Scene) -> Result<(), StepError> {
         // The buffer of the impulse now contains −τ_ff.
@@ -148,16 +171,35 @@ impl Forcing {
         motion: &dyn FreeField,
         time: f64,
     ) {
-        let elements = scene.base.elements();
         // The build has checked that the motion is defined on the walls.
-        if elements.has_walls() {
-            // The buffer of the tractions first contains the impulse at the start of the step.
-            let impulse = &mut self.free_traction;
-            fill_free_field(ground, motion, elements, state.time, &mut self.free_field, impulse);
+        if scene.base.elements().has_walls() {
+            self.fill_free_field(scene, ground, motion, state.time);
+            self.free_traction.copy_from_slice(&self.impulse);
         }
-        fill_free_field(ground, motion, elements, time, &mut self.free_field, &mut self.impulse);
+        self.fill_free_field(scene, ground, motion, time);
         for (traction, impulse) in self.free_traction.iter_mut().zip(&self.impulse) {
             *traction = (*impulse - *traction) / scene.time_step;
+        }
+    }
+
+    /// Computes displacements of the free field at `time` (s), and the integral of its tractions; zero at joints.
+    fn fill_free_field(
+        &mut self,
+        scene: &Scene,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
+        time: f64,
+    ) {
+        let Self { free_field, impulse, ground_displacement, ground_impulse, .. } = self;
+        let elements = scene.base.elements();
+        if ground_displacement.is_empty() {
+            fill_free_field(ground, motion, elements, time, free_field, impulse);
+            return;
+        }
+        fill_free_field(ground, motion, elements, time, ground_displacement, ground_impulse);
+        scene.base.set_ground_part(ground_displacement, free_field);
+        if !ground_impulse.is_empty() {
+            scene.base.set_ground_part(ground_impulse, impulse);
         }
     }
 }

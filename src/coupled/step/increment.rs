@@ -64,7 +64,7 @@ impl Increment {
             end_velocity: vec![0.0; coordinates],
             end_acceleration: vec![0.0; coordinates],
             traction: vec![0.0; scene.layout().len()],
-            spread_traction: vec![0.0; scene.layout().len()],
+            spread_traction: vec![0.0; scene.base.elements().layout().len()],
             contact: vec![ContactState::default(); element_count],
             modes: vec![Mode::Stick; element_count],
             compliance: vec![[0.0; 2]; compliance_count],
@@ -75,6 +75,20 @@ impl Increment {
             nonlinear_force: vec![0.0; force_count],
             midstep_displacement: vec![0.0; force_count],
             force_displacement: vec![0.0; force_count],
+        }
+    }
+
+    /// Computes the change of traction on the ground, without the tractions of the free field (empty on the surface).
+    pub(crate) fn set_ground_traction(&mut self, scene: &Scene, free_traction: &[f64]) {
+        let Self { traction, spread_traction, .. } = self;
+        scene.base.copy_ground_part(traction, spread_traction);
+        if free_traction.is_empty() {
+            return;
+        }
+        let ground_layout = scene.base.elements().layout();
+        for (i, value) in spread_traction.iter_mut().enumerate() {
+            let [component, e] = ground_layout.origin(i);
+            *value -= free_traction[scene.layout().place(component, e)];
         }
     }
 

@@ -162,7 +162,7 @@ impl LinearStep {
             trial_lines: &[],
             frictionless: false,
         };
-        increment.modes.copy_from_slice(&state.modes);
+        state.copy_modes(&mut increment.modes);
         (increment.trials, increment.method) = contact.solve(&input, &mut increment.modes)?;
         increment.substituted_friction = contact.substituted_friction();
         let response = contact.response();

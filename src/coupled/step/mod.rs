@@ -5,6 +5,7 @@ pub(crate) mod energy_accumulator;
 pub(crate) mod forcing;
 pub(crate) mod increment;
 mod increment_search;
+pub(crate) mod joint_losses;
 mod linear;
 mod modal_loops;
 mod newton;

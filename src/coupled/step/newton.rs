@@ -20,8 +20,14 @@ const RESIDUAL_TOLERANCE: f64 = 1e-12;
 const STAGNATION_TOLERANCE: f64 = 1e3 * RESIDUAL_TOLERANCE;
 /// Rounding error of a displacement that may cause a force, in units of its last digit.
 const DISPLACEMENT_ROUNDING_FACTOR: f64 = 32.0;
+/// Ratio of two successive out-of-balance forces from which on they may be rounding.
+const ROUNDING_RATIO: f64 = 0.5;
 /// Number of iterations without a smaller out-of-balance force after which the iteration counts as a cycle.
 const MAX_STAGNANT_ITERATIONS: usize = 15;
+/// Smallest number of degrees of freedom for which two iterations with an old tangent take less time than a new factor.
+const MIN_KEPT_TANGENT_DOFS: usize = 400;
+/// Factor of the expected contraction of an iteration with an old tangent.
+const CONTRACTION_SAFETY: f64 = 2.0;
 
 /// Number of degrees of freedom with the largest out-of-balance force that an error passes to the structure.
 const REPORTED_DOFS: usize = 8;
@@ -124,6 +130,8 @@ impl NewtonIteration {
         let mut residual = f64::INFINITY;
         let mut smallest_residual = f64::INFINITY;
         let mut stagnant_iterations = 0;
+        // Out-of-balance force after the last iteration, relative to that before it.
+        let mut contraction = f64::INFINITY;
         // Whether the last increment did not reduce the out-of-balance force.
         let mut has_grown = false;
         for iteration in 0..MAX_NEWTON_ITERATIONS {
@@ -136,11 +144,20 @@ impl NewtonIteration {
                 let force = &increment.nonlinear_force;
                 self.search.start_at(&self.guess, &self.linearised_force, force);
             }
+            if !self.may_keep_tangent(contraction, residual) {
+                self.update_tangent(linear, data)?;
+            }
             let previous_residual = residual;
             residual = self.iterate(linear, data, 0.0, increment)?;
+            if previous_residual.is_finite() {
+                contraction = residual / previous_residual;
+            }
             has_grown = iteration > 0 && residual >= previous_residual;
             // The first solution is only a prediction, since its tangent may belong to the previous step.
             if residual <= RESIDUAL_TOLERANCE && (iteration > 0 || residual == 0.0) {
+                break;
+            }
+            if self.has_reached_rounding(linear, contraction, residual) {
                 break;
             }
             stagnant_iterations =
@@ -153,6 +170,21 @@ impl NewtonIteration {
             }
         }
         Ok(residual)
+    }
+
+    /// Whether the last tangent is good enough for the next iteration of a large structure.
+    ///
+    /// The tangents at the last two iterates differ by about `contraction`, the factor by which an iteration with the last
+    /// tangent reduces the out-of-balance force.
+    fn may_keep_tangent(&self, contraction: f64, residual: f64) -> bool {
+        self.guess.len() >= MIN_KEPT_TANGENT_DOFS
+            && residual * (CONTRACTION_SAFETY * contraction).powi(2) <= RESIDUAL_TOLERANCE
+    }
+
+    /// Whether the out-of-balance force is rounding that further iterations do not reduce.
+    fn has_reached_rounding(&self, linear: &LinearStep, contraction: f64, residual: f64) -> bool {
+        let has_stalled = contraction.is_finite() && contraction >= ROUNDING_RATIO;
+        has_stalled && residual <= self.rounding(linear)
     }
 
     /// Relative out-of-balance force due to rounding of displacements.
@@ -199,6 +231,7 @@ impl NewtonIteration {
                 if target_fraction > 0.0 { STAGNATION_TOLERANCE } else { RESIDUAL_TOLERANCE };
             let mut residual = f64::INFINITY;
             for _ in 0..MAX_STAGE_ITERATIONS {
+                self.update_tangent(linear, data)?;
                 residual = self.iterate(linear, data, target_fraction, increment)?;
                 if residual <= tolerance {
                     break;
@@ -221,6 +254,27 @@ impl NewtonIteration {
         Ok(())
     }
 
+    /// Computes the tangent at the iterate, and the operators with it if it differs from the last one.
+    fn update_tangent(
+        &mut self,
+        linear: &mut LinearStep,
+        data: StepData<'_>,
+    ) -> Result<(), StepError> {
+        self.tangent
+            .refill(data.structure, &self.force_displacement)
+            .map_err(StepError::part("tangent of the structure"))?;
+        let tangent = &self.tangent.matrix;
+        if tangent.differs_from(&linear.operators.tangent) {
+            let Scene { model, base, step_compliance, coefficients, .. } = data.scene;
+            linear
+                .operators
+                .change_tangent(model, base, step_compliance, coefficients, tangent)
+                .map_err(StepError::part("tangent of the structure"))?;
+            linear.contact.invalidate();
+        }
+        Ok(())
+    }
+
     /// Solves the step with the force linearised about the iterate, and returns the relative out-of-balance force.
     ///
     /// The fraction `imbalance_fraction` of the initial out-of-balance force acts as an external force. The increment becomes
@@ -232,21 +286,9 @@ impl NewtonIteration {
         imbalance_fraction: f64,
         increment: &mut Increment,
     ) -> Result<f64, StepError> {
-        let StepData { scene, structure, .. } = data;
+        let StepData { scene, .. } = data;
         self.iterations += 1;
         let stiffness_factor = scene.coefficients.displacement[0];
-        self.tangent
-            .refill(structure, &self.force_displacement)
-            .map_err(StepError::part("tangent of the structure"))?;
-        let tangent = &self.tangent.matrix;
-        if tangent != &linear.operators.tangent {
-            let Scene { model, base, step_compliance, coefficients, .. } = scene;
-            linear
-                .operators
-                .change_tangent(model, base, step_compliance, coefficients, tangent)
-                .map_err(StepError::part("tangent of the structure"))?;
-            linear.contact.invalidate();
-        }
         // f(u*) linearised about the iterate g: f + θ D (Δu − g), with θ = `stiffness_factor`.
         self.linearised_force.copy_from_slice(&increment.nonlinear_force);
         let tangent = &linear.operators.tangent;

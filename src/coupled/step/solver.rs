@@ -14,13 +14,13 @@ use crate::linalg::{largest, magnitude};
 const MAX_STEP_CHANGE: f64 = 1e15;
 
 /// Solver of a step: a linear step, with Newton's method around it for a nonlinear structure.
-pub(crate) struct Solver {
+pub(crate) struct StepSolver {
     linear: LinearStep,
     newton: Option<NewtonIteration>,
 }
 
-impl Solver {
-    /// Solver for a scene's steps.
+impl StepSolver {
+    /// Solver for the steps of `scene`.
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),

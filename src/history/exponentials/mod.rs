@@ -373,6 +373,3 @@ impl ConvolutionHistory for ExponentialHistory {
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests;

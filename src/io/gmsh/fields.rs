@@ -35,8 +35,8 @@ impl<R: Read> MshFields<R> {
 
     /// Reads the number one at the beginning of a binary file, by which its byte order is checked.
     pub(super) fn begin_binary(&mut self) -> LineResult<()> {
-        let byte_order_mark = i32::from_le_bytes(self.bytes("number one in binary form")?);
-        if byte_order_mark != 1 {
+        let byte_order_number = i32::from_le_bytes(self.bytes("number one in binary form")?);
+        if byte_order_number != 1 {
             let needed = "number one in binary form, the least significant byte first";
             return Err(self.fault(FileFault::missing(needed)));
         }
@@ -49,7 +49,7 @@ impl<R: Read> MshFields<R> {
         self.is_binary
     }
 
-    /// Reads the next bytes, which begin after the present line.
+    /// Reads the next `N` bytes after the present line; the rest of this line is skipped.
     fn bytes<const N: usize>(&mut self, item: &'static str) -> LineResult<[u8; N]> {
         self.position = self.text.len();
         let mut bytes = [0; N];
@@ -57,31 +57,31 @@ impl<R: Read> MshFields<R> {
         if is_complete { Ok(bytes) } else { Err((self.line, FileFault::missing(item))) }
     }
 
-    /// Reads a whole number of four bytes, or of text.
+    /// Reads a whole number: four bytes in a binary file, otherwise text.
     pub(super) fn whole_number<T: TryFrom<i64>>(&mut self, item: &'static str) -> LineResult<T> {
         let value = if self.is_binary {
             i64::from(i32::from_le_bytes(self.bytes(item)?))
         } else {
-            self.text(item)?
+            self.parsed_field(item)?
         };
         T::try_from(value).map_err(|_| self.wrong_field(&value.to_string(), item))
     }
 
-    /// Reads a count or a tag of eight bytes, or of text.
+    /// Reads a count or a tag: eight bytes in a binary file, otherwise text.
     pub(super) fn count_or_tag(&mut self, item: &'static str) -> LineResult<u64> {
         if self.is_binary {
             Ok(u64::from_le_bytes(self.bytes(item)?))
         } else {
-            self.text(item)
+            self.parsed_field(item)
         }
     }
 
-    /// Reads a number that may be infinite.
+    /// Reads a number, which may be infinite or NaN.
     pub(super) fn real(&mut self, item: &'static str) -> LineResult<f64> {
         if self.is_binary {
             Ok(f64::from_le_bytes(self.bytes(item)?))
         } else {
-            self.text(item)
+            self.parsed_field(item)
         }
     }
 
@@ -125,8 +125,8 @@ impl<R: Read> MshFields<R> {
     fn field(&mut self) -> LineResult<Option<&str>> {
         loop {
             let remaining_text = &self.text[self.position..];
-            let white_space = remaining_text.len() - remaining_text.trim_start().len();
-            let begin = self.position + white_space;
+            let white_space_length = remaining_text.len() - remaining_text.trim_start().len();
+            let begin = self.position + white_space_length;
             if begin < self.text.len() {
                 let field_and_more = &self.text[begin..];
                 let field_length =
@@ -157,8 +157,8 @@ impl<R: Read> MshFields<R> {
         Err(self.wrong_field(&field_text, item))
     }
 
-    /// Reads the next field, which is text also in a binary file.
-    pub(super) fn text<T: FromStr>(&mut self, item: &'static str) -> LineResult<T> {
+    /// Reads the next field, which is text also in a binary file, and parses it.
+    pub(super) fn parsed_field<T: FromStr>(&mut self, item: &'static str) -> LineResult<T> {
         self.field_as(item, |field| field.parse().ok())
     }
 
@@ -193,7 +193,7 @@ impl<R: Read> MshFields<R> {
     }
 
     /// Reads the heading of the next section; `None` at the end of the file.
-    pub(super) fn section(&mut self) -> LineResult<Option<String>> {
+    pub(super) fn next_section(&mut self) -> LineResult<Option<String>> {
         let Some(field) = self.field()? else { return Ok(None) };
         if let Some(name) = field.strip_prefix('$') {
             return Ok(Some(name.to_owned()));

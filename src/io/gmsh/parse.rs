@@ -26,7 +26,7 @@ pub(super) fn read(
     let mut completed_sections = Vec::new();
     // A section before the section of the format is read as one of version 4.
     let mut version = None;
-    while let Some(section) = fields.section()? {
+    while let Some(section) = fields.next_section()? {
         if completed_sections.contains(&section) {
             return Err(fields.fault(duplicate_fault(format!("section ${section}"))));
         }
@@ -65,9 +65,9 @@ pub(super) fn read(
 
 /// Reads the section with the version of the format.
 fn read_format_version(fields: &mut MshFields<impl Read>) -> LineResult<MshVersion> {
-    let version_text: String = fields.text("version of the format")?;
-    let binary_flag: u8 = fields.text("0 for text, 1 for binary")?;
-    let bytes_per_number: u8 = fields.text("bytes of a number")?;
+    let version_text: String = fields.parsed_field("version of the format")?;
+    let binary_flag: u8 = fields.parsed_field("0 for text, 1 for binary")?;
+    let bytes_per_number: u8 = fields.parsed_field("bytes of a number")?;
     let version = match version_text.as_str() {
         "4.1" => MshVersion::Four,
         "2.2" | "2.1" | "2" => MshVersion::Two,
@@ -88,9 +88,9 @@ fn read_format_version(fields: &mut MshFields<impl Read>) -> LineResult<MshVersi
 
 /// Reads the section with the names of groups.
 fn read_physical_names(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
-    let count: usize = fields.text("number of names")?;
+    let count: usize = fields.parsed_field("number of names")?;
     for _ in 0..count {
-        let group_key = (fields.text("dimension")?, fields.text("tag of a group")?);
+        let group_key = (fields.parsed_field("dimension")?, fields.parsed_field("tag of a group")?);
         let name = fields.quoted_text()?;
         if mesh.group_names.insert(group_key, name).is_some() {
             let item = format!("name of group {} of dimension {}", group_key.1, group_key.0);

@@ -9,7 +9,7 @@ use super::raw::{FileCell, FileMesh, FileNode, duplicate_fault};
 
 /// Reads the section of nodes.
 pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
-    let node_count: u64 = fields.text("number of nodes")?;
+    let node_count: u64 = fields.parsed_field("number of nodes")?;
     for (_, node_index) in (0..node_count).zip(0..) {
         let tag = fields.whole_number("tag of a node")?;
         if mesh.node_indices.insert(tag, node_index).is_some() {
@@ -32,7 +32,7 @@ pub(super) fn elements(
     mesh: &mut FileMesh,
     accepted_element_kinds: &AcceptedKinds,
 ) -> LineResult<()> {
-    let announced_count: u64 = fields.text("number of elements")?;
+    let announced_count: u64 = fields.parsed_field("number of elements")?;
     let mut grouped_cells = GroupedCells::default();
     let mut read_count = 0;
     while read_count < announced_count {

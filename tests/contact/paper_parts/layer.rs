@@ -173,7 +173,7 @@ fn largest_eigenvalue(multiply: impl Fn(&[f64]) -> Vec<f64>, size: usize) -> f64
     value
 }
 
-/// Number of components of ten elements.
+/// Order of the operator: two components for each of ten elements.
 const OPERATOR_SIZE: usize = 20;
 
 /// G¹ + 1/k, the operator of a bonded base that cannot move.
@@ -299,7 +299,7 @@ fn admissible_states_keep_their_mode_and_others_change() {
     assert_eq!(slip.next_mode(&law, &start), Mode::SlipRight);
 }
 
-/// Less slip than the elastic one is no inelastic slip.
+/// A slip smaller than the elastic slip is not inelastic.
 #[test]
 fn the_sense_of_slip_is_inelastic_or_by_velocity() {
     let law = layer(0.1);

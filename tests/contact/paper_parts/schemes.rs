@@ -164,9 +164,9 @@ fn spectral_radius(matrix: &SquareMatrix) -> f64 {
     let steps = 4000;
     for _ in 0..steps {
         x = multiply(matrix, x);
-        let size = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        logarithm += size.ln();
-        x = x.map(|x| x / size);
+        let magnitude = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        logarithm += magnitude.ln();
+        x = x.map(|x| x / magnitude);
     }
     (logarithm / f64::from(steps)).exp()
 }
@@ -183,7 +183,7 @@ fn hht_damps_short_periods_only() {
     }
 }
 
-/// Error after one period of free vibration in so many steps.
+/// Error after one period of free vibration, computed in `steps` steps.
 fn error_after_period(scheme: &dyn TimeScheme, steps: u32) -> f64 {
     let omega = std::f64::consts::TAU / f64::from(steps);
     let matrix = amplification(scheme, omega);
@@ -194,16 +194,16 @@ fn error_after_period(scheme: &dyn TimeScheme, steps: u32) -> f64 {
     (x[0] - 1.0).hypot(x[1] / omega)
 }
 
-/// Order of convergence.
-fn order(scheme: &dyn TimeScheme) -> f64 {
+/// Order of convergence of a scheme.
+fn convergence_order(scheme: &dyn TimeScheme) -> f64 {
     (error_after_period(scheme, 200) / error_after_period(scheme, 400)).log2()
 }
 
 #[test]
 fn orders_are_two_unless_gamma_damps() {
-    assert!((order(&Newmark::default()) - 2.0).abs() < 0.05);
-    assert!((order(&HhtAlpha::new(-0.2).unwrap()) - 2.0).abs() < 0.05);
-    assert!((order(&Newmark::new(0.6, 0.3025).unwrap()) - 1.0).abs() < 0.1);
+    assert!((convergence_order(&Newmark::default()) - 2.0).abs() < 0.05);
+    assert!((convergence_order(&HhtAlpha::new(-0.2).unwrap()) - 2.0).abs() < 0.05);
+    assert!((convergence_order(&Newmark::new(0.6, 0.3025).unwrap()) - 1.0).abs() < 0.1);
 }
 
 /// The tractions of step N and the accelerations at its end are in equilibrium, as in the paper.

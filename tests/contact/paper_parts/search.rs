@@ -1,5 +1,5 @@
 //! GOAL: the paper's flow chart alone finds the modes of the robust search, or ends in an error.
-//! SCENE: sliding blocks of several strengths and coefficients of friction.
+//! SCENE: sliding blocks under several strengths of shaking, with several coefficients of friction.
 //! REFERENCE: the robust search, step by step; an unchanged state after an error.
 
 use basemat::contact::{ContactSearch, SearchMethod};

@@ -24,7 +24,7 @@ use tally::{PropertyTally, accepted, for_all};
 
 use basemat_problems::scenes::{self, SI_UNITS, UnitFrame};
 
-/// Friction up to which a solution does not depend on where the search begins: see
+/// Friction up to which a solution does not depend on the start of the search: see
 /// `docs/validation.md`.
 const MAX_UNIQUE_FRICTION: f64 = 0.6;
 
@@ -47,14 +47,14 @@ fn every_run_is_finite_balanced_and_admissible() {
         }
         preload_is_in_equilibrium(recipe, &states[0], tally)
     });
-    // A property over scenes in which nothing happens would say nothing.
+    // Scenes without contact changes would show nothing.
     let scenes = tally.counted("scenes");
     assert!(tally.counted("refused") < scenes / 4, "{tally}");
     assert!(tally.counted("changes of mode") > 5 * scenes, "{tally}");
 }
 
-/// Random scenes of usual weight give no warning of numbers in another unit, nor of a run's end, under usual shaking (at
-/// most 2 g) by a function, and under records that are run to their end.
+/// Random scenes of usual weight give no warning of numbers in another unit, nor of the end of a run, under usual
+/// shaking (at most 2 g) by a function, and under records that are run to their end.
 #[test]
 fn usual_scenes_give_no_warning_of_units() {
     let usual = recipes(1.0).prop_filter("usual weight, friction and scheme", is_usual);
@@ -74,16 +74,16 @@ fn usual_scenes_give_no_warning_of_units() {
     assert!(tally.counted("functions") > 10 && tally.counted("records") > 20, "{tally}");
 }
 
-/// Whether a scene has usual weight and friction, and a response that does not grow by itself.
+/// Whether a scene has usual weight and friction, and a response without numerical growth.
 ///
-/// Without friction a base slides on after a record, and Newmark's and the α scheme create energy on soil.
+/// Without friction a base continues to slide after a record, and Newmark's and the α scheme create energy on soil.
 fn is_usual(recipe: &SceneRecipe) -> bool {
     let is_heavy = recipe.weight() > 2e3 * recipe::BASE_WIDTH && !recipe.weightless;
     let can_grow = matches!(recipe.scheme, SchemeRecipe::Newmark(_) | SchemeRecipe::Hht(_));
     is_heavy && recipe.friction() > 0.1 && !can_grow
 }
 
-/// Runs a scene of this kind, which gives no warning of units, nor of the end of a motion that is run to its end.
+/// Runs a scene and checks that it gives no warning of units, nor of the end of a motion that is run to its end.
 fn assert_no_unit_warnings(
     mut simulation: Simulation,
     steps: usize,
@@ -105,7 +105,7 @@ fn assert_no_unit_warnings(
     Ok(())
 }
 
-/// A record with this peak (m/s²) and time step (s), and so many waves that grow and fade in 200 samples.
+/// A record with this peak (m/s²) and time step (s), and `waves` waves that grow and fade in 200 samples.
 ///
 /// The response decays in 400 more.
 fn fading_record(peak: f64, time_step: f64, waves: f64) -> Record {
@@ -130,7 +130,7 @@ fn is_of_units(warning: &Warning) -> bool {
     )
 }
 
-/// Forces and moments of the static state, against the weight that the pressures carry.
+/// Checks that forces and moments of the static state balance the weight.
 fn preload_is_in_equilibrium(
     recipe: &SceneRecipe,
     state: &State,
@@ -143,7 +143,7 @@ fn preload_is_in_equilibrium(
     tally.within("preload: moment", state.base_moment.abs() / (weight * recipe::BASE_WIDTH), limit)
 }
 
-/// The search for the static state ends by forces over the root of masses.
+/// The search for the static state ends by forces relative to the root of masses.
 ///
 /// By forces and moments themselves it would not end where the unit of length is short.
 #[test]
@@ -163,7 +163,7 @@ fn static_state_is_found_in_any_unit_of_length() {
 }
 
 #[test]
-fn runs_repeat_to_the_bit() {
+fn repeated_runs_have_the_same_bits() {
     for_all("repetition", 12, &recipes(10.0), |recipe, tally| {
         let Some(first) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
             return Ok(());
@@ -175,7 +175,7 @@ fn runs_repeat_to_the_bit() {
     });
 }
 
-/// Relation of a run to another: in other units, as a mirror image.
+/// Relation of a run to another one, in other units or as a mirror image.
 #[derive(Debug, Clone, Copy)]
 struct RunRelation {
     /// Factors from the other run's pressure, shear, slip and rotation to the first run's.
@@ -213,7 +213,7 @@ fn max_differences(first: &[State], second: &[State], relation: RunRelation) -> 
     differences
 }
 
-/// Two runs that should be the same differ by 1e-9 at most, unless landings amplify the differences.
+/// Checks that two runs differ by 1e-9 at most, unless landings amplify the differences.
 ///
 /// The static state is computed to 1e-10. Runs whose shaking and soil differ by 1e-10 show the amplification.
 fn assert_related(
@@ -223,7 +223,7 @@ fn assert_related(
     relation: RunRelation,
     tally: &mut PropertyTally,
 ) -> Result<(), TestCaseError> {
-    // Where such a layer lands there may be several solutions, as there may be none.
+    // Where such a layer lands there may be several solutions or none.
     if recipe.has_shear_while_open() {
         return Ok(());
     }
@@ -265,7 +265,7 @@ fn mirrored_scenes_respond_as_mirror_images() {
 }
 
 #[test]
-fn units_do_not_matter_over_twelve_orders_of_magnitude() {
+fn units_have_no_effect_over_twelve_orders_of_magnitude() {
     let powers = (-6.0..6.0, -6.0..6.0, -6.0..6.0);
     let strategy = (recipes(MAX_UNIQUE_FRICTION), powers);
     for_all("units", 12, &strategy, |(recipe, (length, time, mass)), tally| {
@@ -290,7 +290,7 @@ fn units_do_not_matter_over_twelve_orders_of_magnitude() {
 }
 
 #[test]
-fn later_shaking_gives_the_same_response_later() {
+fn delayed_shaking_gives_the_same_response_later() {
     let strategy = (recipes(MAX_UNIQUE_FRICTION), 1_usize..40);
     for_all("shift", 12, &strategy, |(recipe, delay), tally| {
         let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {

@@ -1,4 +1,4 @@
-//! Recipes of scenes: plain data that proptest can shrink, and how a simulation is built from it.
+//! Recipes of scenes: plain data that proptest can shrink, and simulations built from them.
 
 use basemat::bem::{ElasticGround, Grading, SpringGround, Strip};
 use basemat::coupled::{
@@ -113,7 +113,7 @@ pub(crate) enum SchemeRecipe {
     Hht(f64),
 }
 
-/// A scene in SI_UNITS units.
+/// A scene in SI units.
 #[derive(Debug, Clone)]
 pub(crate) struct SceneRecipe {
     pub(crate) building: BuildingRecipe,
@@ -124,13 +124,13 @@ pub(crate) struct SceneRecipe {
     pub(crate) coordinates: Coordinates,
     pub(crate) gravity_stage: GravityStage,
     pub(crate) kind: ShakingKind,
-    /// Approximate accelerations of the ground, over gravity.
+    /// Approximate acceleration of the ground, relative to gravity.
     pub(crate) strength: f64,
-    /// c_P Δt over the mean element length.
+    /// c_P Δt relative to the mean element length.
     pub(crate) courant: f64,
     /// Shear modulus of the soil, Pa.
     pub(crate) modulus: f64,
-    /// Without gravity: a base that may open flies off.
+    /// Without gravity, so that a base that can open moves away.
     pub(crate) weightless: bool,
 }
 
@@ -144,7 +144,7 @@ impl SceneRecipe {
         Soil::new(modulus, poisson, 1900.0 * frame.density()).unwrap()
     }
 
-    /// Time step, s; all in the frame's units.
+    /// Time step in the units of the frame.
     pub(crate) fn time_step(&self, frame: UnitFrame) -> f64 {
         let length = BASE_WIDTH / self.elements as f64 * frame.length;
         self.courant * length / self.soil(frame).pressure_wave_speed()
@@ -158,7 +158,7 @@ impl SceneRecipe {
         }
     }
 
-    /// Weight of the structure in SI_UNITS units, N/m.
+    /// Weight of the structure in SI units, N/m.
     pub(crate) fn weight(&self) -> f64 {
         let mass = match self.building {
             BuildingRecipe::Block { height, density } => BASE_WIDTH * height * density,
@@ -181,7 +181,7 @@ impl SceneRecipe {
         10.0 * f64::EPSILON * stiffness / self.modulus
     }
 
-    /// The same scene with no tower reduced: a reduced one has the rounding of the unreduced stiffness.
+    /// The scene without reduction: a reduced tower has the rounding of the unreduced stiffness.
     pub(crate) fn unreduced(&self) -> Self {
         let mut unreduced = self.clone();
         if let BuildingRecipe::Tower(TowerRecipe { form, .. }) = &mut unreduced.building

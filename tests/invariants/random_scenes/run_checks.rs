@@ -29,7 +29,7 @@ pub(crate) fn terms(energy_balance: &EnergyBalance) -> [f64; 11] {
     ]
 }
 
-/// Largest energy, traction and length of a run: what counts as rounding is relative to them.
+/// Largest energy, traction and length of a run, to which rounding is relative.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RunScales {
     /// Includes the energy of the ground's motion.
@@ -86,11 +86,11 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
 
 /// Energy error that a step of a flight may have, in roundings times the condition of the effective stiffness.
 ///
-/// The rounding of the factors is the same in every step and acts as a spring on the rigid motion, so that steps add up.
-/// In modes the condition is one: see `tests/coupled/conditioning.rs`.
+/// The rounding of the factors is the same in every step and acts as a spring on the rigid motion, so that errors of
+/// steps add up. In modes the condition is one: see `tests/coupled/conditioning.rs`.
 const MAX_ROUNDINGS: f64 = 10.0;
 
-/// The energy balance closes, and dissipated energy does not return.
+/// The energy balance closes, and dissipated energy never decreases.
 pub(crate) fn energy_is_conserved(
     recipe: &SceneRecipe,
     states: &[State],
@@ -102,7 +102,7 @@ pub(crate) fn energy_is_conserved(
         recipe.ground,
         GroundRecipe::HalfPlane { history: basemat::history::HistoryMethod::Exponentials, .. }
     );
-    // Where du = Δt v*, the dashpots' work of a step is a square.
+    // Where du = Δt v*, the work of the dashpots in a step is a square.
     let is_one_point_scheme =
         matches!(recipe.scheme, SchemeRecipe::Midpoint | SchemeRecipe::Theta(_));
     // K Δu of a flight is rounded likewise.
@@ -206,7 +206,7 @@ fn check_signorini(
 
 /// Friction works against the slip of an element that is closed at the end of the step.
 ///
-/// It slides at its friction limit only.
+/// The element slides at its friction limit only.
 fn check_slip(
     recipe: &SceneRecipe,
     start: &ContactState,

@@ -1,4 +1,4 @@
-//! Ground motions that fill a run, whatever its length.
+//! Ground motions scaled to the duration of a run.
 
 use basemat::motion::{FreeField, Record, el_centro_1940};
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 pub(crate) enum ShakingKind {
     /// Seconds of El Centro, squeezed or stretched to the run.
     Record { begin: f64 },
-    /// Displacements that jump: phase of the run, right, up; in the amplitude.
+    /// Jumps of the displacement: phase of the run, right, up, relative to the amplitude.
     Jumps(Vec<[f64; 3]>),
     /// Ricker pulses: phase of the run, right, up.
     Pulses(Vec<[f64; 3]>),
@@ -19,11 +19,11 @@ pub(crate) enum ShakingKind {
 #[derive(Debug, Clone)]
 pub(crate) struct Shaking {
     pub(crate) kind: ShakingKind,
-    /// m.
+    /// Amplitude of the displacement, m.
     pub(crate) amplitude: f64,
     /// −1 exchanges left and right.
     pub(crate) sign: f64,
-    /// s.
+    /// Time of rest before the motion, s.
     pub(crate) delay: f64,
     pub(crate) duration: f64,
 }

@@ -62,7 +62,7 @@ fn law(max_friction: f64) -> impl Strategy<Value = LawRecipe> {
         1 => Just(LawRecipe::Coulomb(0.0)),
         4 => (0.05..moderate_friction).prop_map(LawRecipe::Coulomb),
         2 => (0.5 * moderate_friction..max_friction).prop_map(LawRecipe::Coulomb),
-        // Friction without bound does not decide where the shear goes.
+        // With infinite friction the distribution of the shear is not unique.
         if max_friction < 1.0 { 0 } else { 2 } => Just(LawRecipe::UpliftOnly),
         1 => Just(LawRecipe::Bonded),
         2 => (0.0..max_friction, prop::sample::select(vec![0.0, 1e-3]))
@@ -100,7 +100,7 @@ pub(crate) fn recipes(max_friction: f64) -> impl Strategy<Value = SceneRecipe> {
         SceneRecipe {
             building,
             ground,
-            // Rayleigh-damped or not, all structures here decouple; a base of one element does not resist rotation.
+            // A base of one element does not resist rotation.
             elements: elements.max(2),
             law,
             scheme,

@@ -1,4 +1,4 @@
-//! Runs a property over random scenes and records the largest of each quantity that it checks.
+//! Runs a property over random scenes and stores the largest value of each quantity that it checks.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ impl PropertyTally {
         self.counts.get(event).copied().unwrap_or(0)
     }
 
-    /// Counts what happened in a run.
+    /// Counts scenes, open and sliding elements and changes of mode of a run.
     pub(crate) fn add_run(&mut self, states: &[State]) {
         self.count("scenes", 1);
         let modes = states.iter().flat_map(|state| &state.modes);
@@ -67,7 +67,7 @@ impl fmt::Display for PropertyTally {
 
 /// Checks `property` on random scenes.
 ///
-/// `cases` of them, or as many as the environment variable PROPTEST_CASES says, then from another seed each time.
+/// `cases` of them, or the number in the environment variable PROPTEST_CASES, then with another seed each time.
 pub(crate) fn for_all<T: std::fmt::Debug>(
     name: &str,
     cases: u32,
@@ -132,7 +132,7 @@ pub(crate) fn accepted(
         Err(Error::Step { source: StepError::Contact { .. }, .. })
             if recipe.has_shear_while_open() =>
         {
-            tally.count("steps without solution, layers that pull while open", 1);
+            tally.count("steps without solution, layers with shear while open", 1);
             Ok(None)
         }
         Err(error) => Err(TestCaseError::fail(error.to_string())),

@@ -86,7 +86,7 @@ impl PlaneLaw for RecordingPart {
     common_methods!();
 }
 
-/// Smooth contact whose only closed mode is another one than the default's first.
+/// Frictionless contact whose only mode is not the first one of the default.
 struct AlwaysSlips(Coulomb);
 
 impl PlaneLaw for AlwaysSlips {

@@ -11,13 +11,13 @@ use basemat::bem::full_plane::BoundaryKernel;
 
 use crate::dense::inverse;
 
-/// Angles on the half circle.
+/// Number of angles between 0 and π.
 const ANGLE_COUNT: usize = 192;
-/// Angles around an extreme in each refinement.
+/// Number of angles around an extreme eigenvalue in each refinement.
 const REFINED_ANGLE_COUNT: usize = 24;
 /// Order of the differences of the coefficients.
 const DIFFERENCE_ORDER: i32 = 4;
-/// Number of lags: the last terms are 1e-5 of the first at the smallest angle.
+/// Number of summed lags: at the smallest angle the last terms are 1e-5 of the first.
 const LAG_COUNT: usize = 4000;
 /// Halvings of an interval that contains an eigenvalue.
 const BISECTION_COUNT: usize = 40;
@@ -52,7 +52,7 @@ pub fn boundary_passivity(kernel: &dyn BoundaryKernel) -> [f64; 2] {
 struct EigenvalueExtremes {
     smallest: f64,
     smallest_angle: f64,
-    /// Of magnitudes.
+    /// Largest magnitude of an eigenvalue.
     largest: f64,
     largest_angle: f64,
 }
@@ -65,7 +65,7 @@ impl Default for EigenvalueExtremes {
 
 impl EigenvalueExtremes {
     fn add(&mut self, series: &KernelSeries<'_>, angle: f64) {
-        let matrix = series.work(angle);
+        let matrix = series.work_matrix(angle);
         let order = 2 * series.order;
         let rows = matrix.chunks_exact(order);
         let bound = rows.map(|row| row.iter().map(|x| x.abs()).sum::<f64>()).fold(0.0, f64::max);
@@ -103,19 +103,19 @@ struct KernelSeries<'a> {
 impl<'a> KernelSeries<'a> {
     fn new(kernel: &'a dyn BoundaryKernel) -> Self {
         let order = 2 * kernel.segments().len();
-        let size = order * order;
-        let mut g = vec![0.0; 2 * size];
-        let mut h = vec![0.0; 2 * size];
+        let entry_count = order * order;
+        let mut g = vec![0.0; 2 * entry_count];
+        let mut h = vec![0.0; 2 * entry_count];
         let mut differences = vec![];
         if kernel.symbol([-1.0, 0.0], &mut g, &mut h).unwrap().is_none() {
-            differences = vec![0.0; 2 * size * LAG_COUNT];
-            for (lag, both) in differences.chunks_exact_mut(2 * size).enumerate() {
-                let (g, h) = both.split_at_mut(size);
+            differences = vec![0.0; 2 * entry_count * LAG_COUNT];
+            for (lag, coefficients) in differences.chunks_exact_mut(2 * entry_count).enumerate() {
+                let (g, h) = coefficients.split_at_mut(entry_count);
                 kernel.coefficients(lag, g, h).unwrap();
             }
             for _ in 0..DIFFERENCE_ORDER {
-                for i in (2 * size..differences.len()).rev() {
-                    differences[i] -= differences[i - 2 * size];
+                for i in (2 * entry_count..differences.len()).rev() {
+                    differences[i] -= differences[i - 2 * entry_count];
                 }
             }
         }
@@ -124,27 +124,27 @@ impl<'a> KernelSeries<'a> {
 
     /// G and H at ζ = e^{iθ}.
     fn at(&self, angle: f64) -> ComplexMatrices {
-        let size = self.order * self.order;
-        let mut g = vec![0.0; 2 * size];
-        let mut h = vec![0.0; 2 * size];
+        let entry_count = self.order * self.order;
+        let mut g = vec![0.0; 2 * entry_count];
+        let mut h = vec![0.0; 2 * entry_count];
         let zeta = [angle.cos(), angle.sin()];
         if self.kernel.symbol(zeta, &mut g, &mut h).unwrap().is_none() {
             let distance = 2.0 * (0.5 * angle).sin();
-            for (lag, both) in self.differences.chunks_exact(2 * size).enumerate() {
+            for (lag, coefficients) in self.differences.chunks_exact(2 * entry_count).enumerate() {
                 // ζⁿ/(1−ζ)⁴, 1 − ζ = 2 sin(θ/2) e^{i(θ−π)/2}.
                 let phase = angle * lag as f64
                     - 0.5 * f64::from(DIFFERENCE_ORDER) * (angle - std::f64::consts::PI);
                 let modulus = distance.powi(-DIFFERENCE_ORDER);
                 let factor = [modulus * phase.cos(), modulus * phase.sin()];
-                add_multiple(&mut g, &both[..size], factor);
-                add_multiple(&mut h, &both[size..], factor);
+                add_multiple(&mut g, &coefficients[..entry_count], factor);
+                add_multiple(&mut h, &coefficients[entry_count..], factor);
             }
         }
         ComplexMatrices { g, h }
     }
 
-    /// Hermitian part of (1−ζ) L C as a symmetric real matrix, in which each eigenvalue is twice.
-    fn work(&self, angle: f64) -> Vec<f64> {
+    /// Hermitian part of (1−ζ) L C as a symmetric real matrix, in which each eigenvalue appears twice.
+    fn work_matrix(&self, angle: f64) -> Vec<f64> {
         let n = self.order;
         let order = 2 * n;
         let matrices = self.at(angle);
@@ -153,18 +153,18 @@ impl<'a> KernelSeries<'a> {
         let segments = self.kernel.segments();
         let re = 1.0 - angle.cos();
         let im = -angle.sin();
-        let mut work = vec![0.0; order * order];
+        let mut product_matrix = vec![0.0; order * order];
         for i in 0..n {
             let length = segments[i % segments.len()].length();
             for j in 0..order {
                 let a = compliance[i * order + j];
                 let b = compliance[(n + i) * order + j];
-                work[i * order + j] = length * (re * a - im * b);
-                work[(n + i) * order + j] = length * (re * b + im * a);
+                product_matrix[i * order + j] = length * (re * a - im * b);
+                product_matrix[(n + i) * order + j] = length * (re * b + im * a);
             }
         }
         (0..order * order)
-            .map(|k| 0.5 * (work[k] + work[k % order * order + k / order]))
+            .map(|k| 0.5 * (product_matrix[k] + product_matrix[k % order * order + k / order]))
             .collect()
     }
 }

@@ -26,17 +26,17 @@ pub struct BrickGrid {
 }
 
 impl BrickGrid {
-    /// Bricks between nodes that `at` places by their indices.
+    /// Bricks between nodes whose positions follow from their indices.
     pub fn new(
         counts: [usize; 3],
         material: Material,
-        at: impl Fn([usize; 3]) -> [f64; 3],
+        node_position: impl Fn([usize; 3]) -> [f64; 3],
     ) -> Self {
         let mut block = Self { scene: SupportedMesh::new(), counts };
         for i in 0..=counts[0] {
             for j in 0..=counts[1] {
                 for k in 0..=counts[2] {
-                    block.scene.node(at([i, j, k]));
+                    block.scene.node(node_position([i, j, k]));
                 }
             }
         }
@@ -55,11 +55,11 @@ impl BrickGrid {
     pub fn cantilever(
         counts: [usize; 3],
         material: Material,
-        at: impl Fn([usize; 3]) -> [f64; 3],
+        node_position: impl Fn([usize; 3]) -> [f64; 3],
     ) -> Self {
-        let mut block = Self::new(counts, material, at);
+        let mut block = Self::new(counts, material, node_position);
         for (node, _) in block.section(0) {
-            block.scene.hold(node, &HINGED_DIRECTIONS);
+            block.scene.fix(node, &HINGED_DIRECTIONS);
         }
         block
     }
@@ -169,7 +169,7 @@ pub fn twisted_cantilever([nx, ny, nz]: [usize; 3]) -> [f64; 2] {
     [Z, Y].map(|direction| block.scene.work(&block.tip_force(direction)))
 }
 
-/// Displacement inside the thick cylinder of `MacNeal` & Harder under a unit pressure.
+/// Radial displacement of the inner face of `MacNeal` & Harder's thick cylinder under a unit pressure.
 pub fn thick_cylinder(poisson: f64) -> f64 {
     const NODE_RADII: [f64; 6] = [3.0, 3.5, 4.2, 5.2, 6.75, 9.0];
     let angle = 10.0_f64.to_radians();
@@ -183,14 +183,14 @@ pub fn thick_cylinder(poisson: f64) -> f64 {
     for i in 0..6 {
         for k in 0..2 {
             let first_face = block.node([i, 0, k]);
-            block.scene.hold(first_face, &[Y, Z]);
-            // The other radial face moves in its plane: a stiff spring across it.
+            block.scene.fix(first_face, &[Y, Z]);
+            // The other radial face moves only in its plane: a stiff spring resists motion normal to it.
             let second_face = block.node([i, 1, k]);
             let point = block.scene.mesh.nodes()[second_face];
             let support = block.scene.node([point[0] + sine, point[1] - cosine, point[2]]);
             block.scene.add(Spring::axial_in_space([second_face, support], 1.0e10).unwrap());
-            block.scene.hold(second_face, &[Z]);
-            block.scene.hold(support, &HINGED_DIRECTIONS);
+            block.scene.fix(second_face, &[Z]);
+            block.scene.fix(support, &HINGED_DIRECTIONS);
         }
     }
     let force = 3.0 * angle / 4.0;
@@ -209,47 +209,49 @@ pub fn thick_cylinder(poisson: f64) -> f64 {
 
 /// Stress (Pa) and deflection (m) at the point D of NAFEMS' elliptic plate LE10.
 ///
-/// `around` bricks along the ellipse, two thirds across it, a third over the thickness. The stress is extrapolated from
-/// the Gauss points.
-pub fn elliptic_plate(around: usize) -> [f64; 2] {
-    let radial = around * 2 / 3;
-    let levels = around / 3;
+/// The mesh has `count` bricks along the ellipse, two thirds of them across it and one third over the thickness. The
+/// stress is extrapolated from the Gauss points.
+pub fn elliptic_plate(count: usize) -> [f64; 2] {
+    let radial_count = count * 2 / 3;
+    let level_count = count / 3;
     let material = Material::new(210.0e9, 0.3, 0.0).unwrap();
-    let mut block = BrickGrid::new([radial, around, levels], material, |[i, j, k]| {
-        let angle = FRAC_PI_2 * j as f64 / around as f64;
-        let fraction = i as f64 / radial as f64;
-        let height = 0.6 * k as f64 / levels as f64;
+    let mut block = BrickGrid::new([radial_count, count, level_count], material, |[i, j, k]| {
+        let angle = FRAC_PI_2 * j as f64 / count as f64;
+        let fraction = i as f64 / radial_count as f64;
+        let height = 0.6 * k as f64 / level_count as f64;
         [(2.0 + 1.25 * fraction) * angle.cos(), (1.0 + 1.75 * fraction) * angle.sin(), height]
     });
-    for k in 0..=levels {
-        for i in 0..=radial {
-            let on_x = block.node([i, 0, k]);
-            block.scene.hold(on_x, &[Y]);
-            let on_y = block.node([i, around, k]);
-            block.scene.hold(on_y, &[X]);
+    for k in 0..=level_count {
+        for i in 0..=radial_count {
+            let node_on_x = block.node([i, 0, k]);
+            block.scene.fix(node_on_x, &[Y]);
+            let node_on_y = block.node([i, count, k]);
+            block.scene.fix(node_on_y, &[X]);
         }
-        for j in 0..=around {
-            let node = block.node([radial, j, k]);
-            block.scene.hold(node, if 2 * k == levels { &HINGED_DIRECTIONS } else { &[X, Y] });
+        for j in 0..=count {
+            let node = block.node([radial_count, j, k]);
+            block
+                .scene
+                .fix(node, if 2 * k == level_count { &HINGED_DIRECTIONS } else { &[X, Y] });
         }
     }
     let mut loads = Vec::new();
-    for i in 0..radial {
-        for j in 0..around {
-            let corners = block.corners([i, j, levels - 1]);
+    for i in 0..radial_count {
+        for j in 0..count {
+            let corners = block.corners([i, j, level_count - 1]);
             let upper_face = [corners[4], corners[5], corners[6], corners[7]];
             loads.extend(block.pressure(upper_face, 1.0e6));
         }
     }
     let solution = block.scene.solve(&loads);
-    let nodes = block.corners([0, 0, levels - 1]);
+    let nodes = block.corners([0, 0, level_count - 1]);
     let displacement: Vec<f64> = nodes
         .iter()
         .flat_map(|&node| HINGED_DIRECTIONS.map(|direction| solution(node, direction)))
         .collect();
     let brick = Hex8::new(nodes, material);
     let stresses = brick.stresses(&block.scene.points(&nodes), &displacement).unwrap();
-    [stresses[4][1], solution(block.node([0, 0, levels]), Z)]
+    [stresses[4][1], solution(block.node([0, 0, level_count]), Z)]
 }
 
 /// A steel plate 10 m × 10 m × 1 m.
@@ -272,10 +274,10 @@ pub fn hard_plate(counts: [usize; 3]) -> BrickGrid {
             for j in 0..=counts[1] {
                 let node = block.node([i, j, k]);
                 if i == 0 || i == counts[0] {
-                    block.scene.hold(node, &[Y, Z]);
+                    block.scene.fix(node, &[Y, Z]);
                 }
                 if j == 0 || j == counts[1] {
-                    block.scene.hold(node, &[X, Z]);
+                    block.scene.fix(node, &[X, Z]);
                 }
             }
         }

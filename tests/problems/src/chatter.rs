@@ -8,13 +8,13 @@ use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
-/// Content above this frequency counts as chatter, Hz.
+/// Frequency above which the content of a force or an acceleration counts as chatter, Hz.
 const CUTOFF_FREQUENCY: f64 = 20.0;
 const BLOCK_DENSITY: f64 = 1500.0;
 const BLOCK_WIDTH: f64 = 4.0;
 
-#[derive(Debug, Clone, Copy)]
 /// Time integration of the run.
+#[derive(Debug, Clone, Copy)]
 pub enum ChatterScheme {
     Midpoint,
     Theta(f64),
@@ -36,15 +36,18 @@ pub struct ChatterScene {
     pub young: Option<f64>,
 }
 
-/// Results of a run; forces relative to the weight, energies to the input's peak.
+/// Results of a run: forces relative to the weight, energies relative to the largest input energy.
 #[derive(Debug, Clone, Copy)]
 pub struct ChatterResult {
+    /// Root mean square of the normal force's content above the cut-off frequency.
     pub rms_above: f64,
+    /// Largest magnitude of that content.
     pub peak_above: f64,
-    /// Root mean square of what alternates from step to step.
+    /// Root mean square of the part of the normal force that alternates from step to step.
     pub alternating: f64,
-    /// The same two of the horizontal acceleration of the top, over gravity.
+    /// Root mean square of the top's horizontal acceleration above the cut-off frequency, relative to gravity.
     pub acceleration_above: f64,
+    /// Root mean square of the part of that acceleration that alternates from step to step.
     pub acceleration_alternating: f64,
     /// Largest base shear, over the weight.
     pub shear: f64,
@@ -52,12 +55,12 @@ pub struct ChatterResult {
     pub residual_slip: f64,
     pub uplift: f64,
     pub rotation: f64,
-    pub contact: f64,
-    pub algorithmic: f64,
-    /// Deepest penetration of a closed element, m.
+    pub contact_energy: f64,
+    pub algorithmic_energy: f64,
+    /// Deepest penetration of an element, m.
     pub penetration: f64,
     pub energy_error: f64,
-    pub changes: usize,
+    pub mode_changes: usize,
 }
 
 impl ChatterScene {
@@ -104,25 +107,25 @@ impl ChatterScene {
 
     fn march(&self, mut simulation: Simulation) -> Result<ChatterResult> {
         let weight = BLOCK_WIDTH * self.height * BLOCK_DENSITY * STANDARD_GRAVITY;
-        let mut force = Vec::new();
-        let mut acceleration = Vec::new();
+        let mut force_ratios = Vec::new();
+        let mut acceleration_ratios = Vec::new();
         let mut penetration = 0.0_f64;
         let mut max_input = 0.0_f64;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
-        let steps = (self.duration / self.time_step).round() as usize;
-        let run = simulation.run(steps, |state| {
-            force.push(state.normal_force / weight);
-            acceleration.push(state.probes[0] / STANDARD_GRAVITY);
+        let step_count = (self.duration / self.time_step).round() as usize;
+        let run = simulation.run(step_count, |state| {
+            force_ratios.push(state.normal_force / weight);
+            acceleration_ratios.push(state.probes[0] / STANDARD_GRAVITY);
             max_input = max_input.max(state.energy_balance.input.abs());
             for contact in &state.contact {
                 penetration = penetration.max(-contact.gap);
             }
         })?;
-        let force_above = high_pass(&force, self.time_step);
+        let force_above = high_pass(&force_ratios, self.time_step);
         Ok(ChatterResult {
-            alternating: alternating(&force),
-            acceleration_above: root_mean_square(&high_pass(&acceleration, self.time_step)),
-            acceleration_alternating: alternating(&acceleration),
+            alternating: alternating(&force_ratios),
+            acceleration_above: root_mean_square(&high_pass(&acceleration_ratios, self.time_step)),
+            acceleration_alternating: alternating(&acceleration_ratios),
             shear: run.whole.base_shear.magnitude() / weight,
             rms_above: root_mean_square(&force_above),
             peak_above: force_above.iter().fold(0.0, |m, f| m.max(f.abs())),
@@ -130,11 +133,11 @@ impl ChatterScene {
             residual_slip: run.whole.residual_slip,
             uplift: run.whole.uplifted_fraction.largest().value,
             rotation: run.whole.base_rotation.magnitude(),
-            contact: run.energy_balance.contact / max_input,
-            algorithmic: run.energy_balance.algorithmic / max_input,
+            contact_energy: run.energy_balance.contact / max_input,
+            algorithmic_energy: run.energy_balance.algorithmic / max_input,
             penetration,
             energy_error: run.energy_error,
-            changes: run.mode_changes,
+            mode_changes: run.mode_changes,
         })
     }
 }
@@ -143,15 +146,16 @@ fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
 }
 
-/// Root mean square of what alternates from step to step.
+/// Root mean square of the part of a signal that alternates from step to step.
 fn alternating(values: &[f64]) -> f64 {
     let components: Vec<f64> =
         values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
     root_mean_square(&components)
 }
 
-/// Content above [`CUTOFF_FREQUENCY`]: fourth-order Butterworth high-pass, forwards and backwards, so that it
-/// shifts nothing in time.
+/// Content of a signal above [`CUTOFF_FREQUENCY`].
+///
+/// A fourth-order Butterworth high-pass filter runs forwards and backwards, and so adds no phase shift.
 fn high_pass(signal: &[f64], time_step: f64) -> Vec<f64> {
     let mut filtered: Vec<f64> = signal.iter().map(|s| s - signal[0]).collect();
     for _ in 0..2 {

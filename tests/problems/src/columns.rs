@@ -1,11 +1,11 @@
-//! Buckling loads of columns in space, 4 m high, by beams with the tables' section.
+//! Buckling loads of columns in space, 4 m high, by beams with the section of the tables.
 
 use basemat::fem::{BeamSection, Direction, Element, SpaceBeam};
 
 use crate::space_beams::{concrete, section};
 use crate::supported::{CLAMPED_DIRECTIONS, SupportedMesh};
 
-/// m.
+/// Length of all columns, m.
 pub const COLUMN_LENGTH: f64 = 4.0;
 /// Weight per length, N/m, at a gravity of 1 m/s².
 const WEIGHT_PER_LENGTH: f64 = 2500.0 * 0.12;
@@ -28,19 +28,19 @@ fn column_nodes(count: usize) -> SupportedMesh {
 pub fn supported(
     section: BeamSection,
     count: usize,
-    foot: &[Direction],
-    head: &[Direction],
+    foot_supports: &[Direction],
+    head_supports: &[Direction],
 ) -> f64 {
     let mut scene = column_nodes(count);
     for k in 0..count {
         scene.add(beam(k, section).with_compression(1.0).unwrap());
     }
-    scene.hold(0, foot);
-    scene.hold(count, head);
+    scene.fix(0, foot_supports);
+    scene.fix(count, head_supports);
     scene.buckling()
 }
 
-/// Weight at which a cantilever buckles under it, N.
+/// Weight of a cantilever that buckles under this weight, N.
 pub fn self_weight_buckling(count: usize) -> f64 {
     let height = COLUMN_LENGTH / count as f64;
     let mut scene = column_nodes(count);
@@ -53,11 +53,11 @@ pub fn self_weight_buckling(count: usize) -> f64 {
         let points = scene.points(beam.nodes());
         scene.add(beam.in_static_state(&points, &displacement, 1.0).unwrap());
     }
-    scene.hold(0, &CLAMPED_DIRECTIONS);
+    scene.fix(0, &CLAMPED_DIRECTIONS);
     scene.buckling() * WEIGHT_PER_LENGTH * COLUMN_LENGTH
 }
 
-/// Buckling load of a cantilever of 2.5 m under a rigid arm of 1.5 m, N.
+/// Buckling load of a cantilever of 2.5 m with a rigid arm of 1.5 m above it, N.
 pub fn rigid_head(count: usize) -> f64 {
     let mut scene = SupportedMesh::new();
     for k in 0..count {
@@ -69,6 +69,6 @@ pub fn rigid_head(count: usize) -> f64 {
         let beam = beam(k, section()).with_compression(1.0).unwrap();
         scene.add(beam.with_offsets([[0.0; 3], [0.0, 0.0, arm]]).unwrap());
     }
-    scene.hold(0, &CLAMPED_DIRECTIONS);
+    scene.fix(0, &CLAMPED_DIRECTIONS);
     scene.buckling()
 }

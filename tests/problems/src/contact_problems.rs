@@ -15,10 +15,10 @@ use super::random::Random;
 pub const SEQUENCE_STEPS: usize = 20;
 /// Differences of solutions below this, relative to the largest traction, are rounding.
 const DISTINCTION_TOLERANCE: f64 = 1e-6;
-/// Of brute force, relative to the largest traction and to the largest jump.
+/// Largest violation by a solution of brute force, relative to the largest traction and to the largest jump.
 const VIOLATION_TOLERANCE: f64 = 1e-10;
 
-/// Matrix of a problem, and its elements.
+/// Delassus operator of a problem, and its elements.
 struct ProblemMatrix {
     delassus: Vec<f64>,
     elements: Vec<ContactElement>,
@@ -124,27 +124,27 @@ impl StepProblem<'_> {
         let size = self.motion.len();
         let count = size / 2;
         let mut solutions: Vec<Vec<f64>> = Vec::new();
-        for number in 0..4_usize.pow(u32::try_from(count).unwrap()) {
+        for mode_code in 0..4_usize.pow(u32::try_from(count).unwrap()) {
             let mut system = LinearSystem::new(size);
             for e in 0..count {
-                let normal = e;
-                let tangential = count + e;
-                match number >> (2 * e) & 3 {
+                let normal_row = e;
+                let tangential_row = count + e;
+                match mode_code >> (2 * e) & 3 {
                     0 => {
-                        self.prescribe_jump(&mut system, normal, 0.0);
-                        self.prescribe_jump(&mut system, tangential, -self.slip[e]);
+                        self.prescribe_jump(&mut system, normal_row, 0.0);
+                        self.prescribe_jump(&mut system, tangential_row, -self.slip[e]);
                     }
                     1 => {
-                        self.prescribe_jump(&mut system, normal, 0.0);
-                        system.relate_tractions(tangential, normal, -self.friction);
+                        self.prescribe_jump(&mut system, normal_row, 0.0);
+                        system.relate_tractions(tangential_row, normal_row, -self.friction);
                     }
                     2 => {
-                        self.prescribe_jump(&mut system, normal, 0.0);
-                        system.relate_tractions(tangential, normal, self.friction);
+                        self.prescribe_jump(&mut system, normal_row, 0.0);
+                        system.relate_tractions(tangential_row, normal_row, self.friction);
                     }
                     _ => {
-                        system.rows[normal * size + normal] = 1.0;
-                        system.relate_tractions(tangential, normal, 0.0);
+                        system.rows[normal_row * size + normal_row] = 1.0;
+                        system.relate_tractions(tangential_row, normal_row, 0.0);
                     }
                 }
             }
@@ -160,7 +160,7 @@ impl StepProblem<'_> {
         solutions
     }
 
-    /// The row of a jump: motion + W τ = value.
+    /// Sets the equation of a jump: motion + W τ = value.
     fn prescribe_jump(&self, system: &mut LinearSystem, row: usize, value: f64) {
         let range = row * system.size..(row + 1) * system.size;
         system.rows[range.clone()].copy_from_slice(&self.matrix[range]);
@@ -180,7 +180,7 @@ impl LinearSystem {
         Self { size, rows: vec![0.0; size * size], right_side: vec![0.0; size] }
     }
 
-    /// The row of a shear traction: shear + factor · pressure = 0.
+    /// Sets the equation of a shear traction: shear + factor · pressure = 0.
     fn relate_tractions(&mut self, shear: usize, pressure: usize, factor: f64) {
         self.rows[shear * self.size + shear] = 1.0;
         self.rows[shear * self.size + pressure] = factor;
@@ -215,29 +215,31 @@ fn solve(mut matrix: Vec<f64>, mut rhs: Vec<f64>) -> Option<Vec<f64>> {
         }
     }
     for k in (0..n).rev() {
-        let rest: f64 = (k + 1..n).map(|j| matrix[k * n + j] * rhs[j]).sum();
-        rhs[k] = (rhs[k] - rest) / matrix[k * n + k];
+        let remainder: f64 = (k + 1..n).map(|j| matrix[k * n + j] * rhs[j]).sum();
+        rhs[k] = (rhs[k] - remainder) / matrix[k * n + k];
     }
     rhs.iter().all(|x| x.is_finite()).then_some(rhs)
 }
 
-/// Results of a number of problems.
+/// Counts and largest errors over all problems so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ContactTally {
     pub problems: usize,
-    /// Active set, Gauss–Seidel, path.
+    /// Steps solved by the active set, by Gauss–Seidel and by the path.
     pub methods: [usize; 3],
     pub trials: usize,
-    pub most_trials: usize,
-    /// Problems with several solutions, and most solutions of one.
-    pub several: usize,
-    pub most_solutions: usize,
-    /// Problems in which brute force finds no solution, and steps that failed.
-    pub none: usize,
-    pub failed: usize,
-    /// Largest violation of the conditions, and distance from the nearest solution of brute force.
-    pub violation: f64,
-    pub distance: f64,
+    /// Largest number of trials in a step.
+    pub max_trials: usize,
+    pub ambiguous_problems: usize,
+    /// Largest number of solutions of a problem.
+    pub max_solutions: usize,
+    /// Problems in which brute force finds no solution.
+    pub unsolvable_problems: usize,
+    pub failed_steps: usize,
+    /// Largest violation of the contact conditions.
+    pub max_violation: f64,
+    /// Largest distance from the nearest solution of brute force.
+    pub max_distance: f64,
 }
 
 impl ContactTally {
@@ -245,19 +247,20 @@ impl ContactTally {
         let contact = &state.contact;
         let traction: Vec<f64> =
             contact.iter().map(|c| c.pressure).chain(contact.iter().map(|c| c.shear)).collect();
-        // Gaps and slips must be those that the tractions give.
+        // The gaps and slips of the state must follow from its tractions.
         let jump = problem.jump(&traction);
-        let stated = contact.iter().map(|c| c.gap).chain(contact.iter().map(|c| -c.slip));
+        let state_jump = contact.iter().map(|c| c.gap).chain(contact.iter().map(|c| -c.slip));
         let scale = largest(&jump).max(largest(problem.motion));
-        let jump_error = stated.zip(&jump).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / scale;
-        self.violation = self.violation.max(problem.violation(&traction)).max(jump_error);
+        let jump_error =
+            state_jump.zip(&jump).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / scale;
+        self.max_violation = self.max_violation.max(problem.violation(&traction)).max(jump_error);
         let solutions = problem.solutions();
-        self.none += usize::from(solutions.is_empty());
-        self.several += usize::from(solutions.len() > 1);
-        self.most_solutions = self.most_solutions.max(solutions.len());
+        self.unsolvable_problems += usize::from(solutions.is_empty());
+        self.ambiguous_problems += usize::from(solutions.len() > 1);
+        self.max_solutions = self.max_solutions.max(solutions.len());
         if !solutions.is_empty() {
             let nearest = solutions.iter().map(|s| distance(s, &traction)).fold(f64::MAX, f64::min);
-            self.distance = self.distance.max(nearest / largest(&traction));
+            self.max_distance = self.max_distance.max(nearest / largest(&traction));
         }
         self.methods[match state.method {
             SearchMethod::ActiveSet => 0,
@@ -266,7 +269,7 @@ impl ContactTally {
             other => panic!("{other:?} is not counted"),
         }] += 1;
         self.trials += state.trials;
-        self.most_trials = self.most_trials.max(state.trials);
+        self.max_trials = self.max_trials.max(state.trials);
     }
 
     pub fn add(&mut self, other: &Self) {
@@ -275,17 +278,17 @@ impl ContactTally {
             self.methods[k] += other.methods[k];
         }
         self.trials += other.trials;
-        self.most_trials = self.most_trials.max(other.most_trials);
-        self.several += other.several;
-        self.most_solutions = self.most_solutions.max(other.most_solutions);
-        self.none += other.none;
-        self.failed += other.failed;
-        self.violation = self.violation.max(other.violation);
-        self.distance = self.distance.max(other.distance);
+        self.max_trials = self.max_trials.max(other.max_trials);
+        self.ambiguous_problems += other.ambiguous_problems;
+        self.max_solutions = self.max_solutions.max(other.max_solutions);
+        self.unsolvable_problems += other.unsolvable_problems;
+        self.failed_steps += other.failed_steps;
+        self.max_violation = self.max_violation.max(other.max_violation);
+        self.max_distance = self.max_distance.max(other.max_distance);
     }
 }
 
-/// One sequence of problems with one matrix of `count` elements: of a rigid block, or a random one.
+/// Solves a sequence of problems with one matrix of `count` elements, of a rigid block or random.
 pub fn sequence(
     count: usize,
     friction: f64,
@@ -335,8 +338,8 @@ pub fn sequence(
         if let Ok(state) = simulation.step() {
             tally.add_step(&problem, state);
         } else {
-            tally.failed += 1;
-            tally.none += usize::from(problem.solutions().is_empty());
+            tally.failed_steps += 1;
+            tally.unsolvable_problems += usize::from(problem.solutions().is_empty());
             break;
         }
     }

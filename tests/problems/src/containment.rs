@@ -15,11 +15,11 @@ use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{DofCombination, FemModel, RayleighDamping, Structure};
 
 pub const METRES_PER_FOOT: f64 = 0.3048;
-/// N/m.
+/// One pound-force per foot, N/m.
 pub const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
-/// Pounds per square foot, Pa.
+/// One pound per square foot, Pa.
 pub const POUND_PER_SQUARE_FOOT: f64 = 47.880_258_980_335_84;
-/// kg/m³.
+/// One slug per cubic foot, kg/m³.
 pub const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
 
 /// Rows of the paper's Table 1 and their friction; `None` is bonded, infinity uplift only.
@@ -30,10 +30,10 @@ pub const TABLE_1_ROWS: [(&str, Option<f64>); 5] = [
     ("friction 0.3", Some(0.3)),
     ("friction 0.2", Some(0.2)),
 ];
-/// Their peak base shears, printed in lb, taken as lb/ft.
+/// Peak base shears of these rows. The paper prints them in lb; they are taken as lb/ft.
 pub const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 
-/// Choices of the model; the defaults are given in the paper, calibrated, or assumed.
+/// Parameters of the model; the defaults are printed in the paper, calibrated, or assumed.
 #[derive(Debug, Clone, Copy)]
 pub struct Containment {
     /// Contact length, ft; calibrated.
@@ -71,6 +71,7 @@ impl Default for Containment {
     }
 }
 
+/// slug/ft³.
 const SUPERSTRUCTURE_DENSITY: f64 = 0.590_06;
 
 /// A material by Young's modulus (psf) and density (slug/ft³).
@@ -100,7 +101,7 @@ impl Containment {
         self.layer_height() * (self.layers - 1) as f64
     }
 
-    /// The time in which a P wave crosses `beta` of an element, s; the paper has ½.
+    /// Time in which a P wave crosses the fraction `beta` of an element, s; the paper has ½.
     pub fn time_step(&self, beta: f64) -> f64 {
         beta * (self.width / self.elements as f64) / self.wave_speeds[1]
     }
@@ -136,7 +137,7 @@ impl Containment {
         self.width * METRES_PER_FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
     }
 
-    /// Weights of all and of the superstructure per metre of thickness, N/m.
+    /// Weights of the whole structure and of the superstructure per metre of thickness, N/m.
     pub fn weights(&self) -> [f64; 2] {
         [self.mass(), self.superstructure_mass()].map(|mass| STANDARD_GRAVITY * mass)
     }
@@ -159,11 +160,13 @@ impl Containment {
         [self.base().start, self.layer_height() + self.superstructure_height()]
     }
 
-    /// "roof x" and "roof y", absolute motion of location A; "base shear"; "sway", the horizontal displacement of A
-    /// against the base.
+    /// Probes of the roof and of the base.
+    ///
+    /// "roof x" and "roof y" are the absolute displacement of location A. "base shear" is the force on the foundation.
+    /// "sway" is the horizontal displacement of A relative to the base.
     pub fn probes(&self, model: &FemModel) -> basemat::Result<[Probe; 4]> {
-        let place = self.corner();
-        let corner = model.mesh().node_at(place[0], place[1])?;
+        let corner_point = self.corner();
+        let corner = model.mesh().node_at(corner_point[0], corner_point[1])?;
         let x = model.row(corner, Direction::X)?;
         let y = model.row(corner, Direction::Y)?;
         let base_terms: Vec<_> =
@@ -191,7 +194,7 @@ pub fn pounds_per_foot(force: f64) -> f64 {
     force / POUND_FORCE_PER_FOOT
 }
 
-/// A thin layer that never opens or slides: what "bonded" is with the paper's interface elements.
+/// A thin layer that never opens or slides: the "bonded" case with the paper's interface elements.
 pub struct PermanentLayer(pub ThinLayer);
 
 impl PlaneLaw for PermanentLayer {

@@ -43,6 +43,7 @@ pub fn damping(structure: &dyn Structure) -> DenseMatrix {
     collect(structure, |m| structure.damping(m))
 }
 
+/// Value of a combination of degrees of freedom.
 pub fn row_value(row: &DofCombination, values: &[f64]) -> f64 {
     row.iter().map(|&(index, weight)| weight * values[index]).sum()
 }

@@ -16,7 +16,7 @@ const SAME_TRACTION_TOLERANCE: f64 = 1e-8;
 /// A linear condition on an element: a gap + b slip + c pressure + d shear = value.
 #[derive(Clone, Copy)]
 struct LinearCondition {
-    /// Of gap, slip, pressure and shear traction.
+    /// Coefficients of gap, slip, pressure and shear traction.
     coefficients: [f64; 4],
     value: f64,
 }
@@ -45,51 +45,51 @@ pub struct EnumeratedContact {
     /// Jumps without tractions.
     pub free_jump: Vec<f64>,
     /// Pressures at rest.
-    pub pressed: Vec<f64>,
-    /// How far the surface of the soil has moved away from the base.
-    pub moved: Vec<f64>,
-    /// Slips before.
+    pub static_pressure: Vec<f64>,
+    /// Distance by which the surface of the soil has recession away from the base.
+    pub recession: Vec<f64>,
+    /// Slips at the start of the step.
     pub slip: Vec<f64>,
     /// Active and passive pressure of the soil.
     pub bounds: Vec<[f64; 2]>,
     pub friction: f64,
 }
 
-/// Ranges of random numbers.
+/// Ranges of the random numbers of a contact problem.
 #[derive(Debug, Clone, Copy)]
-pub struct Ranges {
+pub struct ContactRanges {
     pub free_jump: [f64; 2],
-    pub pressed: [f64; 2],
-    pub moved: [f64; 2],
+    pub static_pressure: [f64; 2],
+    pub recession: [f64; 2],
 }
 
 impl EnumeratedContact {
     pub fn random(
         random: &mut Random,
-        ranges: Ranges,
+        ranges: ContactRanges,
         bounds: impl FnOnce(&mut Random) -> Vec<[f64; 2]>,
     ) -> Self {
         let delassus = random_delassus(random);
         let free_jump = random_numbers(random, ranges.free_jump, TRACTION_COUNT);
-        let pressed = random_numbers(random, ranges.pressed, ELEMENT_COUNT);
-        let moved = random_numbers(random, ranges.moved, ELEMENT_COUNT);
+        let static_pressure = random_numbers(random, ranges.static_pressure, ELEMENT_COUNT);
+        let recession = random_numbers(random, ranges.recession, ELEMENT_COUNT);
         let slip = random_numbers(random, [-0.3, 0.3], ELEMENT_COUNT);
         let bounds = bounds(random);
         let friction = random.pick(&[0.0, 0.2, 0.5, f64::INFINITY]);
-        Self { delassus, free_jump, pressed, moved, slip, bounds, friction }
+        Self { delassus, free_jump, static_pressure, recession, slip, bounds, friction }
     }
 
     /// Conditions of a mode of an element; `None` if it has no such mode.
     fn conditions(&self, e: usize, mode: Mode) -> Option<[LinearCondition; 2]> {
         let active = LinearCondition::pressure_is(self.bounds[e][0]);
         let passive = LinearCondition::pressure_is(self.bounds[e][1]);
-        let closed = LinearCondition::gap_is(-self.moved[e]);
+        let closed = LinearCondition::gap_is(-self.recession[e]);
         let stick = LinearCondition::slip_is(self.slip[e]);
         let slip_right = LinearCondition::new([0.0, 0.0, -self.friction, 1.0], 0.0);
         let slip_left = LinearCondition::new([0.0, 0.0, -self.friction, -1.0], 0.0);
         let without_pressure = LinearCondition::pressure_is(0.0);
         if self.friction.is_infinite() && mode.is_slip() {
-            // Infinite friction slides without pressure alone.
+            // With infinite friction an element slides only without pressure.
             let is_closed = matches!(mode, Mode::SlipLeft | Mode::SlipRight);
             let can_open = self.bounds[e][0] == 0.0;
             return (can_open && is_closed).then_some([closed, without_pressure]);
@@ -119,7 +119,7 @@ impl EnumeratedContact {
                 let LinearCondition { coefficients: [g, s, p, t], value } = condition;
                 let row = 2 * e + k;
                 rhs[row] = value - g * self.free_jump[e] + s * self.free_jump[ELEMENT_COUNT + e]
-                    - p * self.pressed[e];
+                    - p * self.static_pressure[e];
                 for j in 0..TRACTION_COUNT {
                     matrix[row][j] += g * self.delassus[e * TRACTION_COUNT + j]
                         - s * self.delassus[(ELEMENT_COUNT + e) * TRACTION_COUNT + j];
@@ -143,7 +143,7 @@ impl EnumeratedContact {
             .map(|e| ContactState {
                 gap: jump[e],
                 slip: -jump[ELEMENT_COUNT + e],
-                pressure: self.pressed[e] + traction[e],
+                pressure: self.static_pressure[e] + traction[e],
                 shear: traction[ELEMENT_COUNT + e],
                 ..ContactState::default()
             })
@@ -160,12 +160,12 @@ impl EnumeratedContact {
     fn element_violation(&self, e: usize, state: &ContactState) -> f64 {
         let [active, passive] = self.bounds[e];
         let p = state.pressure;
-        let g = state.gap + self.moved[e];
+        let g = state.gap + self.recession[e];
         // p from active to passive, g ≥ 0 below passive, g ≤ 0 above active.
         let pressure_violation = (active - p).max(p - passive);
         let gap_violation = g.max(0.0).min(p - active);
         let penetration_violation = (-g).max(0.0).min(passive - p);
-        // Infinite friction has its limit as p → 0, too: any shear.
+        // Infinite friction allows any shear traction, also in the limit p → 0.
         let is_infinite = self.friction.is_infinite();
         let shear_limit = if is_infinite { f64::INFINITY } else { self.friction * p };
         let slip_increment = state.slip - self.slip[e];
@@ -202,23 +202,23 @@ impl EnumeratedContact {
         solutions
     }
 
-    /// Contact of an element before, under a law.
+    /// Contact of an element at the start of the step.
     fn start<'a>(&'a self, e: usize, law: &dyn InterfaceLaw) -> PreviousContact<'a> {
         let state = ContactState {
-            gap: -self.moved[e],
+            gap: -self.recession[e],
             slip: self.slip[e],
-            pressure: self.pressed[e],
+            pressure: self.static_pressure[e],
             ..ContactState::default()
         };
         let mut start = PreviousContact::new(state, law.modes()[0], 1.0);
-        start.state_variables = &self.moved[e..=e];
+        start.state_variables = &self.recession[e..=e];
         start
     }
 
-    /// Modes that the contact search finds under these laws, and whether the problem has other solutions.
+    /// Modes that the contact search finds, and whether the problem has other solutions.
     ///
     /// Panics unless the solution of the search is among all solutions with the `modes` of each element.
-    pub fn assert_found(
+    pub fn assert_search_solves(
         &self,
         laws: [Box<dyn InterfaceLaw>; ELEMENT_COUNT],
         modes: [&[Mode]; ELEMENT_COUNT],
@@ -226,7 +226,7 @@ impl EnumeratedContact {
         let solutions = self.solutions(modes);
         assert!(!solutions.is_empty(), "no choice of modes is a solution");
         let starts: Vec<_> = (0..ELEMENT_COUNT).map(|e| self.start(e, laws[e].as_ref())).collect();
-        let mut traction = self.pressed.clone();
+        let mut traction = self.static_pressure.clone();
         traction.resize(TRACTION_COUNT, 0.0);
         let mut contact = ContactProblem::new(self.delassus.clone(), laws.into())
             .unwrap()

@@ -1,18 +1,18 @@
-//! Faults of files as the crate states them, to compare with.
+//! Faults of files as the crate reports them, for comparison in tests.
 
 use basemat::{Error, FileFault};
 
-/// A value that cannot be right.
+/// Fault of a value that cannot be right.
 pub fn value(quantity: &str, found: &str, needed: &str) -> FileFault {
     FileFault::Value { quantity: quantity.into(), found: found.into(), needed: needed.into() }
 }
 
-/// A wrong number of items.
+/// Fault of a wrong number of items.
 pub fn count(items: &str, found: usize, needed: &str) -> FileFault {
     value(&format!("number of {items}"), &found.to_string(), needed)
 }
 
-/// A field that is not a finite number.
+/// Fault of a field that is not a finite number.
 pub fn not_a_number(field: &str) -> FileFault {
     value("field", &format!("'{field}'"), "a finite number")
 }
@@ -45,7 +45,7 @@ pub fn is_no_number(fault: &FileFault) -> bool {
     matches!(fault, FileFault::Value { found, .. } if *fault == value("field", found, "a finite number"))
 }
 
-/// Whether a fault is a quantity of the header that is not there.
+/// Whether a fault is a quantity that the header lacks.
 pub fn is_missing(fault: &FileFault) -> bool {
     matches!(fault, FileFault::Missing { .. })
 }

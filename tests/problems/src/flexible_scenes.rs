@@ -40,18 +40,18 @@ impl Sines {
 
 impl FreeField for Sines {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
+        unreachable!("a ground in plan needs three directions")
     }
 
-    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
-        let time = (time - self.slowness * (place[0] + 4.0)).max(0.0);
+    fn displacement_at(&self, point: [f64; 2], time: f64) -> [f64; 3] {
+        let time = (time - self.slowness * (point[0] + 4.0)).max(0.0);
         std::array::from_fn(|k| self.amplitudes[k] * (1.0 - (self.frequencies[k] * time).cos()))
     }
 }
 
 /// A half-space of `soil`, or by chance a damped layer of it on rock.
 ///
-/// `layer_probability`: of the layer.
+/// `layer_probability`: probability of the layer.
 pub fn profile(
     random: &mut Random,
     soil: Soil,
@@ -66,7 +66,7 @@ pub fn profile(
     Ok(profile.with_damping(damping))
 }
 
-/// A mesh on its lowest faces.
+/// A mesh that stands on its lowest faces.
 #[derive(Debug)]
 struct RandomBuilding {
     mesh: Mesh,
@@ -138,22 +138,22 @@ impl RandomBuilding {
         points.into_iter().map(|[x, y, _]| self.mesh.add_node_at([x, y, height])).collect()
     }
 
-    /// A wall on a row of the mat, and one across it.
+    /// Adds a wall on a row of the mat, and one on a column of it.
     fn add_walls(&mut self, random: &mut Random) -> Result<(), Error> {
         let row = random.pick(&[0, self.counts[1] / 2, self.counts[1]]);
         let column = random.pick(&[0, self.counts[0]]);
-        let along = self.floor.row(row).to_vec();
-        let across: Vec<usize> =
+        let row_nodes = self.floor.row(row).to_vec();
+        let column_nodes: Vec<usize> =
             (0..self.floor.rows()).map(|row| self.floor.row(row)[column]).collect();
         let thickness = random.within(0.3, 1.0) * self.thickness;
         let storeys = random.pick(&[1, 2]);
         // Nodes by the base node below them and the storey.
         let mut nodes_above: HashMap<(usize, usize), usize> = HashMap::new();
-        for line in [along, across] {
-            let mut below = line.clone();
+        for line in [row_nodes, column_nodes] {
+            let mut lower_nodes = line.clone();
             for storey in 1..=storeys {
                 let height = self.height * storey as f64 / storeys as f64;
-                let mut above = Vec::new();
+                let mut upper_nodes = Vec::new();
                 for &foot in &line {
                     // The walls share the nodes above their common node.
                     let node = match nodes_above.get(&(foot, storey)) {
@@ -161,19 +161,20 @@ impl RandomBuilding {
                         None => self.add_nodes_above(&[foot], height)?[0],
                     };
                     nodes_above.insert((foot, storey), node);
-                    above.push(node);
+                    upper_nodes.push(node);
                 }
                 for k in 0..line.len() - 1 {
-                    let corners = [below[k], below[k + 1], above[k + 1], above[k]];
+                    let corners =
+                        [lower_nodes[k], lower_nodes[k + 1], upper_nodes[k + 1], upper_nodes[k]];
                     self.add_shell(corners, thickness, false)?;
                 }
-                below = above;
+                lower_nodes = upper_nodes;
             }
         }
         Ok(())
     }
 
-    /// Columns on the corners under a roof of beams, or one column with a rigid arm.
+    /// Adds columns on the corners under a roof of beams.
     fn add_frame(&mut self, random: &mut Random) -> Result<(), Error> {
         let last_row = self.floor.rows() - 1;
         let last_column = self.counts[0];
@@ -272,19 +273,22 @@ fn scene(random: &mut Random) -> Result<(Simulation, bool), Error> {
 pub struct FlexibleSceneTotals {
     pub scenes: usize,
     pub steps: usize,
+    /// Number of scenes whose structure is reduced.
     pub reduced: usize,
-    /// Steps with an open cell, and with a cell that slides.
-    pub opened: usize,
-    pub slid: usize,
-    /// Scenes whose structure or step has no solution, with their reasons.
+    /// Number of steps with an open cell.
+    pub open_steps: usize,
+    /// Number of steps with a cell that slides.
+    pub sliding_steps: usize,
+    /// Scenes whose structure or step has no solution, with the reasons.
     pub refused: Vec<String>,
-    /// Largest residual of an energy balance, and the most energy returned by the soil, of the largest energy.
+    /// Largest residual of an energy balance.
     pub residual: f64,
-    pub returned: f64,
+    /// Largest energy returned by the soil, relative to the largest energy.
+    pub returned_energy: f64,
 }
 
 impl FlexibleSceneTotals {
-    /// Adds the scene of this number; panics where an energy balance is open by 1e-9.
+    /// Runs the scene of this number; panics if the residual of an energy balance reaches 1e-9.
     pub fn run(&mut self, number: usize) {
         self.scenes += 1;
         let (mut simulation, is_reduced) = match scene(&mut Random(4711 + number as u64)) {
@@ -314,10 +318,10 @@ impl FlexibleSceneTotals {
             assert!(energy.residual() < 1e-9, "{number}: {energy}");
             assert!(energy.soil >= -1e-9 * energy.largest, "{number}: {energy}");
             self.residual = self.residual.max(energy.residual());
-            self.returned = self.returned.max(-energy.soil / energy.largest);
+            self.returned_energy = self.returned_energy.max(-energy.soil / energy.largest);
             self.steps += 1;
-            self.opened += usize::from(state.modes.contains(&Mode::Open));
-            self.slid += usize::from(state.modes.iter().any(|mode| mode.is_slip()));
+            self.open_steps += usize::from(state.modes.contains(&Mode::Open));
+            self.sliding_steps += usize::from(state.modes.iter().any(|mode| mode.is_slip()));
         }
     }
 }

@@ -1,5 +1,6 @@
-//! Scenes whose steps are timed, by this example and by `benches/step.rs`: what one does not need,
-//! it should not pay for.
+//! Scenes whose steps the study `performance` and the benchmark `step` time.
+//!
+//! They show that a feature that a scene does not use costs no time.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
@@ -9,11 +10,11 @@ use basemat::motion::{Baseline, Record, STANDARD_GRAVITY, VerticalIncidence, el_
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
-/// 1.5 ft, m.
+/// Length of an element, m: 1.5 ft.
 pub const ELEMENT_LENGTH: f64 = 0.4572;
-/// Contact length of the headline problem, 15 ft, on so many elements.
+/// Number of elements on the contact length of the headline problem, 15 ft.
 pub const ELEMENT_COUNT: usize = 10;
-/// The whole record at half an element over `c_P`.
+/// Number of steps of the whole record with [`time_step`].
 pub const RECORD_STEPS: usize = 54_000;
 
 /// The soil of the headline problem: ν = 1/3, waves of 650 and 1300 ft/s.
@@ -21,19 +22,20 @@ pub fn soil() -> Result<Soil> {
     Soil::from_wave_speeds(198.12, 396.24, 1804.0)
 }
 
-/// `c_P` Δt is half an element.
+/// Time step in which a pressure wave crosses half an element, s.
 pub fn time_step() -> f64 {
     0.5 * ELEMENT_LENGTH / 396.24
 }
 
-/// So many elements, all alike.
+/// A strip of `count` equal elements.
 pub fn strip(count: usize) -> Result<Strip> {
     let half = 0.5 * ELEMENT_LENGTH * count as f64;
     Strip::uniform(-half..half, count)
 }
 
-/// The headline problem without law and history: the paper's model, a basemat and twelve layers of
-/// the containment, 35 ft high in all, under El Centro.
+/// The headline problem without an interface law, and its ground.
+///
+/// It is the paper's model under El Centro: a basemat and twelve layers of the containment, 35 ft high in all.
 pub fn headline(count: usize) -> Result<(SimulationBuilder, ElasticGround)> {
     let half = 0.5 * ELEMENT_LENGTH * count as f64;
     let psf = 47.880_259;
@@ -54,19 +56,19 @@ pub fn headline(count: usize) -> Result<(SimulationBuilder, ElasticGround)> {
     Ok((builder, ElasticGround::new(soil()?, strip(count)?)?))
 }
 
-/// El Centro, at rest at its end, over and over again for `duration` seconds.
-pub fn without_end(duration: f64) -> Result<Record> {
+/// El Centro, at rest at its end, accelerations for `duration` seconds.
+pub fn repeated_record(duration: f64) -> Result<Record> {
     let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 5 })?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "minutes at most")]
-    let samples = 2 + (duration / record.time_step()).ceil() as usize;
-    let repeated = record.accelerations().iter().copied().cycle().take(samples);
-    Record::new(record.time_step(), repeated.collect())
+    let sample_count = 2 + (duration / record.time_step()).ceil() as usize;
+    let accelerations = record.accelerations().iter().copied().cycle().take(sample_count);
+    Record::new(record.time_step(), accelerations.collect())
 }
 
-/// A scene of the table.
+/// A scene of the table of step times.
 pub struct TimedScene {
     pub name: &'static str,
-    /// Feature that its steps leave out.
+    /// Computations that its steps do not need.
     pub left_out: &'static str,
     pub make: fn(SimulationBuilder) -> Result<SimulationBuilder>,
     /// Quantity that an observer reads after each step.
@@ -88,7 +90,7 @@ fn read_nothing(_: &State) -> f64 {
     0.0
 }
 
-/// All of the table.
+/// All scenes of the table.
 pub const TIMED_SCENES: [TimedScene; 12] = [
     TimedScene {
         name: "bonded",
@@ -172,13 +174,13 @@ pub const TIMED_SCENES: [TimedScene; 12] = [
 ];
 
 impl TimedScene {
-    /// The scene, ready for `steps`.
+    /// The scene, prepared for `steps` steps.
     pub fn build(&self, steps: usize) -> Result<Simulation> {
         let (builder, ground) = headline(ELEMENT_COUNT)?;
         (self.make)(builder.ground(ground).expected_steps(steps))?.build()
     }
 
-    /// Makes `steps` steps; a sum of what the observer read.
+    /// Advances by `steps` steps; returns the sum of the values that the observer read.
     pub fn march(&self, simulation: &mut Simulation, steps: usize) -> Result<f64> {
         let mut sum = 0.0;
         for _ in 0..steps {

@@ -25,12 +25,12 @@ fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [(a * c + b * d) / square, (b * c - a * d) / square]
 }
 
-/// Value of a force that the ground receives in a step.
+/// Time at which a ground's traction of a step stands for the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceSampling {
-    /// Its mean over the step.
+    /// The traction is the mean over the step.
     Mean,
-    /// Its value at the end of the step.
+    /// The traction is the value at the end of the step.
     End,
 }
 
@@ -44,7 +44,7 @@ pub fn impedances(
 ) -> Vec<[[f64; 2]; 4]> {
     let steps = nearest_integer(60.0 / time_step);
     let pulse: Vec<f64> = (1..=steps).map(|n| ricker(n as f64 * time_step, 0.5, 3.0)).collect();
-    // By symmetry vertical and horizontal, or vertical and rocking, do not mix.
+    // By symmetry, vertical motion is coupled neither with horizontal motion nor with rocking.
     let forces = if is_bonded {
         let by_translation = pulse_response(make(StripTractions::Bonded), &pulse, [1.0, 1.0, 0.0]);
         let by_rotation = pulse_response(make(StripTractions::Bonded), &pulse, [0.0, 0.0, 1.0]);

@@ -5,9 +5,9 @@ use basemat::interface::{
     Tolerance,
 };
 
-/// Friction that falls with the sliding distance: residual + (first − residual) e^(−slid/distance).
+/// Friction that decreases with the sliding distance s: residual + (first − residual) e^(−s/distance).
 ///
-/// The state variable is the sliding distance.
+/// The state variable is s.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipWeakening {
     pub first: f64,
@@ -138,10 +138,10 @@ impl InterfaceLaw for BreakingBond {
 
 /// Elastic pads, bonded to both sides, that soften with the largest pressure they have carried.
 ///
-/// Stiffness / (1 + pressure / softening). The state variable is that pressure.
+/// The stiffness is divided by 1 + pressure/softening. The state variable is that pressure.
 #[derive(Debug, Clone, Copy)]
 pub struct SofteningPads {
-    /// Across and along the base, Pa/m.
+    /// Normal and tangential stiffness, Pa/m.
     pub stiffness: [f64; 2],
     pub softening: f64,
 }

@@ -1,6 +1,6 @@
 //! Scenes, closed forms and reference tables that tests, benches and studies share, each written once.
 //!
-//! They are for scenes that stand: what does not panics.
+//! They panic for scenes that cannot be built.
 
 #![allow(missing_docs, missing_debug_implementations, reason = "not published")]
 #![allow(

@@ -1,4 +1,4 @@
-//! Energy that a half-plane gives or takes under random tractions.
+//! Passivity of grounds: work of random tractions, and growth of the tractions of random displacements.
 
 use basemat::bem::{ElasticGround, Ground, Strip};
 use basemat::history::{HistoryMethod, HistoryOptions};
@@ -7,7 +7,7 @@ use basemat::{Soil, unobserved};
 use super::dense::inverse;
 use super::random::Random;
 
-/// A strip, its step and what drives it.
+/// A strip, its time step and its random excitation.
 #[derive(Debug, Clone, Copy)]
 pub struct PassivityScene {
     pub poisson: f64,
@@ -41,13 +41,14 @@ impl PassivityScene {
         ground
     }
 
-    /// As [`min_work_ratio`] of the ground.
-    pub fn least_work(&self) -> f64 {
+    /// [`min_work_ratio`] of the ground.
+    pub fn min_work_ratio(&self) -> f64 {
         min_work_ratio(&mut self.ground(), self.steps, self.seed)
     }
 
-    /// Tractions that random displacements need: the largest of the run's last tenth over the
-    /// largest of its first tenth. Displacements move by white noise of one size.
+    /// Growth of the tractions of random displacements, whose increments are white noise.
+    ///
+    /// It is the largest traction in the last tenth of the run over the largest in the first tenth.
     pub fn growth_of_tractions(&self) -> f64 {
         let mut ground = self.ground();
         let size = 2 * self.elements;
@@ -81,12 +82,11 @@ impl PassivityScene {
     }
 }
 
-/// Work W_N = Σ A τ·Δs after the first ten steps: its smallest value over that after ten steps, of a ground that is
-/// ready for so many.
+/// Smallest work of tractions on a prepared ground, relative to the work of the first ten steps.
 ///
-/// Tractions are white noise for ten steps, then for half of the run they take out as much
-/// energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀). Slow noise
-/// follows.
+/// The work until step N is W_N = Σ A τ·Δs; a passive ground keeps it positive. Tractions are white noise for ten steps.
+/// Until half of the run they then extract as much energy in each step as possible: τ = −½ G⁻¹(h − s₀) minimises
+/// τ·A(h + Gτ − s₀). Slow noise follows.
 pub fn min_work_ratio(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
     let count = ground.elements().len();
     let directions = ground.elements()[0].directions().len();
@@ -112,8 +112,8 @@ pub fn min_work_ratio(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
             traction = multiply(&inverse, &change);
         } else {
             for t in &mut traction {
-                let kick = random.within(-1.0, 1.0);
-                *t = if is_noise { kick } else { 0.95 * *t + 0.3 * kick };
+                let noise = random.within(-1.0, 1.0);
+                *t = if is_noise { noise } else { 0.95 * *t + 0.3 * noise };
             }
         }
         let mut end = multiply(&operator, &traction);

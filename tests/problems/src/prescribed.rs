@@ -7,7 +7,7 @@ use basemat::{Observer, Result};
 
 /// A ground whose step compliance and motion are prescribed.
 ///
-/// Both have normal components (down) first, then components along x, in plan also along y.
+/// Both have normal components (down) first, then components along x, in space also along y.
 pub struct PrescribedGround {
     elements: Vec<ContactElement>,
     compliance: Vec<f64>,

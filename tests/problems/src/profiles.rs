@@ -7,7 +7,7 @@ use basemat::soil::{Elastic, GeneralizedMaxwell, Hysteretic, Relaxation, SoilPro
 
 pub use basemat_testkit::gmb_numbers;
 
-/// The law of `gmb.json` for 5 % or 1 %.
+/// The law of `gmb.json` for a damping ratio of 5 % or 1 %.
 pub fn gmb(percent: u32) -> GeneralizedMaxwell {
     let numbers = gmb_numbers(percent);
     GeneralizedMaxwell::new(numbers.0, numbers.1, numbers.2).unwrap()
@@ -57,7 +57,7 @@ pub fn constant_q(ratio: f64) -> GeneralizedMaxwell {
     GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()
 }
 
-/// A soft layer of 6 m, one of 9 m between, rock.
+/// A soft layer of 6 m and a stiffer one of 9 m on rock.
 pub fn two_layers(
     upper: impl Relaxation + 'static,
     lower: impl Relaxation + 'static,

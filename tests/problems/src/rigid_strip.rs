@@ -1,4 +1,4 @@
-//! Rigid massless strip on the half-plane, marched with nothing but the `Ground` trait.
+//! Rigid massless strip on the half-plane, stepped by the methods of the `Ground` trait alone.
 
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
 use basemat::{Soil, unobserved};
@@ -8,7 +8,7 @@ use super::dense::inverse;
 /// Tractions between the strip and the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StripTractions {
-    /// Both.
+    /// Pressure and shear traction.
     Bonded,
     /// Pressure only.
     Normal,
@@ -22,12 +22,13 @@ pub enum StripTractions {
 /// positive rotation or moment lowers the right side.
 pub struct DrivenStrip {
     ground: Box<dyn Ground>,
-    /// Of the step compliance.
+    /// Inverse of the step compliance.
     inverse: Vec<f64>,
-    /// Element means of the three rigid motions, and the same times element lengths.
+    /// Element means of the three rigid motions.
     motions: [Vec<f64>; 3],
+    /// These means times the element lengths.
     forces: [Vec<f64>; 3],
-    /// Compliance of a step: motion per force.
+    /// Motion of the strip in a step per force on it.
     compliance: Vec<f64>,
     history: Vec<f64>,
 }
@@ -107,13 +108,13 @@ impl DrivenStrip {
         strip
     }
 
-    /// Moves the strip to `motion` in one step; the mean forces over the step.
+    /// Moves the strip to `motion` in one step; returns the mean forces over the step.
     pub fn drive(&mut self, motion: [f64; 3]) -> [f64; 3] {
         self.ground.history(&mut self.history).unwrap();
         self.advance(motion)
     }
 
-    /// Pushes the strip for one step with the mean forces `force`; the motion at its end.
+    /// Pushes the strip for one step with the mean forces `force`; returns the motion at the end of the step.
     pub fn push(&mut self, force: [f64; 3]) -> [f64; 3] {
         self.ground.history(&mut self.history).unwrap();
         let history_force = self.resultant(&self.traction(&self.history));
@@ -130,9 +131,9 @@ impl DrivenStrip {
             .map(|i| (0..3).map(|k| motion[k] * self.motions[k][i]).sum::<f64>() - self.history[i])
             .collect();
         let mut traction = self.traction(&increment);
-        // Components that are not in contact carry nothing.
+        // Components that are not in contact have no traction.
         for (i, t) in traction.iter_mut().enumerate() {
-            if self.motions.iter().all(|m| m[i] == 0.0) && !self.in_contact(i) {
+            if self.motions.iter().all(|m| m[i] == 0.0) && !self.is_in_contact(i) {
                 *t = 0.0;
             }
         }
@@ -140,7 +141,7 @@ impl DrivenStrip {
         self.resultant(&traction)
     }
 
-    fn in_contact(&self, i: usize) -> bool {
+    fn is_in_contact(&self, i: usize) -> bool {
         let count = self.history.len() / 2;
         if i < count { self.motions[1][i] != 0.0 } else { self.motions[0][i] != 0.0 }
     }

@@ -7,30 +7,31 @@ use crate::series::nearest_integer;
 /// A rigid body on two corners.
 #[derive(Debug, Clone, Copy)]
 pub struct Rocker {
-    /// Of the base, m.
+    /// Half width of the base, m.
     pub half_width: f64,
     /// kg/m.
     pub mass: f64,
-    /// Of the centre of gravity, m.
+    /// Height of the centre of gravity, m.
     pub height: f64,
-    /// About the middle of the base, kg m²/m.
+    /// Moment of inertia about the middle of the base, kg m²/m.
     pub inertia: f64,
 }
 
 impl Rocker {
-    /// N/m.
+    /// Weight, N/m.
     pub fn weight(&self) -> f64 {
         self.mass * STANDARD_GRAVITY
     }
 
-    /// Housner's block for small tilts under a moment, N m/m by time: tilts every `sample` seconds, and the times of impacts.
+    /// Tilts of Housner's block every `sample_interval` seconds, and the times of its impacts.
     ///
-    /// About the corner that is down, I θ″ = M ∓ N(b ∓ hθ); at an impact the moment of momentum about the new corner is
-    /// conserved, so the rate falls to η = (I₀ − m b²)/(I₀ + m b²) of itself, I₀ about the middle of the base.
+    /// Tilts are small, and `moment` (N m/m) is a function of time. About the corner in contact, I θ″ = M ∓ N(b ∓ hθ). At
+    /// an impact the moment of momentum about the new corner is conserved, which multiplies the rate by
+    /// η = (I₀ − m b²)/(I₀ + m b²), with the moment of inertia I₀ about the middle of the base.
     pub fn tilts(
         &self,
-        push: impl Fn(f64) -> f64,
-        sample: f64,
+        moment: impl Fn(f64) -> f64,
+        sample_interval: f64,
         duration: f64,
     ) -> (Vec<f64>, Vec<f64>) {
         let Self { half_width, mass, height, inertia } = *self;
@@ -39,24 +40,24 @@ impl Rocker {
         let restoring_moment = self.weight() * half_width;
         let tilting_stiffness = self.weight() * height;
         let acceleration = |time: f64, tilt: f64, side: f64| {
-            (push(time) - side * restoring_moment + tilting_stiffness * tilt) / moment_of_inertia
+            (moment(time) - side * restoring_moment + tilting_stiffness * tilt) / moment_of_inertia
         };
         let substeps = 2000;
-        let step = sample / f64::from(substeps);
+        let step = sample_interval / f64::from(substeps);
         let mut tilt = 0.0_f64;
         let mut rate = 0.0_f64;
         // +1 on the left corner (tilts counter-clockwise), −1 on the right one, 0 at rest.
         let mut side = 0.0_f64;
         let mut tilts = vec![0.0];
         let mut impacts = Vec::new();
-        for n in 0..nearest_integer(duration / sample) {
+        for n in 0..nearest_integer(duration / sample_interval) {
             for k in 0..substeps {
-                let time = n as f64 * sample + f64::from(k) * step;
+                let time = n as f64 * sample_interval + f64::from(k) * step;
                 if side == 0.0 {
-                    if push(time).abs() <= restoring_moment {
+                    if moment(time).abs() <= restoring_moment {
                         continue;
                     }
-                    side = push(time).signum();
+                    side = moment(time).signum();
                 }
                 // Velocity Verlet.
                 let start_acceleration = acceleration(time, tilt, side);
@@ -64,7 +65,7 @@ impl Rocker {
                 let end_acceleration = acceleration(time + step, next, side);
                 rate += 0.5 * step * (start_acceleration + end_acceleration);
                 if next * side < 0.0 {
-                    // Linear within the step: the event is off by step² at most.
+                    // The tilt is taken as linear within the step: the error of the impact's time is of the order of step².
                     let fraction = tilt / (tilt - next);
                     impacts.push(time + fraction * step);
                     rate *= rate_factor;
@@ -79,16 +80,18 @@ impl Rocker {
     }
 }
 
-/// Times at which a tilt with this sampling changes sign, by the straight line between samples.
-pub fn crossings(tilts: &[f64], sample: f64) -> Vec<f64> {
+/// Times at which a sampled tilt changes its sign, by linear interpolation.
+pub fn crossings(tilts: &[f64], sample_interval: f64) -> Vec<f64> {
     let pairs = tilts.windows(2).enumerate().filter(|(_, pair)| pair[0] * pair[1] < 0.0);
-    pairs.map(|(k, pair)| (k as f64 + pair[0] / (pair[0] - pair[1])) * sample).collect()
+    pairs
+        .map(|(k, pair)| (k as f64 + pair[0] / (pair[0] - pair[1])) * sample_interval)
+        .collect()
 }
 
 /// Time that a rigid block on a soil without inertia needs from rest at `tilt` until it is upright.
 ///
-/// Its moment is the one of a smooth no-tension strip: N b θ/(2θ_u) up to θ_u, N b (1 − θ_u/(2θ))
-/// above, less N h θ; `rate` is √(N h/I), I about the corner.
+/// The moment of a frictionless no-tension strip is N b θ/(2θ_u) up to θ_u, and N b (1 − θ_u/(2θ)) above; the P–Δ moment
+/// N h θ reduces it. `rate` is √(N h/I), with I about the corner.
 pub fn quarter_period(tilt: f64, lift_off: f64, slenderness: f64, rate: f64) -> f64 {
     let acceleration = |theta: f64| {
         let arm =

@@ -1,4 +1,4 @@
-//! Runs under a Ricker pulse, and their sampled histories.
+//! Runs under a Ricker pulse, and samples of their time series.
 
 use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::coupled::State;
@@ -28,30 +28,30 @@ pub fn under_pulse(
 }
 
 /// Base displacement, rotation, and base shear (its mean over a sample).
-pub type SampledHistory = [Vec<f64>; 3];
+pub type SampledSeries = [Vec<f64>; 3];
 
-/// The history of so many steps, a sample every `interval` of them.
+/// Time series of a run of `steps` steps, with a sample every `interval` steps.
 pub fn sample(
     simulation: &mut Simulation,
     steps: usize,
     interval: usize,
-) -> Result<(SampledHistory, Run)> {
-    let mut history = [const { Vec::new() }; 3];
+) -> Result<(SampledSeries, Run)> {
+    let mut samples = [const { Vec::new() }; 3];
     let mut shear = 0.0;
     let run = simulation.run(steps, |state| {
         shear += state.base_shear / interval as f64;
         if state.step % interval == 0 {
-            history[0].push(state.absolute_displacement()[0]);
-            history[1].push(state.absolute_displacement()[2]);
-            history[2].push(shear);
+            samples[0].push(state.absolute_displacement()[0]);
+            samples[1].push(state.absolute_displacement()[2]);
+            samples[2].push(shear);
             shear = 0.0;
         }
     })?;
-    Ok((history, run))
+    Ok((samples, run))
 }
 
 /// Relative distance of `computed` from `expected`, component by component.
-pub fn distance(computed: &SampledHistory, expected: &SampledHistory) -> [f64; 3] {
+pub fn distance(computed: &SampledSeries, expected: &SampledSeries) -> [f64; 3] {
     std::array::from_fn(|k| {
         let mut error = RelativeError::default();
         computed[k].iter().zip(&expected[k]).for_each(|(a, b)| error.add(*a, *b));
@@ -59,10 +59,12 @@ pub fn distance(computed: &SampledHistory, expected: &SampledHistory) -> [f64; 3
     })
 }
 
-/// Sampling of the histories of a [`PulsedBlock`]: all time steps are fractions of it.
+/// Interval between samples of a [`PulsedBlock`], s: all time steps divide it.
 pub const SAMPLING_INTERVAL: f64 = 0.2;
 
-/// A block of width and mass 2 and 4 under a Ricker pulse of peak 1 that ends before `duration`; bonded without friction.
+/// A block of width 2 and mass 4 under a Ricker pulse of peak 1 that ends before `duration`.
+///
+/// It is bonded if it has no `friction`.
 #[derive(Debug, Clone, Copy)]
 pub struct PulsedBlock {
     pub height: f64,
@@ -83,12 +85,12 @@ impl PulsedBlock {
     pub const SLIDING_BLOCK: Self =
         Self { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 };
 
-    /// Its history on so many elements.
-    pub fn history(
+    /// Time series of the block on a strip of `elements` elements.
+    pub fn run(
         self,
         (grading, elements): (Grading, usize),
         time_step: f64,
-    ) -> Result<(SampledHistory, Run)> {
+    ) -> Result<(SampledSeries, Run)> {
         let soil = Soil::new(1.0, 1.0 / 3.0, 1.0)?;
         let strip = Strip::new(-1.0..1.0, elements, grading)?;
         let builder = Simulation::builder(time_step)
@@ -104,8 +106,8 @@ impl PulsedBlock {
         sample(&mut builder.build()?, nearest_integer(self.duration / time_step), interval)
     }
 
-    /// The bonded block of the table, sampled.
-    pub fn exact() -> SampledHistory {
+    /// Sampled reference of the bonded block, from its table.
+    pub fn table_series() -> SampledSeries {
         let table = table("td_block_SV_nu0333_h2_rho1.csv");
         let base = TabledSeries::new(&table, "u_base");
         let rotation = TabledSeries::new(&table, "theta");
@@ -136,12 +138,12 @@ pub fn rotation(state: &State) -> f64 {
     -state.absolute_displacement()[2]
 }
 
-/// Horizontal force on the soil.
+/// Horizontal force of a block on the soil.
 pub fn shear(state: &State) -> f64 {
     state.base_shear
 }
 
-/// Moment on the soil as the tables count it, clockwise.
+/// Moment of a block on the soil as the tables count it, clockwise.
 pub fn moment(state: &State) -> f64 {
     -state.base_moment
 }

@@ -116,7 +116,7 @@ pub fn states(simulation: &mut Simulation, steps: usize) -> Vec<State> {
     states
 }
 
-/// Largest difference of a quantity over a run, relative to its largest value in the first.
+/// Largest difference of a quantity over two runs, relative to its largest expected value.
 pub fn apart<'a>(
     expected: &'a [State],
     computed: &'a [State],
@@ -141,7 +141,7 @@ pub struct RecordedRun {
     pub states: Vec<State>,
 }
 
-/// A run of so many steps.
+/// Records a run of `steps` steps.
 pub fn record_run(simulation: &mut Simulation, recorder: Recorder, steps: usize) -> RecordedRun {
     let mut time_series = recorder.start(simulation).unwrap();
     let mut states = vec![simulation.state().clone()];
@@ -152,7 +152,7 @@ pub fn record_run(simulation: &mut Simulation, recorder: Recorder, steps: usize)
     RecordedRun { time_series, run: run.unwrap(), states }
 }
 
-/// The same as separate results.
+/// Time series, run and states of [`record_run`] as separate results.
 pub fn recorded(
     simulation: &mut Simulation,
     recorder: Recorder,
@@ -213,7 +213,7 @@ impl NonlinearForce for Rider {
         Ok(())
     }
 
-    /// Elastic, without memory.
+    /// The spring is elastic and has nothing to save.
     fn save(&self) -> basemat::Result<Vec<f64>> {
         Ok(Vec::new())
     }

@@ -1,4 +1,4 @@
-//! The law of soil that settles in every cycle, as the documents state it, by bisection.
+//! The law of soil that settles in every cycle, from its equations in the documents, solved by bisection.
 
 use basemat::interface::CyclicYielding;
 
@@ -7,11 +7,11 @@ use crate::random::Random;
 /// Parameters: capacity q = `initial_capacity` + `depth_gradient` · level, backbone q h/(h + `reference_settlement`).
 #[derive(Debug, Clone, Copy)]
 pub struct SettlingLaw {
-    /// Pa.
+    /// Bearing pressure at level zero, Pa.
     pub initial_capacity: f64,
-    /// Pa/m.
+    /// Growth of the bearing pressure with the level, Pa/m.
     pub depth_gradient: f64,
-    /// m.
+    /// Settlement at which the backbone reaches half of the capacity, m.
     pub reference_settlement: f64,
     /// Rise of pressure without yielding, relative to the capacity.
     pub elastic_range: f64,
@@ -20,7 +20,7 @@ pub struct SettlingLaw {
 /// State of an element at the start of a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SettlingState {
-    /// Of the soil at zero pressure, down, m.
+    /// Depth of the soil's surface at zero pressure, m.
     pub level: f64,
     /// Pressure up to which the soil does not yield, Pa.
     pub threshold: f64,
@@ -61,7 +61,7 @@ impl SettlingLaw {
         self.initial_capacity + self.depth_gradient * level.max(0.0)
     }
 
-    /// Pressure after a settlement beyond the start of a step.
+    /// Pressure of soil that yields, after a further settlement in the step.
     fn yield_pressure(&self, start: &SettlingState, settlement: f64) -> f64 {
         let capacity = self.capacity(start.level);
         let reference = self.reference_settlement;
@@ -90,14 +90,14 @@ impl SettlingLaw {
 
     /// State at the end of a step with a pressure, in which the soil has settled.
     pub fn end(&self, start: &SettlingState, pressure: f64, settlement: f64) -> SettlingState {
-        let yields = pressure > start.threshold;
-        let level = if yields { start.level + settlement } else { start.level };
-        let threshold = if yields { pressure } else { start.threshold };
+        let is_yielding = pressure > start.threshold;
+        let level = if is_yielding { start.level + settlement } else { start.level };
+        let threshold = if is_yielding { pressure } else { start.threshold };
         let range = self.elastic_range * self.capacity(level);
         SettlingState { level, threshold: threshold.min(pressure + range) }
     }
 
-    /// Distance of a pressure and a gap (m) from the law, relative to the capacity and the level.
+    /// Violation of the law by a pressure and a gap (m), relative to the capacity.
     pub fn violation(&self, start: &SettlingState, pressure: f64, gap: f64) -> f64 {
         let capacity = self.capacity(start.level);
         let settlement = -start.level - gap;
@@ -106,12 +106,14 @@ impl SettlingLaw {
             // Open.
             return pressure.abs() / capacity;
         }
-        let yields = self.yield_pressure(start, settlement.max(0.0));
-        let sharp = if self.reference_settlement == 0.0 { capacity } else { start.threshold };
+        let yield_pressure = self.yield_pressure(start, settlement.max(0.0));
+        let initial_yield_pressure =
+            if self.reference_settlement == 0.0 { capacity } else { start.threshold };
         if settlement > length {
-            (pressure - yields).abs() / capacity
+            (pressure - yield_pressure).abs() / capacity
         } else {
-            (pressure - yields.max(sharp)).max(-pressure).max(0.0) / capacity
+            (pressure - yield_pressure.max(initial_yield_pressure)).max(-pressure).max(0.0)
+                / capacity
         }
     }
 }

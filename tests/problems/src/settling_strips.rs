@@ -1,7 +1,8 @@
 //! A rigid rectangle that rocks without inertia on strips of soil that settle in every cycle, above an elastic half-space.
 //!
-//! Strips across the base, each with a uniform pressure, move the surface by Love's solution (1929), which is averaged over
-//! each strip. The settlement of each strip is in series. The base carries its weight, and its rotation is prescribed.
+//! Strips run across the base, and each has a uniform pressure. Love's solution (1929), averaged over each strip, is their
+//! elastic displacement; the settlement of each strip adds to it. The base has a constant weight, and its rotation is
+//! prescribed.
 
 use std::f64::consts::PI;
 
@@ -9,6 +10,12 @@ use crate::settling_law::SettlingLaw;
 
 /// Points along each side of a strip over which its displacement is averaged.
 const SAMPLE_COUNT: usize = 16;
+/// Bound of the sweeps over all strips.
+const MAX_RELAXATION_SWEEPS: usize = 2000;
+/// Change of a pressure at which the sweeps end, relative to the initial capacity.
+const PRESSURE_TOLERANCE: f64 = 1e-9;
+/// Vertical force out of balance at which the search for the settlement ends, relative to the weight.
+const FORCE_TOLERANCE: f64 = 1e-7;
 
 /// The base: length along the rotation and width, m; weight, N.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +35,7 @@ pub struct SettlingStrips {
     levels: Vec<f64>,
     thresholds: Vec<f64>,
     pressures: Vec<f64>,
-    /// Of the middle of the base, down, m.
+    /// Settlement of the middle of the base, m.
     pub settlement: f64,
 }
 
@@ -59,12 +66,18 @@ fn mean_integral(distance: f64, sides: [f64; 2]) -> f64 {
 }
 
 impl SettlingStrips {
-    /// `count` strips on a half-space of this shear modulus (Pa) and Poisson's ratio, before the weight acts.
-    pub fn new(base: RockingBase, count: usize, soil: [f64; 2], law: SettlingLaw) -> Self {
+    /// `count` strips on a half-space of shear modulus `modulus` (Pa), before the weight acts.
+    pub fn new(
+        base: RockingBase,
+        count: usize,
+        modulus: f64,
+        poisson: f64,
+        law: SettlingLaw,
+    ) -> Self {
         let side = base.length / count as f64;
         let middles: Vec<f64> =
             (0..count).map(|i| (i as f64 + 0.5) * side - 0.5 * base.length).collect();
-        let [modulus, poisson] = soil;
+
         let mut compliance = Vec::new();
         for receiver in &middles {
             for source in &middles {
@@ -89,20 +102,20 @@ impl SettlingStrips {
         self.law.capacity(self.levels[strip])
     }
 
-    /// Settlement at which the backbone of a strip has a pressure.
+    /// Settlement at which the backbone of a strip reaches a pressure.
     fn virgin_settlement(&self, strip: usize, pressure: f64) -> f64 {
         let ratio = (pressure / self.bearing_pressure(strip)).min(1.0 - 1e-13);
         self.law.reference_settlement * ratio / (1.0 - ratio)
     }
 
     /// Displacement of a strip by the pressures on the others, m.
-    fn moved_by_others(&self, strip: usize) -> f64 {
+    fn displacement_by_others(&self, strip: usize) -> f64 {
         let row = &self.compliance[strip * self.middles.len()..][..self.middles.len()];
         let all: f64 = row.iter().zip(&self.pressures).map(|(entry, p)| entry * p).sum();
         all - row[strip] * self.pressures[strip]
     }
 
-    /// Pressure of a strip that is pressed by `penetration` (m) beyond its level and the motion by the others.
+    /// Pressure of a strip at a `penetration` (m) of the base below the surface without this pressure.
     fn strip_pressure(&self, strip: usize, penetration: f64) -> f64 {
         let compliance = self.compliance[strip * (self.middles.len() + 1)];
         let elastic = penetration / compliance;
@@ -115,8 +128,8 @@ impl SettlingStrips {
         let mut high = elastic.min(self.bearing_pressure(strip));
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
-            let settled = self.virgin_settlement(strip, middle) - start;
-            if compliance * middle + settled < penetration {
+            let settlement_increment = self.virgin_settlement(strip, middle) - start;
+            if compliance * middle + settlement_increment < penetration {
                 low = middle;
             } else {
                 high = middle;
@@ -125,18 +138,19 @@ impl SettlingStrips {
         0.5 * (low + high)
     }
 
-    /// Relaxes the pressures at a position; returns the vertical force on the soil beyond the weight, N.
+    /// Relaxes the pressures at a position of the base; returns their force minus the weight, N.
     fn relax(&mut self, settlement: f64, rotation: f64) -> f64 {
-        for _ in 0..2000 {
-            let mut largest = 0.0_f64;
+        for _ in 0..MAX_RELAXATION_SWEEPS {
+            let mut max_pressure_change = 0.0_f64;
             for strip in 0..self.middles.len() {
-                let moved = self.moved_by_others(strip) + self.levels[strip];
+                let surface_level = self.displacement_by_others(strip) + self.levels[strip];
                 let position = settlement + rotation * self.middles[strip];
-                let pressure = self.strip_pressure(strip, position - moved);
-                largest = largest.max((pressure - self.pressures[strip]).abs());
+                let pressure = self.strip_pressure(strip, position - surface_level);
+                max_pressure_change =
+                    max_pressure_change.max((pressure - self.pressures[strip]).abs());
                 self.pressures[strip] = pressure;
             }
-            if largest < 1e-9 * self.law.initial_capacity {
+            if max_pressure_change < PRESSURE_TOLERANCE * self.law.initial_capacity {
                 break;
             }
         }
@@ -165,7 +179,7 @@ impl SettlingStrips {
             let secant = high - force_high * (high - low) / (force_high - force_low);
             settlement = if attempt % 3 == 2 { middle } else { secant };
             let force = self.relax(settlement, rotation);
-            if force.abs() < 1e-7 * self.base.weight {
+            if force.abs() < FORCE_TOLERANCE * self.base.weight {
                 break;
             }
             if force > 0.0 {
@@ -185,7 +199,7 @@ impl SettlingStrips {
             let pressure = self.pressures[strip];
             if pressure > self.thresholds[strip] {
                 let compliance = self.compliance[strip * (self.middles.len() + 1)];
-                let surface = self.moved_by_others(strip) + compliance * pressure;
+                let surface = self.displacement_by_others(strip) + compliance * pressure;
                 let position = self.settlement + rotation * self.middles[strip];
                 self.levels[strip] = self.levels[strip].max(position - surface);
                 self.thresholds[strip] = pressure;

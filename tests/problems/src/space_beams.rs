@@ -17,19 +17,21 @@ pub fn section() -> BeamSection {
 }
 
 /// Section of the tables' beams with shear deformation.
-pub fn sheared() -> BeamSection {
+pub fn section_with_shear() -> BeamSection {
     section().with_shear_areas([0.1; 2]).unwrap()
 }
 
 /// Rectangle with shear deformation, sides along the beam's y and z axes.
-pub fn rectangle(along_y: f64, along_z: f64, torsion_constant: f64) -> BeamSection {
-    let area = along_y * along_z;
-    let moments = [area * along_z * along_z / 12.0, area * along_y * along_y / 12.0];
+pub fn rectangle(y_side: f64, z_side: f64, torsion_constant: f64) -> BeamSection {
+    let area = y_side * z_side;
+    let moments = [area * z_side * z_side / 12.0, area * y_side * y_side / 12.0];
     let section = BeamSection::new(area, moments, torsion_constant).unwrap();
     section.with_shear_areas([5.0 / 6.0 * area; 2]).unwrap()
 }
 
-/// Beams from a clamped node along a curve from 0 to 1, with the orientations of their middles.
+/// Beams along a curve from a clamped node, oriented as at their middles.
+///
+/// `point` and `orientation` are functions of the curve's parameter from 0 to 1.
 pub fn chain(
     material: Material,
     section: BeamSection,
@@ -46,7 +48,7 @@ pub fn chain(
         let beam = SpaceBeam::new([k, k + 1], material, section, orientation(middle));
         scene.add(beam.unwrap());
     }
-    scene.hold(0, &CLAMPED_DIRECTIONS);
+    scene.fix(0, &CLAMPED_DIRECTIONS);
     scene
 }
 
@@ -70,14 +72,14 @@ pub fn twisted_cantilever(thickness: f64, torsion_constant: f64, count: usize) -
     )
 }
 
-/// Deflection of a cantilever, 4 m high, with a hinge at a guided head, under a unit force.
+/// Deflection of a cantilever, 4 m high, with a hinge below its guided head, under a unit force.
 pub fn hinged_cantilever(section: BeamSection) -> f64 {
     let mut scene = SupportedMesh::new();
     let ends = [[0.0; 3], [0.0, 0.0, 4.0]].map(|point| scene.node(point));
     let beam = SpaceBeam::new(ends, concrete(), section, [1.0, 0.0, 0.0]).unwrap();
     scene.add(beam.with_releases(1, &[RY, RZ]).unwrap());
-    scene.hold(0, &CLAMPED_DIRECTIONS);
-    scene.hold(1, &[RX, RY, RZ]);
+    scene.fix(0, &CLAMPED_DIRECTIONS);
+    scene.fix(1, &[RX, RY, RZ]);
     scene.work(&[(1, X, 1.0)])
 }
 
@@ -94,20 +96,20 @@ pub fn deep_beam(count: usize) -> SupportedMesh {
         let beam = SpaceBeam::new([k, k + 1], steel, section, [0.0, 1.0, 0.0]).unwrap();
         scene.add(beam.with_rotary_inertia());
     }
-    scene.hold(0, &[X, Y, Z, RX]);
-    scene.hold(count, &[Y, Z]);
+    scene.fix(0, &[X, Y, Z, RX]);
+    scene.fix(count, &[Y, Z]);
     scene
 }
 
-/// A cantilever 3 m × 4 m × 20 m with some directions fixed along all its height.
-pub fn thick_cantilever(count: usize, fixed: &[Direction]) -> SupportedMesh {
+/// A cantilever 3 m × 4 m × 20 m, with these directions fixed over its whole height.
+pub fn thick_cantilever(count: usize, fixed_directions: &[Direction]) -> SupportedMesh {
     // 3 m along the first axis of the section, 4 m along the second.
     let section = BeamSection::new(12.0, [16.0, 9.0], 20.0).unwrap();
     let section = section.with_shear_areas([10.0; 2]).unwrap();
     let mut scene = SupportedMesh::new();
     for k in 0..=count {
         scene.node([0.0, 0.0, 20.0 * k as f64 / count as f64]);
-        scene.hold(k, if k == 0 { &CLAMPED_DIRECTIONS } else { fixed });
+        scene.fix(k, if k == 0 { &CLAMPED_DIRECTIONS } else { fixed_directions });
     }
     for k in 0..count {
         let beam = SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap();

@@ -1,14 +1,14 @@
 //! Static steps of a yielding structure under loads and prescribed displacements.
 //!
-//! Newton's method with a search along the increment. The incremental potential of the materials is convex, so that the
-//! out-of-balance force along an increment changes its sign once, and bisection finds the place.
+//! Newton's method with a line search along the increment. The incremental potential of the materials is convex: along an
+//! increment, the work of the out-of-balance force changes its sign once, and bisection finds this point.
 
 use basemat::structure::{FemModel, Structure, Triplets};
 use basemat_linalg::{Elimination, SparseFactor, SparseMatrix};
 
 /// Out-of-balance force at which a step ends, relative to the largest force.
 const RESIDUAL_TOLERANCE: f64 = 1e-10;
-/// Work of the out-of-balance force on an increment at which a search ends, relative to its start.
+/// Work of the out-of-balance force on an increment at which a line search ends, relative to that at its start.
 const SEARCH_TOLERANCE: f64 = 0.1;
 const MAX_ITERATIONS: usize = 60;
 const MAX_BISECTIONS: usize = 40;
@@ -62,9 +62,9 @@ impl StaticSteps {
         }
     }
 
-    /// Advances by one step to the present load and by (degree of freedom, displacement) of fixed ones.
+    /// Advances to the present load and moves fixed degrees of freedom; returns the number of iterations.
     ///
-    /// Returns the number of iterations.
+    /// `motion`: pairs of a degree of freedom and the increment of its displacement.
     pub fn advance(&mut self, motion: &[(usize, f64)]) -> usize {
         let mut trial = self.displacement.clone();
         let mut increment = vec![0.0; trial.len()];
@@ -73,7 +73,8 @@ impl StaticSteps {
         }
         for iteration in 1..=MAX_ITERATIONS {
             self.solve_increment(&trial, &mut increment);
-            let factor = if iteration == 1 { 1.0 } else { self.search(&trial, &increment) };
+            let factor =
+                if iteration == 1 { 1.0 } else { self.line_search_factor(&trial, &increment) };
             trial.iter_mut().zip(&increment).for_each(|(u, du)| *u += factor * du);
             increment.fill(0.0);
             self.force = self.internal_force(&trial);
@@ -117,7 +118,7 @@ impl StaticSteps {
     }
 
     /// Factor on an increment at which the out-of-balance force does little work on it.
-    fn search(&self, trial: &[f64], increment: &[f64]) -> f64 {
+    fn line_search_factor(&self, trial: &[f64], increment: &[f64]) -> f64 {
         let work = |factor: f64| {
             let displacement: Vec<f64> =
                 trial.iter().zip(increment).map(|(u, du)| u + factor * du).collect();

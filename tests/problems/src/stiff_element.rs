@@ -6,6 +6,9 @@ use super::dense::dot;
 use super::directions::NODE_DIRECTIONS;
 use super::supported::rigid_motion;
 
+/// Norm of the new component below which a motion depends on earlier ones, relative to the motion's norm.
+const DEPENDENCE_TOLERANCE: f64 = 1e-9;
+
 /// Nodes with the stiffness k (I − Q Qᵀ), where the columns of Q are an orthonormal basis of the rigid motions.
 pub struct StiffElement {
     nodes: Vec<usize>,
@@ -48,8 +51,8 @@ impl StiffElement {
         for motion in 0..6 {
             let mut displacements = Vec::new();
             for point in coordinates {
-                let from_first = [0, 1, 2].map(|axis| point[axis] - coordinates[0][axis]);
-                let u = rigid_motion(motion, from_first);
+                let relative_position = [0, 1, 2].map(|axis| point[axis] - coordinates[0][axis]);
+                let u = rigid_motion(motion, relative_position);
                 displacements.extend_from_slice(&u[..self.directions]);
             }
             motions.push(displacements);
@@ -72,13 +75,13 @@ impl Element for StiffElement {
         let mut basis: Vec<Vec<f64>> = Vec::new();
         for mut motion in self.rigid_motions(coordinates) {
             let norm = dot(&motion, &motion).sqrt();
-            // Twice is enough to be orthogonal to rounding.
+            // A second pass makes the vectors orthogonal up to rounding.
             for vector in basis.iter().chain(&basis) {
                 let component = dot(vector, &motion);
                 motion.iter_mut().zip(vector).for_each(|(u, q)| *u -= component * q);
             }
             let orthogonal_norm = dot(&motion, &motion).sqrt();
-            if orthogonal_norm > 1e-9 * norm {
+            if orthogonal_norm > DEPENDENCE_TOLERANCE * norm {
                 basis.push(motion.iter().map(|u| u / orthogonal_norm).collect());
             }
         }

@@ -1,6 +1,6 @@
 //! Meshes in space on supports: displacements, frequencies and buckling loads.
 //!
-//! Supports delete rows and columns of the matrices, which this file assembles from the elements.
+//! This file assembles the matrices from the elements, without the rows and columns of the supports.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -13,6 +13,13 @@ pub use basemat::fem::Direction::{RotationX as RX, RotationY as RY, RotationZ as
 
 pub const CLAMPED_DIRECTIONS: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
 pub const HINGED_DIRECTIONS: [Direction; 3] = [X, Y, Z];
+
+/// Iterations after which the search for eigenvalues fails.
+const MAX_SUBSPACE_ITERATIONS: usize = 300;
+/// Relative change of eigenvalues at which the iteration ends.
+const EIGENVALUE_TOLERANCE: f64 = 1e-11;
+/// Norm of the new component below which a vector depends on earlier ones, relative to the vector's norm.
+const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
 /// Force (N) or moment (N m) at a node.
 pub type NodalLoad = (usize, Direction, f64);
@@ -59,7 +66,7 @@ impl SupportedMesh {
     }
 
     /// Fixes a node in these directions.
-    pub fn hold(&mut self, node: usize, directions: &[Direction]) {
+    pub fn fix(&mut self, node: usize, directions: &[Direction]) {
         self.fixed.extend(directions.iter().map(|&direction| (node, direction)));
     }
 
@@ -67,7 +74,7 @@ impl SupportedMesh {
         nodes.iter().map(|&node| self.mesh.nodes()[node]).collect()
     }
 
-    /// Numbers of the degrees of freedom that are not fixed, node by node.
+    /// Matrix indices of the degrees of freedom that are not fixed, node by node.
     pub fn numbers(&self) -> HashMap<(usize, Direction), usize> {
         let mut used = HashSet::new();
         for element in self.mesh.elements() {
@@ -81,6 +88,7 @@ impl SupportedMesh {
         free.enumerate().map(|(number, dof)| (dof, number)).collect()
     }
 
+    /// Assembled matrix of this kind, times a factor.
     pub fn matrix(&self, kind: ElementMatrix, factor: f64) -> Skyline {
         let numbers = self.numbers();
         let mut matrix = Skyline(vec![vec![0.0]; numbers.len()]);
@@ -124,7 +132,7 @@ impl SupportedMesh {
             .collect()
     }
 
-    /// Displacement in the direction of the `loads`: their work.
+    /// Work of the `loads`: the displacement in their direction if their sum is one.
     pub fn work(&self, loads: &[NodalLoad]) -> f64 {
         let solution = self.solve(loads);
         loads.iter().map(|&(node, direction, force)| force * solution(node, direction)).sum()
@@ -225,7 +233,7 @@ fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<EigenPair> 
     let mut basis: Vec<Vec<f64>> =
         (0..2 * count + 6).map(|seed| noise(order, seed as u64 + 1)).collect();
     let mut previous_values = vec![0.0; count];
-    for _ in 0..300 {
+    for _ in 0..MAX_SUBSPACE_ITERATIONS {
         let images = basis.iter().map(|vector| {
             let mut image = other.multiply(vector);
             factor.solve(&mut image);
@@ -235,11 +243,15 @@ fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<EigenPair> 
         let images: Vec<Vec<f64>> = basis.iter().map(|v| other.multiply(v)).collect();
         let projected: Vec<Vec<f64>> =
             basis.iter().map(|a| images.iter().map(|b| dot(a, b)).collect()).collect();
-        // The greatest 1/λ last.
+        // The eigenvalues 1/λ ascend.
         let (inverse_values, vectors) = eigenpairs(&projected);
         let values: Vec<f64> =
             inverse_values.iter().rev().take(count).map(|value| 1.0 / value).collect();
-        if values.iter().zip(&previous_values).all(|(a, b)| (a - b).abs() < 1e-11 * a.abs()) {
+        if values
+            .iter()
+            .zip(&previous_values)
+            .all(|(a, b)| (a - b).abs() < EIGENVALUE_TOLERANCE * a.abs())
+        {
             return values
                 .into_iter()
                 .zip(vectors.iter().rev())
@@ -280,7 +292,7 @@ fn orthonormal(vectors: Vec<Vec<f64>>, stiffness: &Skyline) -> Vec<Vec<f64>> {
             }
         }
         let orthogonal_norm = energy_norm(&vector, stiffness);
-        if orthogonal_norm > 1e-10 * first_norm {
+        if orthogonal_norm > DEPENDENCE_TOLERANCE * first_norm {
             basis.push(vector.into_iter().map(|value| value / orthogonal_norm).collect());
         }
     }
@@ -325,7 +337,7 @@ impl Skyline {
         product
     }
 
-    /// Cholesky's factor.
+    /// Cholesky factor of this matrix.
     fn factor(mut self) -> Self {
         for row in 0..self.0.len() {
             let (above, remaining) = self.0.split_at_mut(row);
@@ -334,9 +346,9 @@ impl Skyline {
             for column in first..row {
                 let other = &above[column];
                 let start = first.max(column + 1 - other.len());
-                let left_entries = &entries[start - first..column - first];
+                let row_entries = &entries[start - first..column - first];
                 let other_entries = &other[start + other.len() - column - 1..other.len() - 1];
-                let sum = dot(left_entries, other_entries);
+                let sum = dot(row_entries, other_entries);
                 entries[column - first] = (entries[column - first] - sum) / other[other.len() - 1];
             }
             let last = entries.len() - 1;
@@ -347,7 +359,7 @@ impl Skyline {
         self
     }
 
-    /// Solution by this factor.
+    /// Overwrites a right-hand side with the solution; `self` is a Cholesky factor.
     fn solve(&self, vector: &mut [f64]) {
         for (row, entries) in self.0.iter().enumerate() {
             let last = entries.len() - 1;
@@ -365,7 +377,7 @@ impl Skyline {
     }
 }
 
-/// Product of two vectors, in eight sums.
+/// Dot product of two vectors, by eight partial sums that the compiler vectorises.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a_chunks, a_remainder) = a.as_chunks::<8>();
     let (b_chunks, b_remainder) = b.as_chunks::<8>();

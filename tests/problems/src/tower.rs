@@ -1,5 +1,4 @@
-//! A tower of 51 102 degrees of freedom on soil: the large model of `from_matrices` and of
-//! `benches/reduced.rs`.
+//! A tower of 51 102 degrees of freedom on soil: the large model of the benchmark `reduced`.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe};
@@ -18,7 +17,7 @@ pub struct TowerMatrices {
     pub mass: Triplets,
     pub stiffness: Triplets,
     pub base: Base,
-    /// The sway of its top.
+    /// Horizontal displacement of its top.
     pub top: DofCombination,
 }
 

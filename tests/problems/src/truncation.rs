@@ -10,7 +10,7 @@ use basemat::{Simulation, Soil};
 
 use crate::impedance::{ForceSampling, impedances};
 use crate::rigid_strip::DrivenStrip;
-use crate::sampled_block::{SampledHistory, distance, sample, under_pulse};
+use crate::sampled_block::{SampledSeries, distance, sample, under_pulse};
 use crate::series::{RelativeError, nearest_integer};
 use crate::table;
 
@@ -46,7 +46,7 @@ impl FullPlaneMesh {
 /// `[hh, vv, rr, hr]`, real and imaginary part, per frequency.
 pub type Impedances = Vec<[[f64; 2]; 4]>;
 
-/// Frequencies 0.1 ≤ a₀ ≤ 4 of the table of the bonded strip, and its impedances.
+/// Frequencies 0.1 ≤ a₀ ≤ 4 and impedances of the bonded strip, from its table.
 pub fn tabled(name: &str) -> (Vec<f64>, Impedances) {
     let columns =
         ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
@@ -71,7 +71,7 @@ pub fn bonded_impedances(poisson: f64, mesh: FullPlaneMesh, frequencies: &[f64])
     )
 }
 
-/// Distances of `[hh, vv, rr, hr]`, as root mean squares relative to the modulus's.
+/// Distances of `[hh, vv, rr, hr]`: root mean squares of the error, relative to that of the modulus.
 pub fn distances(computed: &Impedances, expected: &Impedances) -> [f64; 4] {
     let mut errors = [RelativeError::default(); 4];
     for (computed, expected) in computed.iter().zip(expected) {
@@ -92,8 +92,8 @@ pub fn impedance_errors(name: &str, poisson: f64, mesh: FullPlaneMesh) -> [f64; 
 
 /// Base displacement, rotation and base shear of a bonded rigid block under a Ricker pulse.
 ///
-/// Width and height are 2, the density is 1. A sample is every `interval` steps, the shear its mean over them.
-fn block_history(ground: impl Ground + 'static, time_step: f64, interval: usize) -> SampledHistory {
+/// Width and height are 2, the density is 1. There is a sample every `interval` steps; the shear is the mean over them.
+fn block_series(ground: impl Ground + 'static, time_step: f64, interval: usize) -> SampledSeries {
     let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
     let mut simulation = under_pulse(block, ground, time_step);
     sample(&mut simulation, nearest_integer(20.0 / time_step), interval).unwrap().0
@@ -106,8 +106,8 @@ pub fn block_errors(mesh: FullPlaneMesh) -> [f64; 3] {
     let time_step = mesh.time_step(soil);
     let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
     let half_plane = ElasticGround::new(soil, strip).unwrap();
-    let computed = block_history(mesh.ground(soil), time_step, 1);
-    distance(&computed, &block_history(half_plane, time_step / 8.0, 8))
+    let computed = block_series(mesh.ground(soil), time_step, 1);
+    distance(&computed, &block_series(half_plane, time_step / 8.0, 8))
 }
 
 /// Mean slip and largest uplifted fraction of a block of height 4 under its weight that rocks and

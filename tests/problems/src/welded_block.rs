@@ -1,8 +1,9 @@
-//! A rigid block welded to the faces of a trench, stepped with three degrees of freedom and nothing of a simulation.
+//! A rigid block welded to the faces of a trench, stepped with three degrees of freedom without a `Simulation`.
 //!
-//! Half width, depth, density, shear modulus and shear wave speed are 1; the block is 3 high. With displacements of the
-//! middle of the base, R their means over the elements, L the lengths and G the ground's convolution:
-//! M a + (L R)ᵀ τ = f, R u = s + G(τ − t), with displacements s and tractions t of the free field.
+//! Half width, depth, density, shear modulus and shear wave speed are 1; the block is 3 high. The equations are
+//! M a + (L R)ᵀ τ = f and R u = s + G(τ − t). Here u is the displacement of the middle of the base, R u are the means over
+//! the elements, L are their lengths, G is the ground's convolution, and s and t are displacements and tractions of the
+//! free field.
 
 use basemat::bem::{ContactElement, Ground};
 use basemat::unobserved;
@@ -17,8 +18,9 @@ const BLOCK_HEIGHT: f64 = 3.0;
 /// Cause of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cause {
-    /// Vertical shear waves that move the surface by the pulse. The tractions of the free field on the left wall have
-    /// this factor, 1 unless they are to be wrong.
+    /// Vertical shear waves whose surface displacement is the pulse.
+    ///
+    /// The value is a factor on the free field's tractions on the left wall: 1, or another value for an error on purpose.
     Waves(f64),
     /// The pulse as horizontal force, and −2 times it as moment about the middle of the base.
     Force,
@@ -30,7 +32,9 @@ fn pulse(time: f64) -> f64 {
     (1.0 - 2.0 * x * x) * (-x * x).exp()
 }
 
-/// Means of (t − z) and (t + z) pulses over the depths of an element: their sum's half, and their difference's half.
+/// Means over an element's depths of the displacement of the waves, and of their time integral of shear stress.
+///
+/// With upward and downward pulses p(t + z) and p(t − z) they are half of the sum and half of the difference.
 fn waves(time: f64, [top, bottom]: [f64; 2]) -> [f64; 2] {
     const POINT_COUNT: usize = 8;
     let mut means = [0.0; 2];
@@ -78,7 +82,7 @@ fn mass_matrix() -> [[f64; MOTION_COUNT]; MOTION_COUNT] {
     [[mass, 0.0, mass * arm], [0.0, mass, 0.0], [mass * arm, 0.0, inertia]]
 }
 
-/// Forces on the block's three motions by tractions: (L R)ᵀ τ.
+/// Forces of tractions in the block's three motions: (L R)ᵀ τ.
 fn resultant(loads: &[[f64; MOTION_COUNT]], traction: &[f64]) -> [f64; MOTION_COUNT] {
     std::array::from_fn(|k| loads.iter().zip(traction).map(|(row, t)| row[k] * t).sum())
 }
@@ -89,12 +93,12 @@ struct StepInput {
     displacement: Vec<f64>,
     /// Tractions of the free field in the step.
     traction: Vec<f64>,
-    /// On the block.
+    /// Forces on the block.
     load: [f64; MOTION_COUNT],
 }
 
 impl StepInput {
-    /// Of a step, counted from 1.
+    /// Input of a step, counted from 1.
     fn new(cause: Cause, elements: &[ContactElement], step: usize, time_step: f64) -> Self {
         let start = (step - 1) as f64 * time_step;
         let end = step as f64 * time_step;
@@ -107,16 +111,16 @@ impl StepInput {
         match cause {
             Cause::Waves(left_factor) => {
                 for (e, element) in elements.iter().enumerate() {
-                    let along = element.directions()[0][0];
+                    let horizontal_direction = element.directions()[0][0];
                     let start_means = waves(start, depths(element));
                     let end_means = waves(end, depths(element));
                     let stress = (end_means[1] - start_means[1]) / time_step;
-                    let is_floor = along == 0.0;
+                    let is_floor = horizontal_direction == 0.0;
                     let component = if is_floor { count + e } else { e };
                     input.displacement[component] =
-                        end_means[0] * if is_floor { 1.0 } else { along };
+                        end_means[0] * if is_floor { 1.0 } else { horizontal_direction };
                     input.traction[count + e] = if is_floor { -stress } else { stress };
-                    if along < 0.0 {
+                    if horizontal_direction < 0.0 {
                         input.traction[count + e] *= left_factor;
                     }
                 }
@@ -189,17 +193,16 @@ pub fn march(ground: &mut dyn Ground, time_step: f64, steps: usize, cause: Cause
     motions
 }
 
-/// Largest errors of displacement and rotation against the synthesis in `tests/data/embedded`, relative to the largest
-/// values there.
+/// Largest errors of displacement and rotation, relative to the largest reference values.
 ///
-/// `name`: SV or force, and the step.
+/// The reference is the synthesis in `tests/data/embedded`. `name`: SV or force, and the step.
 pub fn errors(motions: &[[f64; 2]], name: &str) -> [f64; 2] {
     let table = table(&format!("embedded/td_{name}.csv"));
     let expected = table.rows(["reference_ux", "reference_theta"]);
     std::array::from_fn(|k| {
-        let size = expected.iter().fold(0.0_f64, |max, row| max.max(row[k].abs()));
+        let max_expected = expected.iter().fold(0.0_f64, |max, row| max.max(row[k].abs()));
         let errors = motions.iter().zip(&expected).map(|(u, expected)| (u[k] - expected[k]).abs());
-        errors.fold(0.0, f64::max) / size
+        errors.fold(0.0, f64::max) / max_expected
     })
 }
 

@@ -1,7 +1,7 @@
 //! Wrappers of a structure, of a ground and of a law.
 //!
-//! Of a structure and of a ground, one that forwards the required methods only; of a structure, one with a force; of a law,
-//! one with another rule for modes.
+//! [`MinimalStructure`] and [`MinimalGround`] forward the required methods only. [`StructureWithForce`] adds a load.
+//! [`LawWithNextMode`] replaces the rule for the next mode.
 
 use basemat::bem::Ground;
 use basemat::interface::{
@@ -31,7 +31,7 @@ macro_rules! needed_from {
     };
 }
 
-/// Methods of a structure that is its nonlinear force.
+/// Accessors of the nonlinear force for a structure that implements it itself.
 #[macro_export]
 macro_rules! own_force {
     () => {
@@ -55,7 +55,7 @@ impl<S: Structure> Structure for MinimalStructure<S> {
 /// A structure under a force.
 pub struct StructureWithForce<S, F> {
     pub structure: S,
-    /// Displacement in the direction of the force of the point it acts on.
+    /// Displacement of the loaded point in the direction of the force.
     pub along: DofCombination,
     /// The force at a time, N/m.
     pub force: F,
@@ -118,7 +118,7 @@ impl<G: Ground> Ground for MinimalGround<G> {
     ground_from!(0);
 }
 
-/// Methods that every interface law needs, as a field has them.
+/// Required methods of an interface law, forwarded to a field.
 #[macro_export]
 macro_rules! law_from {
     ($field:tt) => {
@@ -156,7 +156,7 @@ macro_rules! law_from {
 /// Coulomb's law with another rule for the next mode.
 pub struct LawWithNextMode<F> {
     pub law: Coulomb,
-    /// The next mode, by the present one, the previous contact and the mode that the law returns.
+    /// Function of the present mode, the previous contact and the law's next mode; returns the next mode.
     pub next: F,
 }
 

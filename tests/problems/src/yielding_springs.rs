@@ -14,11 +14,11 @@ pub struct Component {
 }
 
 impl Component {
-    /// Force at a deformation, and the plastic deformation to it.
-    fn at(&self, deformation: f64, plastic: f64) -> (f64, f64) {
+    /// Force at a deformation, and the plastic deformation there.
+    fn respond(&self, deformation: f64, plastic: f64) -> (f64, f64) {
         let trial = self.stiffness * (deformation - plastic);
         let force = trial.clamp(-self.strength, self.strength);
-        // Without yielding, the plastic deformation keeps its digits.
+        // Without yielding, the plastic deformation keeps all its bits.
         if force == trial {
             (force, plastic)
         } else {
@@ -29,11 +29,12 @@ impl Component {
 
 /// Components of a hyperbola with twelve corners, from an initial stiffness and a strength.
 pub fn hyperbolic(stiffness: f64, strength: f64) -> Vec<Component> {
-    let reference = strength / stiffness;
-    let last = 200.0 * reference;
-    let limit = 1.0 / (1.0 / strength - 1.0 / (last * stiffness));
-    let deformations: Vec<f64> =
-        (0..12).map(|j| 0.02 * reference * 1e4_f64.powf(f64::from(j) / 11.0)).collect();
+    let reference_deformation = strength / stiffness;
+    let last_deformation = 200.0 * reference_deformation;
+    let limit = 1.0 / (1.0 / strength - 1.0 / (last_deformation * stiffness));
+    let deformations: Vec<f64> = (0..12)
+        .map(|j| 0.02 * reference_deformation * 1e4_f64.powf(f64::from(j) / 11.0))
+        .collect();
     let force = |j: usize| {
         let linear = stiffness * deformations[j];
         if j == 0 { linear } else { linear / (1.0 + linear / limit) }
@@ -74,7 +75,7 @@ pub struct WithYieldingSprings<S> {
     variables: Vec<f64>,
     /// Committed deformation of each spring.
     deformations: Vec<f64>,
-    /// Whether the force has a remainder.
+    /// Whether `remainder` returns a value.
     has_remainder: bool,
     /// Factor of the remainder: 1, or another value for an error on purpose.
     pub remainder_factor: f64,
@@ -102,17 +103,17 @@ impl<S> WithYieldingSprings<S> {
     }
 
     /// Each spring with the plastic deformations of its components.
-    fn each(&self) -> impl Iterator<Item = (&YieldingSpring, &[f64])> {
+    fn springs_with_plastic(&self) -> impl Iterator<Item = (&YieldingSpring, &[f64])> {
         let mut plastic = &self.variables[..];
         self.springs.iter().map(move |spring| {
-            let (first, others) = plastic.split_at(spring.components.len());
-            plastic = others;
-            (spring, first)
+            let (components, remaining) = plastic.split_at(spring.components.len());
+            plastic = remaining;
+            (spring, components)
         })
     }
 
     /// Largest plastic deformation of a component, m.
-    pub fn largest_plastic(&self) -> f64 {
+    pub fn largest_plastic_deformation(&self) -> f64 {
         let (_, plastic) = self.variables.split_last().unwrap();
         plastic.iter().fold(0.0_f64, |largest, p| largest.max(p.abs()))
     }
@@ -130,20 +131,20 @@ impl<S: Structure> Structure for WithYieldingSprings<S> {
 
 impl<S: Structure> NonlinearForce for WithYieldingSprings<S> {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> basemat::Result<()> {
-        for (spring, plastic) in self.each() {
+        for (spring, plastic) in self.springs_with_plastic() {
             let deformation = spring.deformation(displacement);
             let components = spring.components.iter().zip(plastic);
-            let sum: f64 = components.map(|(c, p)| c.at(deformation, *p).0).sum();
+            let sum: f64 = components.map(|(c, p)| c.respond(deformation, *p).0).sum();
             spring.row.iter().for_each(|&(dof, weight)| force[dof] += weight * sum);
         }
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
-        for (spring, plastic) in self.each() {
+        for (spring, plastic) in self.springs_with_plastic() {
             let deformation = spring.deformation(displacement);
             let components = spring.components.iter().zip(plastic);
-            let elastic = components.filter(|(c, p)| c.at(deformation, **p).1 == **p);
+            let elastic = components.filter(|(c, p)| c.respond(deformation, **p).1 == **p);
             matrix.add_outer(&spring.row, elastic.map(|(c, _)| c.stiffness).sum());
         }
         Ok(())
@@ -151,10 +152,10 @@ impl<S: Structure> NonlinearForce for WithYieldingSprings<S> {
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         let mut energy = InternalEnergy { stored: 0.0, dissipated: *self.variables.last()? };
-        for (spring, plastic) in self.each() {
+        for (spring, plastic) in self.springs_with_plastic() {
             let deformation = spring.deformation(displacement);
             for (component, p) in spring.components.iter().zip(plastic) {
-                let (force, end) = component.at(deformation, *p);
+                let (force, end) = component.respond(deformation, *p);
                 energy.stored += 0.5 * force * force / component.stiffness;
                 energy.dissipated += force * (end - p);
             }
@@ -168,10 +169,10 @@ impl<S: Structure> NonlinearForce for WithYieldingSprings<S> {
             return None;
         }
         let mut remainder = 0.0;
-        for ((spring, plastic), &first) in self.each().zip(&self.deformations) {
+        for ((spring, plastic), &first) in self.springs_with_plastic().zip(&self.deformations) {
             let [middle, last] = [midstep, end].map(|u| spring.deformation(u));
             for (component, p) in spring.components.iter().zip(plastic) {
-                let [s_m, s_1, s_0] = [middle, last, first].map(|e| component.at(e, *p).0);
+                let [s_m, s_1, s_0] = [middle, last, first].map(|e| component.respond(e, *p).0);
                 remainder +=
                     (s_m - s_1) * (last - first) + 0.5 * (s_1 - s_0).powi(2) / component.stiffness;
             }
@@ -195,7 +196,7 @@ impl<S: Structure> NonlinearForce for WithYieldingSprings<S> {
             let deformation = spring.deformation(displacement);
             *committed = deformation;
             for (component, p) in spring.components.iter().zip(variables.by_ref()) {
-                *p = component.at(deformation, *p).1;
+                *p = component.respond(deformation, *p).1;
             }
         }
     }
@@ -246,7 +247,7 @@ impl Structure for Masses {
 }
 
 /// Column of soil on a block 4 m wide: cells of 0.5 m, G = 45.6 MPa, strength 40 kPa, 1900 kg/m³.
-pub fn yielding_column(count: usize) -> WithYieldingSprings<Masses> {
+pub fn spring_column(count: usize) -> WithYieldingSprings<Masses> {
     let [width, height] = [4.0, 0.5];
     let block = RigidBlock::new(width, 1.0, 1900.0).unwrap();
     let first_dof = block.dofs();

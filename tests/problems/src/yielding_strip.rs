@@ -1,6 +1,6 @@
 //! Rigid rough strip on soil that yields: mean pressure by settlement, in static steps on half of the soil.
 //!
-//! Mesh, steps and pressures of reference: `tests/data/yielding/strip_capacity.md`.
+//! Mesh, steps and reference pressures: `tests/data/yielding/strip_capacity.md`.
 
 use basemat::fem::{Direction, DruckerPrager, Iwan, Material, Mesh, SharedMaterial};
 use basemat::structure::{FemModel, Structure};
@@ -10,13 +10,13 @@ use super::static_steps::StaticSteps;
 /// Difference of coordinates that count as equal, m; the smallest element is far larger.
 const COORDINATE_TOLERANCE: f64 = 1e-9;
 
-/// Settlements of the pressures of reference, m.
+/// Settlements of the reference pressures, m.
 pub const REFERENCE_SETTLEMENTS: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Pressures of reference on clay with 8 elements, Pa.
+/// Reference pressures on clay with 8 elements, Pa.
 pub const CLAY_PRESSURES: [f64; 6] = [3.9147, 4.6523, 4.9730, 5.1446, 5.2442, 5.3077];
-/// Pressure of reference on clay with 16 elements, at the last settlement, Pa.
+/// Reference pressure on clay with 16 elements, at the last settlement, Pa.
 pub const FINE_CLAY_PRESSURE: f64 = 5.192;
-/// Pressures of reference on sand with 6 elements, Pa.
+/// Reference pressures on sand with 6 elements, Pa.
 pub const SAND_PRESSURES: [f64; 6] = [88.25, 151.70, 199.36, 221.50, 226.13, 227.35];
 
 /// Weightless clay of the reference: shear modulus 100, strength 1 at a shear strain of 20 strength/modulus.
@@ -109,21 +109,21 @@ impl StripSoil {
         let model = FemModel::on_base(mesh).unwrap();
         let strip_rows = strip_rows(&model);
         let mut supports = self.supports(&model);
-        let mut drive = StaticSteps::new(&model, &supports);
+        let mut static_steps = StaticSteps::new(&model, &supports);
         if self.surcharge > 0.0 {
-            drive.load = self.surcharge_forces(&model, &x_lines);
-            drive.advance(&[]);
+            static_steps.load = self.surcharge_forces(&model, &x_lines);
+            static_steps.advance(&[]);
         }
         supports.extend(&strip_rows);
-        drive.fix(&supports);
+        static_steps.fix(&supports);
         let motion: Vec<(usize, f64)> =
             strip_rows.iter().map(|&row| (row, -settlement_step)).collect();
         let mut pressures = Vec::with_capacity(steps);
         let mut iterations = 0;
         for _ in 0..steps {
-            iterations += drive.advance(&motion);
+            iterations += static_steps.advance(&motion);
             // The half width is 1 m.
-            pressures.push(-strip_rows.iter().map(|&row| drive.force[row]).sum::<f64>());
+            pressures.push(-strip_rows.iter().map(|&row| static_steps.force[row]).sum::<f64>());
         }
         StripRun { settlement_step, pressures, iterations }
     }
@@ -144,15 +144,15 @@ impl StripSoil {
         supports
     }
 
-    /// Nodal forces of the surcharge: one, four and one sixth on each edge of an element.
+    /// Nodal forces of the surcharge: 1/6, 4/6 and 1/6 of the force on each edge of an element.
     fn surcharge_forces(&self, model: &FemModel, x_lines: &[f64]) -> Vec<f64> {
         let mut forces = vec![0.0; model.dofs()];
         for ends in x_lines.windows(2) {
             let middle = 0.5 * (ends[0] + ends[1]);
-            for (x, share) in [(ends[0], 1.0), (middle, 4.0), (ends[1], 1.0)] {
+            for (x, weight) in [(ends[0], 1.0), (middle, 4.0), (ends[1], 1.0)] {
                 let node = model.mesh().node_at(x, 0.0).unwrap();
                 let dof = model.dof(node, Direction::Y).unwrap();
-                forces[dof] -= self.surcharge * (ends[1] - ends[0]) * share / 6.0;
+                forces[dof] -= self.surcharge * (ends[1] - ends[0]) * weight / 6.0;
             }
         }
         forces
@@ -197,7 +197,7 @@ pub struct StripRun {
 }
 
 impl StripRun {
-    /// Mean pressures at the settlements of reference, Pa.
+    /// Mean pressures at the reference settlements, Pa.
     pub fn reference_pressures(&self) -> [f64; 6] {
         REFERENCE_SETTLEMENTS.map(|settlement| {
             let mut steps = self.pressures.iter().enumerate();

@@ -15,9 +15,9 @@ struct BarAxis {
 }
 
 fn bar_axis([first, second]: [[f64; 3]; 2]) -> BarAxis {
-    let way = add(second, -1.0, first);
-    let length = inner(way, way).sqrt();
-    BarAxis { length, along: way.map(|component| component / length) }
+    let span = add(second, -1.0, first);
+    let length = inner(span, span).sqrt();
+    BarAxis { length, along: span.map(|component| component / length) }
 }
 
 /// Asserts that a matrix is ± `block` between the displacements of two nodes.

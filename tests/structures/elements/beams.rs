@@ -5,7 +5,7 @@
 use basemat::fem::{Beam, Direction, Element, MassKind, SpaceBeam};
 use basemat_problems::dense::{eigenpairs, largest};
 use basemat_problems::space_beams::{
-    concrete, deep_beam, hinged_cantilever, section, sheared, straight_cantilever,
+    concrete, deep_beam, hinged_cantilever, section, section_with_shear, straight_cantilever,
     thick_cantilever, twisted_cantilever,
 };
 use basemat_problems::supported::{
@@ -29,7 +29,7 @@ fn matrices(element: &dyn Element, points: &[[f64; 3]]) -> [Vec<f64>; 4] {
 }
 
 /// PROBLEM: beams of the plane x–z with the section's y axis across it. RESULT: the matrices of the
-/// plane's beam, and nothing between motions in the plane and out of it.
+/// plane's beam, and no coupling between motions in the plane and out of it.
 #[test]
 fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
     const SPACE_PLACES: [usize; 6] = [0, 2, 4, 6, 8, 10];
@@ -75,14 +75,14 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
 #[test]
 fn an_axial_force_works_on_a_rigid_rotation() {
     for released in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED_DIRECTIONS] {
-        let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
+        let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
             .and_then(|beam| beam.with_releases(1, released))
             .unwrap();
         let ends = [0, 1].map(|k| add(END_POINTS[k], 1.0, END_OFFSETS[k]));
-        let way = add(ends[1], -1.0, ends[0]);
-        let length = inner(way, way).sqrt();
-        let along = way.map(|component| component / length);
+        let span = add(ends[1], -1.0, ends[0]);
+        let length = inner(span, span).sqrt();
+        let along = span.map(|component| component / length);
         let mut displacement = [0.0; 12];
         displacement[6..9].copy_from_slice(&along.map(|component| -2e-3 * component));
         let beam = beam.in_static_state(&END_POINTS, &displacement, 300.0).unwrap();
@@ -90,14 +90,14 @@ fn an_axial_force_works_on_a_rigid_rotation() {
         let elastic = 30.0e9 * 0.12 / length * 2e-3;
         let expected = if released.contains(&X) { 0.0 } else { elastic };
         assert!((force - expected).abs() < 1e-12 * elastic, "{force}");
-        let taper = 2500.0 * 0.12 * 300.0 * way[2];
+        let taper = 2500.0 * 0.12 * 300.0 * span[2];
         let matrix = ElementMatrix::GeometricStiffness.of(&beam, &END_POINTS);
-        for (turn, centre) in
+        for (turn, center) in
             [([0.3, -0.5, 0.8], [1.0, 2.0, -3.0]), ([1.0, 0.2, 0.1], [0.0, 5.0, 0.0])]
         {
             let motion: Vec<f64> = END_POINTS
                 .iter()
-                .flat_map(|&point| [cross(turn, add(point, -1.0, centre)), turn].concat())
+                .flat_map(|&point| [cross(turn, add(point, -1.0, center)), turn].concat())
                 .collect();
             let rows = matrix.chunks(12).zip(&motion);
             let work = rows.map(|(row, value)| {
@@ -122,17 +122,17 @@ fn an_axial_force_works_on_a_rigid_rotation() {
 #[test]
 fn rigid_motions_cause_no_force() {
     for released in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED_DIRECTIONS] {
-        let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
+        let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
             .and_then(|beam| beam.with_releases(1, released))
             .unwrap()
             .with_rotary_inertia();
-        let way = add(
+        let span = add(
             add(END_POINTS[1], 1.0, END_OFFSETS[1]),
             -1.0,
             add(END_POINTS[0], 1.0, END_OFFSETS[0]),
         );
-        let length = inner(way, way).sqrt();
+        let length = inner(span, span).sqrt();
         let [stiffness, _, mass, _] = matrices(&beam, &END_POINTS);
         let scale = 30.0e9 * 0.12 / length;
         for kind in 0..6 {
@@ -162,10 +162,11 @@ fn rigid_motions_cause_no_force() {
     }
 }
 
-/// PROBLEM: a cantilever hinged against a guide. RESULT: 3 EI/L³, softer by shear.
+/// PROBLEM: a cantilever hinged against a guide. RESULT: 3 EI/L³, reduced by shear.
 #[test]
 fn a_hinge_carries_no_moment() {
-    for (section, ratio) in [(section(), 0.0), (sheared(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
+    for (section, ratio) in
+        [(section(), 0.0), (section_with_shear(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
     {
         let exact = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
         assert_near("hinged cantilever", hinged_cantilever(section), exact, 1e-12);
@@ -204,7 +205,7 @@ fn a_deep_beam_vibrates_as_tabulated() {
 /// PROBLEM: a cantilever 3 m × 4 m × 20 m with rotary inertia and shear. RESULT: frequencies of the table,
 /// 0.3 % from Timoshenko's closed form in two modes of each direction with the consistent mass.
 #[test]
-fn a_thick_cantilever_vibrates_as_timoshenko_says() {
+fn a_thick_cantilever_has_the_frequencies_of_timoshenko() {
     let closed = [4.128_065, 5.436_274, 23.67972, 29.49179];
     for (kind, table) in [
         (MassKind::Consistent, [4.128_245, 5.436_675, 23.7123, 29.55256, 59.8951, 71.38831]),
@@ -243,7 +244,7 @@ fn cantilevers_deflect_as_tabulated() {
             );
         }
     }
-    // The torsion constant matters little: the load bends.
+    // The torsion constant has little effect: the load causes bending.
     let torsion = 1.1 * 0.32_f64.powi(3) / 3.0 * (1.0 - 0.63 * 0.32 / 1.1);
     for (count, [along, across]) in
         [(12, [5.424_036e-3, 1.754_909e-3]), (96, [5.429_239e-3, 1.749_705e-3])]

@@ -46,21 +46,21 @@ fn a_patch_of_bricks_carries_a_uniform_strain() {
     }
 }
 
-/// PROBLEM: the faces of a distorted brick. RESULT: each has its outside on the left of its sides, and each node is in
-/// three faces.
+/// PROBLEM: the faces of a distorted brick. RESULT: the normal by the order of its corners points outwards, and each
+/// node is in three faces.
 #[test]
-fn faces_of_a_brick_look_outwards() {
+fn normals_of_brick_faces_point_outwards() {
     let corners = [[0.0, 0.0], [1.0, -0.2], [1.3, 0.9], [0.1, 1.1]];
     let points: Vec<[f64; 3]> =
         [0.0, 1.2].iter().flat_map(|z| corners.map(|[x, y]| [x + 0.2 * z, y, *z])).collect();
-    let centre = points.iter().fold([0.0; 3], |sum, &point| add(sum, 0.125, point));
+    let center = points.iter().fold([0.0; 3], |sum, &point| add(sum, 0.125, point));
     let material = Material::new(1.0, 0.0, 0.0).unwrap();
     let faces = Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], material).faces();
     let mut uses = [0; 8];
     for face in &faces {
         let at = face.corners().iter().map(|&node| points[node]).collect::<Vec<_>>();
         let normal = cross(add(at[2], -1.0, at[0]), add(at[3], -1.0, at[1]));
-        assert!(inner(normal, add(at[0], -1.0, centre)) > 0.0, "{face:?}");
+        assert!(inner(normal, add(at[0], -1.0, center)) > 0.0, "{face:?}");
         for &node in face.corners() {
             uses[node] += 1;
         }
@@ -84,7 +84,7 @@ fn a_straight_cantilever_of_bricks_deflects_as_tabulated() {
     }
 }
 
-/// PROBLEM: the twisted cantilever, 12 × 2 × 1 bricks. RESULT: the table's values, 0.992 and 0.986 of 96 beams'.
+/// PROBLEM: the twisted cantilever, 12 × 2 × 1 bricks. RESULT: the table's values, 0.992 and 0.986 of those of 96 beams.
 #[test]
 fn a_twisted_cantilever_of_bricks_deflects_as_tabulated() {
     let found = bricks::twisted_cantilever([12, 2, 1]);

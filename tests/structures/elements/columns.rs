@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use basemat::fem::{Direction, Mesh};
 use basemat::structure::FemModel;
 use basemat_problems::columns::{COLUMN_LENGTH, beam, rigid_head, self_weight_buckling, supported};
-use basemat_problems::space_beams::{section, sheared};
+use basemat_problems::space_beams::{section, section_with_shear};
 use basemat_problems::stiff_element::StiffElement;
 use basemat_problems::supported::{CLAMPED_DIRECTIONS, RX, RY, RZ, X, Y, Z, assert_near};
 
@@ -19,7 +19,7 @@ const GREENHILL_FACTOR: f64 = 7.837_347_438_943_484;
 /// PROBLEM: cantilever, hinged and clamped column. RESULT: the tables' values, and Euler's and Engesser's loads
 /// within 0.2 % with 4 beams (8 with shear), 2 % if clamped at both ends.
 #[test]
-fn columns_buckle_as_euler_and_engesser_say() {
+fn columns_have_the_buckling_loads_of_euler_and_engesser() {
     type ColumnCase = ([f64; 2], f64, &'static [Direction], &'static [Direction], f64);
     let cases: [ColumnCase; 3] = [
         ([4_163_876.0, 4_149_969.0], 2.0, &CLAMPED_DIRECTIONS, &[], 2e-3),
@@ -32,7 +32,7 @@ fn columns_buckle_as_euler_and_engesser_say() {
         let found = supported(section(), 4, foot, head);
         assert_near("Euler's column, table", found, table[0], 1e-6);
         assert_near("Euler's column", found, euler, tolerance);
-        let found = supported(sheared(), 8, foot, head);
+        let found = supported(section_with_shear(), 8, foot, head);
         assert_near("Engesser's column, table", found, table[1], 1e-6);
         assert_near("Engesser's column", found, engesser, tolerance);
     }

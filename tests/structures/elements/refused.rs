@@ -1,4 +1,4 @@
-//! GOAL: elements in space that cannot be right are refused.
+//! GOAL: invalid elements in space are refused.
 //! SCENE: beams along their orientation, without length, with mechanisms; inverted bricks; negative values.
 //! REFERENCE: the texts of the errors.
 
@@ -85,7 +85,7 @@ fn shear_area_error(areas: [f64; 2]) -> String {
 }
 
 #[test]
-fn values_that_cannot_be_are_refused() {
+fn invalid_values_are_refused() {
     for (error, beginning) in [
         (section_error(0.0, [1.0; 2], 1.0), "area of the section is 0"),
         (section_error(1.0, [-1.0, 1.0], 1.0), "second moment I_y of the section is -1"),

@@ -5,7 +5,7 @@
 use basemat::fem::{Element, Hex8, MassKind, Material, SpaceBeam};
 use basemat_problems::bricks::DISTORTED_BRICK;
 use basemat_problems::dense::largest;
-use basemat_problems::space_beams::{concrete, sheared};
+use basemat_problems::space_beams::{concrete, section_with_shear};
 use basemat_problems::supported::{ElementMatrix, RY, RZ};
 use basemat_problems::table;
 
@@ -51,7 +51,7 @@ fn compare(file: &str, element: &dyn Element, points: &[[f64; 3]]) {
 }
 
 fn beam(orientation: [f64; 3]) -> SpaceBeam {
-    SpaceBeam::new([0, 1], concrete(), sheared(), orientation)
+    SpaceBeam::new([0, 1], concrete(), section_with_shear(), orientation)
         .unwrap()
         .with_rotary_inertia()
 }

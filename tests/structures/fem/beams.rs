@@ -122,7 +122,7 @@ fn consistent_mass_carries_constant_curvature_exactly() {
     }
 }
 
-/// Two bars at 45° under a vertical load: each carries P/√2, the tip sinks by P L/(YOUNG_MODULUS A).
+/// Two bars at 45° under a vertical load: each carries P/√2, the tip sinks by P L/(E A).
 #[test]
 fn bracket_of_two_trusses_sinks_by_its_closed_form() {
     let mut mesh = Mesh::new();

@@ -83,7 +83,7 @@ fn mean_dilatation_does_not_lock_in_nearly_incompressible_material() {
     assert!(tip_ratio([4, 40], 0.4999, QuadFormulation::Full) < 0.5);
 }
 
-/// Rectangles in pure bending are exact: rotation at the end M L / (YOUNG_MODULUS' I), any aspect ratio.
+/// Rectangles in pure bending are exact: rotation at the end M L / (E' I), any aspect ratio.
 #[test]
 fn pure_bending_of_rectangles_is_exact() {
     for (rows, nu) in [(1, 0.3), (3, 0.0), (7, 0.45)] {
@@ -114,7 +114,7 @@ fn element_matrix(kind: QuadFormulation, [a, b]: [f64; 2], nu: f64) -> Vec<Vec<f
 const HOURGLASS_PATTERN: [f64; 8] = [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0];
 
 /// Energy of the bending pattern `u_x = 4 x y/(a b)`: `ε_x = κ y` and γ = κ x with κ = 4/(a b) for
-/// full integration; YOUNG_MODULUS' I κ² a/2 for a beam.
+/// full integration; E' I κ² a/2 for a beam.
 #[test]
 fn locking_of_one_rectangle_is_that_of_its_closed_form() {
     let a = 2.0_f64;

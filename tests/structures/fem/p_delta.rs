@@ -28,7 +28,7 @@ struct CantileverColumn {
     free: Vec<usize>,
 }
 
-/// CantileverColumn of so many beams on a rigid basemat 2 m wide, with a mass at its tip or none.
+/// A cantilever column of `elements` beams on a rigid basemat 2 m wide, with a mass at its tip or none.
 fn cantilever(elements: usize, density: f64, tip: f64) -> CantileverColumn {
     let mut mesh = Mesh::new();
     for k in 0..=elements {

@@ -77,7 +77,7 @@ fn tangent_along(tangent: &[[f64; 2]; 2], angle: f64) -> f64 {
 
 /// Along a line through the origin, in any direction, with force, tangent and energies.
 #[test]
-fn along_a_line_it_is_the_uniaxial_spring() {
+fn along_a_line_a_coupled_spring_is_the_uniaxial_one() {
     for LawPair { name, uniaxial, coupled } in laws() {
         for angle in [0.0, TAU / 8.0, 1.0, 2.5, 4.0] {
             let mut line = uniaxial.clone();
@@ -98,7 +98,7 @@ fn along_a_line_it_is_the_uniaxial_spring() {
                 line.commit(d);
                 plane.commit(at);
                 if name.starts_with("Bouc") {
-                    // Where the next way is not known, it unloads.
+                    // Right after a commit the tangent is that of unloading.
                     let plane_tangent = tangent_along(&plane.response(at).tangent, angle);
                     let next = [line.response(d).tangent, plane_tangent];
                     assert!((next[0] - next[1]).abs() < 1e-9 * 1e8, "{name}: {next:?}");
@@ -108,7 +108,7 @@ fn along_a_line_it_is_the_uniaxial_spring() {
     }
 }
 
-/// If a path turns by an angle, force, tangent and nothing else turn with it.
+/// If a path turns by an angle, force and tangent turn with it; energies are the same.
 #[test]
 fn a_turned_path_turns_the_force() {
     for LawPair { name, coupled, .. } in laws() {
@@ -244,7 +244,7 @@ fn moved_along(point: [f64; 2], k: usize, by: f64) -> [f64; 2] {
     moved
 }
 
-/// Force times the way from `start` to `end`, at this part of it.
+/// Force times the path from `start` to `end`, at this part of it.
 fn work_rate(spring: &BiaxialSpring, start: [f64; 2], end: [f64; 2], part: f64) -> f64 {
     let at = [0, 1].map(|k| start[k] + part * (end[k] - start[k]));
     let force = spring.response(at).force;
@@ -290,7 +290,7 @@ fn tangent_and_force_are_slopes_of_force_and_energy() {
                     );
                 }
             }
-            // The work along the path, by the force at points of it.
+            // The work along the path, from the force at points of it.
             let pieces = 200;
             let mut work = 0.0;
             for piece in 0..pieces {
@@ -304,7 +304,7 @@ fn tangent_and_force_are_slopes_of_force_and_energy() {
             let end = spring.energy(d);
             assert!(end.dissipated >= lost && end.stored >= 0.0, "{name}");
             let expected = end.stored + end.dissipated - start.stored - start.dissipated;
-            // Simpson's rule meets a kink on most ways of the bilinear laws.
+            // Simpson's rule has a kink within most steps of the bilinear laws.
             let tolerance = if is_smooth { 1e-6 } else { 3e-4 };
             let scale = YIELD_FORCE * distance(last, d) + 1e-3;
             assert!(

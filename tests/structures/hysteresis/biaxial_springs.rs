@@ -1,4 +1,4 @@
-//! GOAL: hysteretic springs in a plane are no two uniaxial ones, refuse bad states, and act on structures.
+//! GOAL: hysteretic springs in a plane differ from two uniaxial ones, refuse invalid states, and act on structures.
 //! SCENE: a spring on the diagonal; saved states with one number changed; a block with springs of both kinds.
 //! REFERENCE: closed forms, the errors, differences.
 
@@ -22,7 +22,7 @@ fn two_sliders_along_the_axes_are_stronger_on_the_diagonal() {
 }
 
 #[test]
-fn bad_states_and_wild_deformations_are_no_panic() {
+fn invalid_states_and_deformations_cause_no_panic() {
     for exponent in [1.0, 1.999, 10.0] {
         let law = BoucWen::new(1e7, 1e5, 0.1).and_then(|law| law.with_shape(exponent, 0.5));
         assert!(matches!(law.unwrap().coupled(), Err(Error::Input { .. })));

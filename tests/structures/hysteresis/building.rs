@@ -36,7 +36,7 @@ fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> ShearBuilding {
     building
 }
 
-/// Makes a new structure.
+/// Constructor of a structure.
 type MakeBuilding = Box<dyn Fn() -> ShearBuilding>;
 
 fn bilinear_storeys() -> ShearBuilding {
@@ -64,9 +64,9 @@ fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBui
         .gravity(STANDARD_GRAVITY)
 }
 
-/// A clone has the laws with their internal variables, and changes separately from then on.
+/// A clone has the laws with their internal variables, and yields independently.
 #[test]
-fn clones_yield_by_themselves() {
+fn clones_yield_independently() {
     let mut building = bouc_wen_storeys(0.05);
     let past = [0.0, 0.0, 0.0, 0.02, 0.03, 0.03, 0.04, 0.05];
     let now = [0.0; 8];
@@ -82,7 +82,7 @@ fn clones_yield_by_themselves() {
 
 /// ∂f/∂u of the whole structure by central differences, where no law is near a kink.
 #[test]
-fn tangents_are_consistent() {
+fn tangents_are_differences_of_forces() {
     let mut building = bouc_wen_storeys(0.05);
     building.nonlinear_mut().unwrap().commit(&[0.0, 0.0, 0.0, 0.004, 0.01, 0.012, 0.011, 0.015]);
     let u = [0.001, 0.002, 1e-4, 0.003, 0.012, 0.0125, 0.0115, 0.0162];
@@ -107,7 +107,7 @@ fn tangents_are_consistent() {
 }
 
 /// All laws in the coupled integrator with uplift and friction: Newton converges, the energy balance closes,
-/// and the laws take energy and give none back.
+/// and the laws dissipate energy.
 #[test]
 fn runs_converge_and_the_energy_balance_closes() {
     let weight = STANDARD_GRAVITY * 130.0e3;
@@ -129,18 +129,18 @@ fn runs_converge_and_the_energy_balance_closes() {
             let mut lost = 0.0;
             let run = simulation
                 .run(1500, |state| {
-                    assert!(state.energy_balance.hysteresis >= lost, "{name} gives energy back");
+                    assert!(state.energy_balance.hysteresis >= lost, "{name} returns energy");
                     lost = state.energy_balance.hysteresis;
                 })
                 .unwrap();
             let energy_balance = run.energy_balance;
             println!("{name}, {time_step} s: {run}");
             assert!(run.energy_error < 1e-9, "{name}: {:e}", run.energy_error);
-            assert!(lost > 0.05 * energy_balance.input, "{name} takes next to nothing");
+            assert!(lost > 0.05 * energy_balance.input, "{name} dissipates little");
             assert!(energy_balance.strain >= -1e-9 * energy_balance.input, "{name}");
-            // One point in a step: what the midpoint misses shrinks with the step.
-            let missed = energy_balance.algorithmic.abs() / energy_balance.input;
-            assert!(missed < if time_step > 0.005 { 0.05 } else { 0.01 }, "{name}: {missed}");
+            // One point in a step: the error of the midpoint rule falls with the step.
+            let midpoint_error = energy_balance.algorithmic.abs() / energy_balance.input;
+            assert!(midpoint_error < if time_step > 0.005 { 0.05 } else { 0.01 }, "{name}: {midpoint_error}");
         }
     }
 }
@@ -150,7 +150,7 @@ fn run_of(builder: SimulationBuilder) -> Run {
 }
 
 #[test]
-fn other_time_schemes_march_too() {
+fn other_time_schemes_dissipate_as_much() {
     let schemes = [
         run_of(on_soil(bilinear_storeys(), 0.005)),
         run_of(on_soil(bilinear_storeys(), 0.005).scheme(Newmark::default())),
@@ -197,7 +197,7 @@ fn shifted(y: [f64; 3], rates: [f64; 3], h: f64) -> [f64; 3] {
     [0, 1, 2].map(|i| y[i] + h * rates[i])
 }
 
-/// Displacement of the floor at the end by Runge and Kutta.
+/// Displacement of the floor at the end, by Runge–Kutta integration.
 fn integrated_floor_displacement() -> f64 {
     let fine = 300_000_u32;
     let mut y = [0.0; 3];
@@ -213,13 +213,13 @@ fn integrated_floor_displacement() -> f64 {
     y[0]
 }
 
-/// Displacement of the floor at the end by so many coupled steps.
+/// Displacement of the floor at the end, by coupled steps.
 fn marched_floor_displacement(steps: u32) -> f64 {
     let law = BoucWen::new(STOREY_STIFFNESS, STOREY_STRENGTH, STOREY_HARDENING).unwrap();
     let law = law.with_shape(1.5, 0.6).unwrap();
     let storey = Storey::new(1e-3, STOREY_MASS, STOREY_STIFFNESS);
     let building = ShearBuilding::new(4.0, 1e3, 1e7, &[storey]).unwrap();
-    // Rock: so stiff that the base does what the ground does.
+    // Rock: so stiff that the base follows the ground.
     let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
     let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
     let mut simulation = Simulation::builder(MOTION_DURATION / f64::from(steps))
@@ -234,7 +234,7 @@ fn marched_floor_displacement(steps: u32) -> f64 {
 }
 
 /// One storey on rock against m ẍ = −F(x − x_g), ż = …, integrated by Runge–Kutta in fine steps: the
-/// coupled march must converge to it with the square of the step.
+/// coupled run converges to it with the square of the step.
 #[test]
 fn yielding_storey_converges_to_its_differential_equation() {
     let expected = integrated_floor_displacement();
@@ -242,14 +242,14 @@ fn yielding_storey_converges_to_its_differential_equation() {
         [150, 300, 600, 1200, 2400, 4800].map(|steps| marched_floor_displacement(steps) - expected);
     println!("floor at the end {expected:.4} m, errors {errors:?}");
     assert!(errors[5].abs() < 1e-6, "{errors:?}");
-    // The mean order over five halvings; single ones wander with where in a step the motion turns.
+    // The mean order over five halvings; single ones depend on where in a step the motion reverses.
     let order = (errors[0] / errors[5]).abs().log2() / 5.0;
     assert!((order - 2.0).abs() < 0.3, "order {order}");
 }
 
-/// Isolated by a pendulum with long sliding: the force through the bearings is what the law allows.
+/// Isolated by a pendulum with long sliding: the force through the bearings stays within the law.
 #[test]
-fn bearings_pass_no_more_than_their_law() {
+fn bearing_forces_stay_within_their_law() {
     let weight = STANDARD_GRAVITY * 130.0e3;
     let radius = 2.0;
     let friction = 0.06;
@@ -277,14 +277,14 @@ fn bearings_pass_no_more_than_their_law() {
         })
         .unwrap();
     assert!(slid > 100, "slid in {slid} steps only");
-    // A fixed-base building of this kind sees several times the bearings' friction.
+    // The base shear of a fixed-base building is more than twice the bearings' friction.
     let mut fixed = on_soil(five_storeys(), 0.0025).build().unwrap();
     let fixed = fixed.run(3000, |_| {}).unwrap().whole.base_shear.magnitude();
     assert!(fixed > 2.0 * friction * weight, "{fixed}");
 }
 
 #[test]
-fn checkpoints_carry_the_laws() {
+fn resumed_runs_have_the_states_of_the_laws() {
     let mut whole = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
     whole.run(250, |_| {}).unwrap();
     let saved = whole.checkpoint().unwrap();
@@ -296,7 +296,7 @@ fn checkpoints_carry_the_laws() {
     assert_eq!(resumed.state(), whole.state());
 }
 
-/// Forces vanish in the end, while the offset stays: its last digit times the stiffness is more than 1e-9 of them.
+/// Forces vanish in the end, while the offset stays: its last digit times the stiffness is more than 1e-9 of the forces.
 #[test]
 fn a_building_that_has_yielded_comes_to_rest() {
     let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 3];

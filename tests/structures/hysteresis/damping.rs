@@ -70,14 +70,14 @@ fn columns_that_never_yield_are_linear() {
     let peak = largest(&expected);
     let errors: Vec<f64> = expected.iter().zip(&found).map(|(a, b)| a - b).collect();
     let error = largest(&errors);
-    println!("peak drift {:.3} mm, laws that never yield off by {:.1e}", 1e3 * peak, error / peak);
+    println!("peak drift {:.3} mm, error with laws that never yield {:.1e}", 1e3 * peak, error / peak);
     assert!(error < 1e-11 * peak, "{error:e} of {peak}");
 }
 
-/// One rule for all structures that have both: C does not ask for the law. Isolators are outside of
+/// In all structures C is independent of the laws. Isolators have no part in
 /// the damping of the building on them.
 #[test]
-fn laws_leave_the_damping_matrix_alone() {
+fn laws_have_no_effect_on_the_damping_matrix() {
     let expected = damping(&linear_building(0.05));
     assert_eq!(damping(&strong(linear_building(0.05), 0)), expected);
     let drift = linear_building(0.05).drift(0).unwrap();
@@ -108,9 +108,9 @@ fn laws_leave_the_damping_matrix_alone() {
     assert!(((matrix[3 * n + 3] - level.damping) / column - 1.0).abs() < 1e-14);
 }
 
-/// The documentation's advice for a model without such damping where columns yield.
+/// Dashpots between the floors give the same damping matrix, as the documentation says.
 #[test]
-fn dashpots_can_stand_for_stiffness_proportional_damping() {
+fn dashpots_can_replace_stiffness_proportional_damping() {
     let ratio = 0.05;
     let plain =
         ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 2e4, STOREY_STIFFNESS); 5]);
@@ -136,7 +136,7 @@ fn elastic_drift(ratio: f64, t: f64) -> f64 {
     INITIAL_SPEED / damped * (-ratio * omega * t).exp() * (damped * t).sin()
 }
 
-/// Largest drift of the floor, which yields on its way.
+/// Largest drift of the floor, which yields.
 fn sliding_drift(ratio: f64) -> f64 {
     let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
     let damped = omega * f64::sqrt(1.0 - ratio * ratio);
@@ -152,16 +152,16 @@ fn sliding_drift(ratio: f64) -> f64 {
     let swing = (damped * t).cos() - ratio * omega / damped * (damped * t).sin();
     let speed = INITIAL_SPEED * (-ratio * omega * t).exp() * swing;
     let c = 2.0 * ratio * omega * FLOOR_MASS;
-    let way = FLOOR_MASS / c * speed
+    let slide = FLOOR_MASS / c * speed
         - FLOOR_MASS * YIELD_FORCE / (c * c) * (c * speed / YIELD_FORCE).ln_1p();
-    YIELD_FORCE / COLUMN_STIFFNESS + way
+    YIELD_FORCE / COLUMN_STIFFNESS + slide
 }
 
-/// A floor of mass m leaves its place with the speed v₀. Elastic: d = v₀/ω_d e^(−ζωt) sin ω_d t, up to
+/// A floor of mass m starts with the speed v₀. Elastic: d = v₀/ω_d e^(−ζωt) sin ω_d t, up to
 /// the drift F/k. From there m d̈ + c ḋ + F = 0 until it stands, (m/c) v₁ − (m F/c²) ln(1 + c v₁/F)
 /// further on; then it swings about F/k less and stays elastic.
 #[test]
-fn a_storey_that_yields_slides_as_far_as_its_damping_lets_it() {
+fn the_slide_of_a_yielding_storey_depends_on_its_damping() {
     let ratio = 0.1;
     let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
     let storey = Storey::new(3.0, FLOOR_MASS, COLUMN_STIFFNESS);
@@ -173,7 +173,7 @@ fn a_storey_that_yields_slides_as_far_as_its_damping_lets_it() {
     let structure = building.with_law(0, law).unwrap();
     let mut simulation = Simulation::builder(2.0e-4)
         .structure(structure)
-        // Rock: so stiff that the base stays where it is.
+        // Rock: so stiff that the base does not move.
         .ground(SpringGround::new(-5.0..5.0, 2, 1e13, 1e13).unwrap())
         .interface(Bonded)
         .initial_velocity([0.0, 0.0, 0.0, INITIAL_SPEED])

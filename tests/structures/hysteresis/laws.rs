@@ -45,7 +45,7 @@ fn tangent_and_force_are_the_slopes_of_force_and_energy() {
         let mut random = Random(7);
         for d in path(&mut random, 100) {
             let h = 1e-8;
-            // The slope has kinks at yield and where the way turns: no difference across them.
+            // The slope has kinks at yield and where the path reverses: no difference across them.
             let below = law.response(d - h);
             let here = law.response(d).tangent;
             let above = law.response(d + h);
@@ -64,9 +64,9 @@ fn tangent_and_force_are_the_slopes_of_force_and_energy() {
     }
 }
 
-/// The work of the force by Simpson's rule along a path, against the energies that the laws tell.
+/// The work of the force by Simpson's rule along a path, against the energies of the laws.
 #[test]
-fn work_is_stored_or_dissipated_and_none_comes_back() {
+fn work_is_stored_or_dissipated() {
     for (name, mut law) in laws() {
         let mut random = Random(11);
         let mut work = 0.0;
@@ -91,7 +91,7 @@ fn work_is_stored_or_dissipated_and_none_comes_back() {
         }
         let expected = law.energy(last).stored + lost;
         assert!(lost > 1e3, "{name} never yielded");
-        // Simpson's rule meets a kink in most steps of the bilinear laws.
+        // Simpson's rule has a kink within most steps of the bilinear laws.
         let tolerance = if name.starts_with("Bouc") { 1e-7 } else { 1e-4 };
         assert!(
             (work - expected).abs() < tolerance * expected,
@@ -100,9 +100,9 @@ fn work_is_stored_or_dissipated_and_none_comes_back() {
     }
 }
 
-/// However a straight path is cut into steps, it leads to the same place.
+/// A straight path has the same end state in any number of steps.
 #[test]
-fn steps_of_a_straight_path_do_not_matter() {
+fn steps_of_a_straight_path_have_no_effect() {
     for (name, mut law) in laws() {
         law.commit(0.013);
         for target in [-0.02, 0.004, -0.0045, 0.03] {
@@ -172,9 +172,9 @@ fn bouc_wen_follows_its_differential_equation() {
             }
             from = to;
         }
-        println!("n = {n}, β = {beta}: off by {largest:.1e} F_y");
+        println!("n = {n}, β = {beta}: error {largest:.1e} F_y");
         // Fourth order, but only second where |z|ⁿ has its kink at z = 0.
-        assert!(largest < 1e-8, "n = {n}, β = {beta}: off by {largest:e} F_y");
+        assert!(largest < 1e-8, "n = {n}, β = {beta}: error {largest:e} F_y");
     }
 }
 
@@ -190,7 +190,7 @@ fn bouc_wen_has_its_elementary_solutions() {
         assert!((bouc_wen_force(1.0, x) + (-x).exp_m1()).abs() < 4e-16, "{x}");
         assert!((bouc_wen_force(2.0, x) - x.tanh()).abs() < 1e-15, "{x}");
     }
-    // Unloading from saturation with b = 2β − 1 = 0.6, n = 2: √b atan-like until z = 0
+    // Unloading from saturation with b = 2β − 1 = 0.6, n = 2: dz/dx = 1 + b z²
     let mut law = BoucWen::new(1.0, 1.0, 0.0).unwrap().with_shape(2.0, 0.8).unwrap();
     law.commit(50.0);
     let b = 0.6_f64.sqrt();

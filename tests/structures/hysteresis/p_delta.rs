@@ -1,5 +1,5 @@
 //! GOAL: P–Δ of isolated and yielding buildings.
-//! SCENE: bearings under their weight, a storey at its buckling load, columns that collapse.
+//! SCENE: bearings under the weight above, a storey at its buckling load, columns that collapse.
 //! REFERENCE: the potential energy of the weight, differentiated twice; typed errors.
 
 use crate::structures::curvature;
@@ -94,7 +94,7 @@ fn potential_energy(u: &[f64; 9]) -> f64 {
 }
 
 /// The height of the weights on a slider that moves along the plane of a base that turns, with
-/// inextensible columns above, differentiated twice by steps.
+/// inextensible columns above, differentiated twice by differences.
 #[test]
 fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
     let with = isolated_stiffness(10.0);

@@ -67,7 +67,7 @@ fn spring_force(structure: &WithSprings, u: &[f64]) -> [f64; 9] {
     force
 }
 
-/// Force times the way from `start` to `end`, at this part of it.
+/// Force times the path from `start` to `end`, at this part of it.
 fn work_rate(structure: &WithSprings, start: &[f64; 9], end: &[f64; 9], part: f64) -> f64 {
     let u: Vec<f64> = start.iter().zip(end).map(|(a, b)| a + part * (b - a)).collect();
     let force = spring_force(structure, &u);
@@ -106,9 +106,9 @@ fn assert_tangent(structure: &WithSprings, u: &[f64; 9]) {
     }
 }
 
-/// Forces are symmetric slopes; energies are the work along a path, and friction follows the force before.
+/// Tangents are differences of forces and energies the work along a path; friction follows the last vertical force.
 #[test]
-fn slopes_and_energies() {
+fn tangents_and_energies_are_those_of_the_force() {
     let mut structure = isolated();
     let mut random = Random(7);
     let mut at = [0.0; 9];
@@ -157,9 +157,9 @@ fn upwards(time: f64) -> f64 {
     0.3 * GRAVITY_ACCELERATION * (TAU * time).sin() * (0.5 * time).min(1.0)
 }
 
-/// Largest displacement and range of the vertical force over the weight, by short steps; `climbs` is false for a bearing
+/// Largest displacement and range of the vertical force over the weight, by short steps; without `rises` for a bearing
 /// under its weight at rest.
-fn reference(climbs: bool, ground: impl Fn(f64) -> f64) -> [f64; 3] {
+fn reference(rises: bool, ground: impl Fn(f64) -> f64) -> [f64; 3] {
     let step = 2e-5;
     let mut u = 0.0_f64;
     let mut v = 0.0;
@@ -173,7 +173,7 @@ fn reference(climbs: bool, ground: impl Fn(f64) -> f64) -> [f64; 3] {
     for k in 0..600_000 {
         let time = step * f64::from(k);
         let force = GRAVITY_ACCELERATION + stiffness * (0.5 * u * u / PENDULUM_RADIUS - w);
-        let force = if climbs { force.max(0.0) } else { GRAVITY_ACCELERATION };
+        let force = if rises { force.max(0.0) } else { GRAVITY_ACCELERATION };
         let reach = yielding * force / GRAVITY_ACCELERATION;
         slip = u - (u - slip).clamp(-reach, reach);
         let friction = FRICTION_COEFFICIENT * GRAVITY_ACCELERATION * (u - slip) / yielding;

@@ -1,5 +1,5 @@
-//! GOAL: bad parameters and bad saved states are typed errors that change nothing.
-//! SCENE: one number spoilt at a time.
+//! GOAL: invalid parameters and invalid saved states are typed errors that change nothing.
+//! SCENE: one invalid number at a time.
 //! REFERENCE: the error, and the structure as it was.
 
 use basemat::coupled::CheckpointError;
@@ -11,13 +11,13 @@ use basemat::{Error, Result};
 
 const INVALID_NUMBERS: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-#[expect(clippy::needless_pass_by_value, reason = "takes results as they come")]
+#[expect(clippy::needless_pass_by_value, reason = "accepts results by value")]
 fn is_input<T>(result: Result<T>) -> bool {
     matches!(result, Err(Error::Input { .. }))
 }
 
 #[test]
-fn bad_parameters_are_refused() {
+fn invalid_parameters_are_refused() {
     for bad in INVALID_NUMBERS {
         assert!(is_input(Bilinear::new(bad, 1.0, 0.1)));
         assert!(is_input(Bilinear::new(1.0, bad, 0.1)));
@@ -61,11 +61,11 @@ fn law() -> Bilinear {
 }
 
 #[test]
-fn laws_have_one_storey_each() {
+fn storeys_have_one_law_each() {
     let one = building().with_law(1, law()).unwrap();
     assert!(matches!(one.with_law(1, law()), Err(Error::Scene { .. })));
     let one = building().with_law(1, law()).unwrap();
-    // A law's force is not a weighted sum of displacements: the inertia above represents it.
+    // The force of a law is not a weighted sum of displacements: its rows have the inertia above instead.
     let linear_shear = one.shear(0).unwrap();
     let law_shear = one.shear(1).unwrap();
     assert!(linear_shear.acceleration.is_empty() && law_shear.displacement.is_empty());
@@ -136,7 +136,7 @@ fn spring_force(structure: &WithSprings) -> [f64; 5] {
 }
 
 #[test]
-fn saved_states_come_back_or_change_nothing() {
+fn saved_states_are_restored_or_change_nothing() {
     let bouc_wen = BoucWen::new(1e7, 1e5, 0.1).unwrap();
     let mut structure = WithSprings::new(building().with_law(0, law()).unwrap())
         .spring(vec![(3, 1.0), (0, -1.0)], bouc_wen.clone())

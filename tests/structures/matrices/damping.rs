@@ -1,4 +1,4 @@
-//! Damping matrices that would feed energy in are refused, unless they are meant to.
+//! Damping matrices that would add energy are refused, unless the damping is active.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Element, MassKind};
@@ -69,10 +69,10 @@ fn actively_damped(damping: Triplets) -> MatrixModel {
     floor().with_active_damping(damping).unwrap()
 }
 
-/// GOAL: a matrix that is not symmetric or not positive semi-definite is refused, by the model that
-/// is made of matrices and for any other structure.
+/// GOAL: a matrix that is not symmetric or not positive semi-definite is refused, by the model
+/// of matrices and for any other structure.
 #[test]
-fn damping_that_feeds_energy_in_is_refused() {
+fn damping_that_adds_energy_is_refused() {
     let name = "damping matrix";
     for (damping, expected) in [
         (dashpot(-4.0e4), indefinite(2, -1.0e6)),
@@ -92,7 +92,7 @@ fn damping_that_feeds_energy_in_is_refused() {
         assert!(is_same_refusal(&refused, &expected), "{refused} instead of {expected}");
         let refused = on_soil(Damped(floor(), damping.clone())).build().err().unwrap();
         assert!(is_same_refusal(&refused, &expected), "{refused:?} instead of {expected}");
-        // Meant so, it is taken as it is, in a group too.
+        // As active damping it is accepted, also in a group.
         let active = actively_damped(damping.clone());
         assert!(active.has_active_damping() && on_soil(active).build().is_ok());
         let group = StructureGroup::new().with(actively_damped(damping), 0.0).unwrap();
@@ -100,9 +100,9 @@ fn damping_that_feeds_energy_in_is_refused() {
     }
 }
 
-/// GOAL: what is taken in place of active damping is checked again, and a reduction keeps it.
+/// GOAL: damping that replaces active damping is checked again; a reduction keeps active damping.
 #[test]
-fn active_damping_goes_with_its_matrix() {
+fn active_damping_belongs_to_its_matrix() {
     let rayleigh = RayleighDamping::new(0.1, 0.01).unwrap();
     assert!(!actively_damped(dashpot(-1e4)).with_rayleigh(rayleigh).has_active_damping());
     let damped = actively_damped(dashpot(-1e4)).with_damping(dashpot(1e4)).unwrap();
@@ -118,7 +118,7 @@ fn active_damping_goes_with_its_matrix() {
     assert!(!reduced.has_active_damping());
 }
 
-/// Energy that damping takes in a run of which the energy balance closes.
+/// Energy that damping dissipates in a run whose energy balance closes.
 fn damping_energy(model: MatrixModel) -> f64 {
     let mut simulation = on_soil(model).gravity(0.0).interface(Bonded).build().unwrap();
     let run = simulation.run(500, |_| {}).unwrap();
@@ -126,12 +126,12 @@ fn damping_energy(model: MatrixModel) -> f64 {
     simulation.state().energy_balance.damping
 }
 
-/// GOAL: the energy that active damping feeds in is in the energy balance, which closes.
+/// GOAL: the energy that active damping adds is in the energy balance, which closes.
 #[test]
 fn active_damping_is_in_the_energy_balance() {
-    let fed = damping_energy(floor().with_active_damping(dashpot(-4.0e3)).unwrap());
-    let taken = damping_energy(floor().with_damping(dashpot(4.0e3)).unwrap());
-    assert!(fed < 0.0 && taken > 0.0, "{fed} {taken}");
+    let active = damping_energy(floor().with_active_damping(dashpot(-4.0e3)).unwrap());
+    let passive = damping_energy(floor().with_damping(dashpot(4.0e3)).unwrap());
+    assert!(active < 0.0 && passive > 0.0, "{active} {passive}");
 }
 
 #[track_caller]
@@ -149,10 +149,10 @@ fn assert_builds(structure: impl Structure + 'static, name: &str) {
     assert!(built.is_ok(), "{name}: {:?}", built.err());
 }
 
-/// GOAL: dampings as they are in use pass: rounding, weighted sums, singular matrices, files of
+/// GOAL: damping matrices in practical use are accepted: rounding, weighted sums, singular matrices, files of
 /// eight digits, Rayleigh's of fine meshes and with P–Δ, modal and reduced ones.
 #[test]
-fn damping_in_use_passes() {
+fn damping_in_use_is_accepted() {
     for damping in [dashpot(1e-9), dashpot(1e12), matrix(&[]), matrix(&[(3, 3, 0.0)])] {
         assert_builds(floor().with_damping(damping).unwrap(), "dashpot");
     }
@@ -184,7 +184,7 @@ fn damping_in_use_passes() {
     assert_builds(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), "block");
 }
 
-/// A damper of elements that pushes instead of braking.
+/// An element with a damper of negative coefficient.
 struct Pusher([usize; 2]);
 
 impl Element for Pusher {
@@ -203,7 +203,7 @@ impl Element for Pusher {
     }
 }
 
-/// A tower with a damper that pushes.
+/// A tower with that element.
 fn pushed_tower() -> Result<FemModel> {
     let mut mesh = tower(2, 4).mesh().clone();
     let top = mesh.node_at(0.0, 15.0)?;
@@ -213,7 +213,7 @@ fn pushed_tower() -> Result<FemModel> {
 }
 
 #[test]
-fn elements_that_feed_energy_in_are_refused_unless_they_are_meant_to() {
+fn elements_that_add_energy_are_refused_unless_active() {
     let refused = on_soil(pushed_tower().unwrap()).build().err();
     assert!(matches!(refused, Some(Error::Indefinite { matrix: "damping matrix", .. })));
     assert!(on_soil(pushed_tower().unwrap().with_active_damping()).build().is_ok());

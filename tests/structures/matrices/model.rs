@@ -1,4 +1,4 @@
-//! GOAL: a structure by its matrices is the structure that they came from; bad matrices are
+//! GOAL: a structure by its matrices is the structure that they came from; invalid matrices are
 //! refused.
 //! SCENE: a tower on the half-plane that uplifts and slides.
 //! REFERENCE: the finite-element model; typed errors.
@@ -38,7 +38,7 @@ fn filled(order: usize, fill: impl Fn(&mut Triplets) -> basemat::Result<()>) -> 
     matrix
 }
 
-/// Largest base moment of four seconds, of which the energy balance closes.
+/// Largest base moment of four seconds in a run whose energy balance closes.
 fn largest_moment(structure: impl Structure + 'static) -> f64 {
     let mut simulation = on_soil(structure).build().unwrap();
     let run = simulation.run(400, |_| {}).unwrap();
@@ -47,7 +47,7 @@ fn largest_moment(structure: impl Structure + 'static) -> f64 {
 }
 
 #[test]
-fn matrices_march_as_the_model_they_came_from() {
+fn matrices_move_as_the_model_they_came_from() {
     let rayleigh = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
     let model = tower(6, 10).with_rayleigh(rayleigh);
     let mass = filled(model.dofs(), |matrix| model.mass(matrix));
@@ -82,7 +82,7 @@ fn is_size<T>(result: &basemat::Result<T>) -> bool {
 }
 
 #[test]
-fn bad_matrices_are_refused() {
+fn invalid_matrices_are_refused() {
     let unit = diagonal_matrix(3, 1.0);
     assert!(model_of(unit.clone(), Triplets::new(3)).is_ok());
     let huge = Triplets::new(usize::MAX);
@@ -119,7 +119,7 @@ fn assert_restrained(structure: impl Structure + 'static) {
     );
 }
 
-/// An elastic support would carry part of the weight and distort the rigid motion by which the structure is weighed.
+/// An elastic support would carry part of the weight and resist the rigid motion by which the weight is computed.
 #[test]
 fn stiffness_to_a_fixed_point_is_refused() {
     let block = RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
@@ -187,15 +187,15 @@ fn negative_mass(diagonal: f64) -> Error {
     Error::Indefinite { matrix: "mass matrix", row: 3, diagonal }
 }
 
-/// A mass below zero would let energy grow without end beside a closed energy balance.
+/// With a negative mass energy would grow without bound although the energy balance closes.
 #[test]
 fn negative_masses_are_refused() {
     let negative = floor_of_masses(&[(3, 3, -1000.0)]);
     assert_eq!(negative.unwrap_err(), negative_mass(-1000.0));
-    // Positive on the diagonal, and negative for u_0 and u_3 in opposite ways.
+    // Positive on the diagonal, and negative for opposite u_0 and u_3.
     let skew = floor_of_masses(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
     assert_eq!(skew.unwrap_err(), negative_mass(1.0e4));
-    // A mass on a weighted sum of degrees of freedom, and none at all, are singular, not negative.
+    // A mass on a weighted sum of degrees of freedom, and no mass at all, are singular, not negative.
     for legal in [&[(3, 3, 2.0e4), (0, 3, 2.0e4), (3, 0, 2.0e4)][..], &[]] {
         assert!(on_soil(floor_of_masses(legal).unwrap()).build().is_ok());
     }
@@ -219,8 +219,8 @@ fn mast_under(load: f64) -> basemat::Result<Simulation> {
     on_soil(MatrixModel::new(mass, stiffness, contact).unwrap()).gravity(0.0).build()
 }
 
-/// Under more than its buckling load a mast of two hinged bars gives energy away, the base at rest.
-/// A block's P–Δ effect does so only where the base may turn, and is as it should be.
+/// Under more than its buckling load a mast of two hinged bars releases energy on a base at rest.
+/// The P–Δ effect of a block does so only where the base can turn, and is accepted.
 #[test]
 fn negative_stiffness_on_a_fixed_base_is_refused() {
     assert!(mast_under(0.999 * 5.0e6).is_ok());

@@ -33,7 +33,7 @@ fn product(
     dense::product(&matrix, x)
 }
 
-/// Reduced degrees of freedom of a motion of the full model that static shapes alone can make.
+/// Reduced degrees of freedom of a motion of the full model that is a combination of static shapes.
 fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
     let mut reduced: Vec<f64> = recovery.kept().iter().map(|&dof| full[dof]).collect();
     reduced.resize(order, 0.0);
@@ -41,7 +41,7 @@ fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn rigid_motions_weight_and_inertia_pass_exactly() {
+fn rigid_motions_and_their_inertia_are_exact() {
     let model = damped();
     let rigid = [Direction::X, Direction::Y, Direction::Rotation]
         .map(|direction| model.rigid_motion(direction, [0.0; 3]));
@@ -70,7 +70,7 @@ fn rigid_motions_weight_and_inertia_pass_exactly() {
 
 /// Five seconds of the full model: displacement of the top and base moment in all steps, and the last displacement.
 struct FullRun {
-    history: Vec<[f64; 2]>,
+    series: Vec<[f64; 2]>,
     displacement: Vec<f64>,
 }
 
@@ -83,22 +83,22 @@ impl FullRun {
             .coordinates(Coordinates::Physical)
             .build()
             .unwrap();
-        let mut history = Vec::new();
+        let mut series = Vec::new();
         simulation
-            .run(steps, |state| history.push([state.probes[0], state.base_moment]))
+            .run(steps, |state| series.push([state.probes[0], state.base_moment]))
             .unwrap();
-        Self { history, displacement: simulation.state().displacement().to_vec() }
+        Self { series, displacement: simulation.state().displacement().to_vec() }
     }
 
     fn peak(&self, k: usize) -> f64 {
-        self.history.iter().fold(0.0_f64, |m, pair| m.max(pair[k].abs()))
+        self.series.iter().fold(0.0_f64, |m, pair| m.max(pair[k].abs()))
     }
 }
 
 /// Displacement of the top and base moment of the reduced model against the full model, uplift and sliding included:
-/// the more modes, the nearer, and with all of them the same.
+/// the errors fall with the number of modes, to none with all modes.
 #[test]
-fn marches_like_the_full_model() {
+fn reduced_models_converge_to_the_full_model() {
     let steps = 500;
     let full = FullRun::new(steps);
     let peaks = [full.peak(0), full.peak(1)];
@@ -118,12 +118,15 @@ fn marches_like_the_full_model() {
         let run = simulation
             .run(steps, |state| {
                 for (k, value) in [state.probes[0], state.base_moment].into_iter().enumerate() {
-                    errors[k] = errors[k].max((value - full.history[step][k]).abs() / peaks[k]);
+                    errors[k] = errors[k].max((value - full.series[step][k]).abs() / peaks[k]);
                 }
                 step += 1;
             })
             .unwrap();
-        println!("{modes} modes: sway off by {:.1e}, moment by {:.1e}", errors[0], errors[1]);
+        println!(
+            "{modes} modes: error of the sway {:.1e}, of the moment {:.1e}",
+            errors[0], errors[1]
+        );
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         assert!(errors[0] < limit && errors[0] < last, "{modes} modes: {errors:?}");
         last = errors[0];
@@ -148,7 +151,7 @@ fn march_with_springs(structure: WithSprings) -> [f64; 2] {
     [run.energy_balance.hysteresis, run.whole.base_shear.largest().value]
 }
 
-/// Kept degrees of freedom stay themselves, and springs on them work as on the full model.
+/// Kept degrees of freedom are those of the full model, and springs on them act as on the full model.
 #[test]
 fn springs_on_kept_dofs_are_those_of_the_full_model() {
     let model = damped();
@@ -166,12 +169,12 @@ fn springs_on_kept_dofs_are_those_of_the_full_model() {
         assert_eq!(weight.abs(), f64::from(u8::from(is_end)), "{index}");
     }
     let found = march_with_springs(WithSprings::new(reduced).spring(row, yielding_law()).unwrap());
-    assert!(expected[0] > 100.0, "it yields");
+    assert!(expected[0] > 100.0, "no yielding");
     assert!((found[0] / expected[0] - 1.0).abs() < 0.01, "{found:?} {expected:?}");
     assert!((found[1] / expected[1] - 1.0).abs() < 0.02, "{found:?} {expected:?}");
 }
 
-/// Free decay on a fixed base: with the base of a huge mass, a mode on a fixed base loses 2πζ a cycle.
+/// The matrices of the modes on a fixed base: stiffness ω², mass 1, damping 2 ζ ω.
 #[test]
 fn damping_ratios_are_those_of_the_modes_on_a_fixed_base() {
     let reduced =
@@ -212,7 +215,7 @@ fn reduction_error(result: basemat::Result<ReducedModel>) -> Error {
 }
 
 #[test]
-fn what_cannot_be_reduced_is_refused() {
+fn invalid_reductions_are_refused() {
     let law = Bilinear::new(1e6, 1e3, 0.0).unwrap();
     let springs = WithSprings::new(tower(2, 2)).spring(vec![(0, 1.0)], law).unwrap();
     let error = reduction_error(CraigBampton::new(1).reduce(springs));
@@ -221,7 +224,7 @@ fn what_cannot_be_reduced_is_refused() {
     assert!(matches!(error, Error::Index { index: 1000, .. }));
     let error = reduction_error(CraigBampton::new(13).reduce(tower(2, 2)));
     assert!(matches!(error, Error::Size { found: 13, needed: 12, .. }));
-    // A node that nothing holds.
+    // A node without a connection.
     let mut mesh = basemat::fem::Mesh::layered_block(
         -1.0..1.0,
         2,
@@ -251,9 +254,9 @@ fn what_cannot_be_reduced_is_refused() {
     );
     assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
-    // A matrix of another order gets entries out of range, which it reports when it is used.
+    // A matrix of another order receives entries out of range, an error where it is used.
     reduced.mass(&mut Triplets::new(0)).unwrap();
-    // Nothing left to reduce: the same structure.
+    // With all degrees of freedom kept it is the same structure.
     let all: Vec<usize> = (0..18).collect();
     let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();
     assert_eq!(same.dofs(), 18);
@@ -267,8 +270,8 @@ fn tall_tower() -> FemModel {
     FemModel::on_base(mesh).unwrap().with_mass(MassKind::Lumped)
 }
 
-/// The sums over a large stiffness matrix are not zero to the last bit; a frictionless base that is
-/// set down must not care.
+/// The sums over a large stiffness matrix are not zero to the last bit, which must have no effect on the
+/// static state.
 #[test]
 fn tall_meshes_stand() {
     let weight = 6.0 * 100.0 * 600.0 * basemat::motion::STANDARD_GRAVITY;
@@ -278,7 +281,7 @@ fn tall_meshes_stand() {
         assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-7);
     }
     for (a, b) in full.state().contact.iter().zip(&reduced.state().contact) {
-        // Slow loads pass by static shapes; weight on the interior by the modes that are kept.
+        // Forces on the base act through static shapes, weight of the interior through the modes that are kept.
         assert!((a.pressure - b.pressure).abs() < 1e-2 * weight / 6.0, "{a:?} {b:?}");
     }
 }

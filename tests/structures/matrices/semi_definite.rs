@@ -1,4 +1,4 @@
-//! GOAL: negative masses and stiffnesses are told from rounding and from constraints.
+//! GOAL: negative masses and stiffnesses are distinguished from rounding and from constraints.
 //! SCENE: floors tied by a multiplier, masses of rounding size, unstable columns.
 //! REFERENCE: the same structure without the constraint; typed errors.
 
@@ -43,22 +43,24 @@ fn tied(coefficient: f64, between: f64, columns: [f64; 2]) -> MatrixModel {
     on_base(mass, stiffness).unwrap()
 }
 
-fn history(model: MatrixModel) -> Vec<f64> {
+fn floor_displacements(model: MatrixModel) -> Vec<f64> {
     let mut simulation = on_soil(model).build().unwrap();
-    let mut history = Vec::new();
-    simulation.run(500, |state| history.push(state.absolute_displacement()[3])).unwrap();
-    history
+    let mut displacements = Vec::new();
+    simulation
+        .run(500, |state| displacements.push(state.absolute_displacement()[3]))
+        .unwrap();
+    displacements
 }
 
 /// A multiplier does not count as negative stiffness, whatever its coefficient, nor does a stiffness that it keeps from
 /// acting: a spring between tied floors, or a column that the other outweighs.
 #[test]
-fn floors_tied_by_a_multiplier_march_as_one() {
+fn floors_tied_by_a_multiplier_move_as_one() {
     let mut mass = base_masses(4);
     mass.add(3, 3, 3.0e4);
     let mut stiffness = Triplets::new(4);
     column(&mut stiffness, 3, 7.0e6);
-    let merged = history(on_base(mass, stiffness).unwrap());
+    let merged = floor_displacements(on_base(mass, stiffness).unwrap());
     let largest = merged.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
     assert!(largest > 1e-3, "{largest}");
     for (coefficient, between, columns) in [
@@ -67,7 +69,7 @@ fn floors_tied_by_a_multiplier_march_as_one() {
         (1.0e6, -1.0e8, [4.0e6, 3.0e6]),
         (1.0e6, 0.0, [-1.0e6, 8.0e6]),
     ] {
-        let two = history(tied(coefficient, between, columns));
+        let two = floor_displacements(tied(coefficient, between, columns));
         let error = two.iter().zip(&merged).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
         assert!(error < 1e-9 * largest, "{coefficient:e} {between:e} {columns:?}: {error:e}");
     }
@@ -79,9 +81,9 @@ fn assert_indefinite(model: MatrixModel) {
     assert!(matches!(error, Some(Error::Indefinite { .. })), "{error:?}");
 }
 
-/// Next to a multiplier negative stiffness is still found, and so is a multiplier with a mass, which is not valid.
+/// Beside a multiplier negative stiffness is still refused, and so is a multiplier with a mass.
 #[test]
-fn multipliers_hide_no_negative_stiffness() {
+fn negative_stiffness_beside_a_multiplier_is_refused() {
     assert_indefinite(tied(1.0e6, 0.0, [-5.0e6, 4.0e6]));
     assert_indefinite(tied(1.0, 0.0, [-5.0e6, 4.0e6]));
     let mut mass = base_masses(5);
@@ -110,24 +112,24 @@ fn appended(entries: &[(usize, usize, f64)]) -> Result<MatrixModel> {
     on_base(mass, stiffness)
 }
 
-/// The rounding that a reduction or a file leaves on a massless degree of freedom changes no step.
+/// The rounding that a reduction or a file leaves on a massless degree of freedom has no effect on the motion.
 #[test]
-fn masses_of_rounding_are_none() {
-    let massless = history(appended(&[]).unwrap());
+fn masses_of_rounding_have_no_effect() {
+    let massless = floor_displacements(appended(&[]).unwrap());
     for rounding in [
         &[(4, 4, -1e-18)][..],
         &[(3, 4, 1e-13)],
         &[(4, 4, 1e-20), (0, 4, 1e-7)],
         &[(4, 4, -1e-12), (3, 4, -1e-9)],
     ] {
-        let found = history(appended(rounding).unwrap());
+        let found = floor_displacements(appended(rounding).unwrap());
         for (a, b) in found.iter().zip(&massless) {
             assert!((a - b).abs() < 1e-10, "{rounding:?}: {a} {b}");
         }
     }
 }
 
-/// Refused by name of the degree of freedom that is at fault.
+/// The error names the invalid degree of freedom.
 #[test]
 fn masses_beyond_rounding_are_refused() {
     for (entries, diagonal) in [
@@ -143,8 +145,8 @@ fn masses_beyond_rounding_are_refused() {
     }
 }
 
-/// Accelerations of the floors at the beginning, under a force on floor 3 that is there at once.
-fn thrown(model: MatrixModel, force: f64) -> Result<Vec<f64>> {
+/// Accelerations of the floors at the beginning, under a constant force on floor 3 from t = 0.
+fn initial_accelerations(model: MatrixModel, force: f64) -> Result<Vec<f64>> {
     let simulation = on_soil(model)
         .gravity(0.0)
         .scheme(Newmark::default())
@@ -164,17 +166,17 @@ fn build_with_force(dof: usize) -> Result<()> {
     builder.load(Load::constant(DofCombination::from(dof), 1.0)).build().map(|_| ())
 }
 
-/// At t = 0 tied floors accelerate as one, and what has no mass follows its springs, with no mass at
-/// all and with one of rounding; a force on it is refused.
+/// At t = 0 tied floors accelerate as one, and a massless degree of freedom follows its springs, also with a
+/// mass of rounding; a force on it is refused.
 #[test]
-fn what_has_no_mass_follows_at_the_start() {
+fn initial_accelerations_of_massless_dofs_follow_their_springs() {
     for coefficient in [1.0, 1.0e6, 1.0e9] {
-        let found = thrown(tied(coefficient, 0.0, [4.0e6, 3.0e6]), 6.0e4).unwrap();
+        let found = initial_accelerations(tied(coefficient, 0.0, [4.0e6, 3.0e6]), 6.0e4).unwrap();
         assert_near(found[0], 2.0);
         assert_near(found[1], 2.0);
     }
     for rounding in [&[][..], &[(4, 4, -1e-18)], &[(4, 4, 1e-20), (0, 4, 1e-7)]] {
-        let found = thrown(appended(rounding).unwrap(), 6.0e4).unwrap();
+        let found = initial_accelerations(appended(rounding).unwrap(), 6.0e4).unwrap();
         assert_near(found[0], 6.0);
         assert_near(found[1], 6.0);
     }

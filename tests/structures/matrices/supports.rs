@@ -13,8 +13,8 @@ use basemat::structure::StructureError;
 use basemat::structure::{BaseNode, CraigBampton, FemModel, MatrixModel, Structure, Triplets};
 use basemat::{Result, Simulation, Soil};
 
-/// The model by its matrices: every entry of K through `change`, and a spring to a fixed point, of a
-/// `ratio` of the largest stiffness.
+/// The model by its matrices: every entry of K after `change`, and a spring to a fixed point, with its
+/// ratio to the largest stiffness.
 fn by_matrices(
     model: &FemModel,
     change: impl Fn(f64) -> f64,
@@ -43,12 +43,12 @@ fn by_matrices(
     MatrixModel::new(mass, stiffness, model.base()).unwrap()
 }
 
-/// As a file with so many significant digits has it.
+/// A value as in a file of `count` significant digits.
 fn digits(count: usize) -> impl Fn(f64) -> f64 {
     move |value| format!("{value:.*e}", count - 1).parse().unwrap()
 }
 
-/// 0.5 m wide and 50 m high.
+/// A wall 0.5 m wide and 50 m high.
 fn wall() -> FemModel {
     let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
     let mesh = Mesh::layered_block(-0.25..0.25, 2, &[Layer::new(50.0, 100, material)]).unwrap();
@@ -64,8 +64,8 @@ fn wall_on_soil(structure: impl Structure + 'static) -> Result<Simulation> {
         .build()
 }
 
-/// A spring of 1e-9 of the largest stiffness anywhere, beside the wall's softness: the error
-/// says where, and how strong.
+/// Springs from 1e-9 of the largest stiffness on, on a block and on a soft wall: the error has their
+/// place and stiffness.
 #[test]
 fn weak_supports_are_refused_and_named() {
     let block = tower(6, 20);
@@ -124,7 +124,7 @@ fn assert_stands(built: Result<Simulation>) {
 
 /// Rounding of sums, of entries with twelve digits, and of a reduction, is not a support.
 #[test]
-fn rounding_is_no_support() {
+fn rounding_is_not_a_support() {
     assert_stands(on_soil(by_matrices(&tower(6, 20), rounded, None)).build());
     assert_stands(on_soil(by_matrices(&tower(6, 20), digits(12), None)).build());
     assert_stands(wall_on_soil(by_matrices(&wall(), rounded, None)));
@@ -135,7 +135,7 @@ fn rounding_is_no_support() {
     assert_stands(wall_on_soil(reduced));
 }
 
-/// Seven digits leave forces under a rigid motion: an error with their size.
+/// Six to eight digits leave forces under a rigid motion: an error with their size.
 #[test]
 fn matrices_of_few_digits_are_refused() {
     for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {
@@ -149,7 +149,7 @@ fn matrices_of_few_digits_are_refused() {
 }
 
 /// A tower on a rigid mat after Craig and Bampton: x, y, rotation and one mode in a `unit`, with
-/// `interface` stiffness where there is none but for rounding.
+/// `interface` stiffness, which is exactly zero but for rounding.
 fn craig_bampton(unit: f64, interface: [[f64; 2]; 2]) -> MatrixModel {
     let weight = 4.0e5;
     let participation = 2.0e2;
@@ -193,9 +193,9 @@ fn largest_shear(unit: f64, interface: [[f64; 2]; 2]) -> f64 {
     simulation.run(400, |_| {}).unwrap().whole.base_shear.magnitude()
 }
 
-/// Rounding of the interface is a period of days under the tower's mass, whatever the unit of its mode.
+/// Rounding of the interface stiffness, a period of days with the tower's mass, has no effect, in any unit of the mode.
 #[test]
-fn rounding_beside_a_rigid_base_is_no_support() {
+fn rounding_beside_a_rigid_base_is_not_a_support() {
     let exact = largest_shear(1.0, [[0.0; 2]; 2]);
     for unit in [1.0, 1e2, 1e4] {
         for interface in
@@ -205,7 +205,7 @@ fn rounding_beside_a_rigid_base_is_no_support() {
             assert!((found / exact - 1.0).abs() < 1e-6, "{unit:e} {interface:?}: {found} {exact}");
         }
     }
-    // 1 N/m is not a support.
+    // 1 N/m is a support.
     let built = on_stiff_soil(craig_bampton(1.0, [[1.0, 0.0], [0.0; 2]]));
     assert!(
         matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
@@ -214,13 +214,13 @@ fn rounding_beside_a_rigid_base_is_no_support() {
     );
 }
 
-/// Stiffness of one half of a matrix only is an error that names its place, in any unit, unless it is meant.
+/// Stiffness in one half of a matrix only is an error that names its place, in any unit, unless it is active.
 #[test]
 fn unsymmetric_stiffness_is_refused_unless_active() {
     for unit in [1.0, 1e2, 1e4] {
         let mut stiffness = Triplets::new(4);
         craig_bampton(unit, [[0.0; 2]; 2]).stiffness(&mut stiffness).unwrap();
-        // Follows the mode, and presses on the base without a reaction.
+        // A moment on the base in proportion to the mode, without a reaction.
         stiffness.add(2, 3, 1e2 * unit);
         let mut mass = Triplets::new(4);
         let symmetric = craig_bampton(unit, [[0.0; 2]; 2]);

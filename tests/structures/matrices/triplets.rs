@@ -17,7 +17,7 @@ fn dense(matrix: &Triplets) -> Vec<f64> {
 
 proptest! {
     #[test]
-    fn all_ways_lead_to_the_same_matrix(
+    fn all_constructors_give_the_same_matrix(
         order in 1_usize..7,
         numbers in prop::collection::vec(prop_oneof![Just(0.0), -1e3..1e3], 36),
     ) {
@@ -29,7 +29,7 @@ proptest! {
         let mut columns = vec![];
         let mut kept = vec![];
         for row in values.chunks(order) {
-            // From the right to the left: order within a row is free.
+            // From right to left: any order within a row is valid.
             for (column, value) in row.iter().enumerate().rev().filter(|(_, v)| **v != 0.0) {
                 columns.push(column);
                 kept.push(*value);
@@ -51,7 +51,7 @@ proptest! {
 }
 
 #[test]
-fn entries_at_the_same_place_add_up_and_bad_ones_are_remembered() {
+fn entries_at_the_same_place_add_up_and_invalid_ones_are_kept() {
     let twice = Triplets::from_csr(1, &[0, 2], &[0, 0], &[1.0, 2.0]).unwrap();
     assert_eq!(dense(&twice), [3.0]);
     // Values that are not finite are refused where the matrix is used, as with `add`.
@@ -75,7 +75,7 @@ fn index_error(quantity: &'static str, index: usize, bound: usize) -> Error {
 }
 
 #[test]
-fn arrays_that_make_no_matrix_are_refused() {
+fn invalid_arrays_are_refused() {
     for (order, count) in [(2, 3), (0, 1), (usize::MAX, 4), (3, 0)] {
         let Err(Error::Size { quantity, found, .. }) =
             Triplets::from_dense(order, &vec![1.0; count])

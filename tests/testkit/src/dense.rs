@@ -1,4 +1,4 @@
-//! Small dense linear algebra, plain enough to be right at sight.
+//! Small dense linear algebra, simple enough to be checked by reading.
 
 use super::random::Random;
 
@@ -13,6 +13,7 @@ pub fn multiply(matrix: &DenseMatrix, vector: &[f64]) -> Vec<f64> {
     matrix.iter().map(|row| dot(row, vector)).collect()
 }
 
+/// aᵀ A b.
 pub fn form(a: &[f64], matrix: &DenseMatrix, b: &[f64]) -> f64 {
     dot(a, &multiply(matrix, b))
 }
@@ -61,7 +62,7 @@ pub fn solve(matrix: &DenseMatrix, load: &[f64]) -> Vec<f64> {
     x
 }
 
-/// Displacements under `load` with some degrees of freedom prescribed.
+/// Displacements under `load`, with prescribed (degree of freedom, displacement) pairs.
 pub fn solve_with_prescribed(
     matrix: &DenseMatrix,
     load: &[f64],
@@ -82,14 +83,14 @@ pub fn solve_with_prescribed(
     x
 }
 
-/// Eigenvalues of K x = λ M x, ascending, by Jacobi's method after Cholesky's of M.
+/// Eigenvalues of K x = λ M x, ascending, by Jacobi's method after a Cholesky factorisation of M.
 pub fn eigenvalues(stiffness: &DenseMatrix, mass: &DenseMatrix) -> Vec<f64> {
     let n = mass.len();
     let mut lower = vec![vec![0.0; n]; n];
     for i in 0..n {
         for j in 0..=i {
-            let rest = mass[i][j] - dot(&lower[i][..j], &lower[j][..j]);
-            lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
+            let remainder = mass[i][j] - dot(&lower[i][..j], &lower[j][..j]);
+            lower[i][j] = if i == j { remainder.sqrt() } else { remainder / lower[j][j] };
         }
     }
     let congruent = forward_substituted(&lower, &forward_substituted(&lower, stiffness));

@@ -1,6 +1,6 @@
 //! Random numbers, reference tables, comparison of series and plain dense algebra for tests.
 //!
-//! Nothing here depends on basemat, so its unit tests and those of its parts can use it.
+//! Nothing here depends on basemat: the unit tests of basemat and of the crates below it can use it.
 
 #![allow(missing_docs, missing_debug_implementations, reason = "not published")]
 #![allow(
@@ -10,7 +10,7 @@
     reason = "not published"
 )]
 
-/// Whether tests take all their scenes, as every night: `HEAVY_TESTS` is set.
+/// Whether tests run all their scenes, as they do every night: `HEAVY_TESTS` is set.
 pub fn heavy() -> bool {
     std::env::var_os("HEAVY_TESTS").is_some()
 }

@@ -11,7 +11,7 @@ fn number_list(block: &str, name: &str) -> Vec<f64> {
         .collect()
 }
 
-/// Long-term modulus, moduli and frequencies of the law of `gmb.json` for 5 % or 1 %.
+/// Long-term modulus, moduli and frequencies of the law of `gmb.json` for a damping ratio of 5 % or 1 %.
 pub fn gmb_numbers(percent: u32) -> (f64, Vec<f64>, Vec<f64>) {
     let text = include_str!("../../data/layered/gmb.json");
     let block = text.split(&format!("\"gmb{percent}\"")).nth(1).unwrap();

@@ -47,14 +47,15 @@ impl TabledSeries {
             .sum()
     }
 
-    /// Mean over the step of length `step` that ends at `time`, by Simpson's rule: what a force
-    /// that is constant over the step stands for.
+    /// Mean over the step of length `step` that ends at `time`, by Simpson's rule.
+    ///
+    /// It is the reference of a force that is constant over the step.
     pub fn mean(&self, time: f64, step: f64) -> f64 {
         (self.at(time - step) + 4.0 * self.at(time - 0.5 * step) + self.at(time)) / 6.0
     }
 }
 
-/// Root of the summed squares of an error, relative to the root of the reference's.
+/// Euclidean norm of an error, relative to the norm of the reference.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RelativeError {
     error_square: f64,

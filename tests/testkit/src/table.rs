@@ -8,8 +8,9 @@ pub fn data_path(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../data").join(file)
 }
 
-/// Reference table: comment lines, then a line of column names (or the last comment has them), then
-/// the rows.
+/// Reference table: comment lines, a line of column names, and rows.
+///
+/// Without that line, the last comment has the column names.
 #[derive(Debug)]
 pub struct ReferenceTable {
     name: String,
@@ -87,14 +88,14 @@ impl ReferenceTable {
         (0..self.len()).map(|row| std::array::from_fn(|k| columns[k][row])).collect()
     }
 
-    /// Numbers of the first row whose `column` holds `text`.
+    /// Numbers of the first row with this `text` in `column`.
     pub fn row<const N: usize>(&self, column: &str, text: &str, columns: [&str; N]) -> [f64; N] {
         let position = self.text(column).iter().position(|field| *field == text);
         let index = position.unwrap_or_else(|| panic!("{}: no '{text}' in {column}", self.name));
         self.rows(columns)[index]
     }
 
-    /// Symmetric matrix, row by row, of the rows whose column `matrix` holds `name`: they list its upper triangle.
+    /// Symmetric matrix, row by row, of the rows with `name` in column `matrix`: they list its upper triangle.
     pub fn symmetric(&self, name: &str, order: usize) -> Vec<f64> {
         let names = self.text("matrix");
         let rows: Vec<usize> = self.parsed("row");

@@ -25,10 +25,11 @@ pub(crate) struct ContactProblemsOptions {
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder of problems that export.py has written: these instead of random ones.
+    /// Folder of problems written by export.py, which replace the random ones.
     #[arg(long)]
     published: Option<PathBuf>,
-    /// Folder of the documentation: given, the published problems go to benches/studies/tables, and its images/ the picture.
+    /// Folder of the documentation; with it the published problems go to benches/studies/tables, and the picture to its
+    /// images/.
     #[arg(long, requires = "published")]
     docs: Option<PathBuf>,
 }
@@ -71,7 +72,7 @@ pub(crate) fn run(options: &ContactProblemsOptions) -> Result<(), AnyError> {
 }
 
 fn print_row(operator: &str, friction: &str, tally: &ContactTally) {
-    let mean = tally.trials as f64 / (tally.problems - tally.failed).max(1) as f64;
+    let mean = tally.trials as f64 / (tally.problems - tally.failed_steps).max(1) as f64;
     println!(
         "| {operator} | {friction} | {} | {} | {} | {} | {mean:.2} | {} | {} | {} | {} | {} \
          | {:.0e} | {:.0e} |",
@@ -79,12 +80,12 @@ fn print_row(operator: &str, friction: &str, tally: &ContactTally) {
         tally.methods[0],
         tally.methods[1],
         tally.methods[2],
-        tally.most_trials,
-        tally.several,
-        tally.most_solutions,
-        tally.none,
-        tally.failed,
-        tally.violation,
-        tally.distance
+        tally.max_trials,
+        tally.ambiguous_problems,
+        tally.max_solutions,
+        tally.unsolvable_problems,
+        tally.failed_steps,
+        tally.max_violation,
+        tally.max_distance
     );
 }

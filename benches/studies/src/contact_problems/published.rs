@@ -67,7 +67,7 @@ impl PublishedProblem {
         })
     }
 
-    /// Solves it in one step of a body too heavy to move, on contact elements of 1 m².
+    /// Solves the problem in one step of a body too heavy to move, on contact elements of 1 m².
     fn solve(&self) -> Result<PublishedSolution, AnyError> {
         let count = self.friction.len();
         let size = self.velocity.len();
@@ -195,7 +195,7 @@ pub(super) fn run(folder: &Path, docs: Option<&Path>) -> Result<(), AnyError> {
             Err(error) => {
                 let message = error.to_string();
                 let shown = message.strip_prefix("step 1 (t = 1 s): ").unwrap_or(&message);
-                // Without elements and values.
+                // The text without elements and values.
                 let shown = shown.split([':', ',']).next().unwrap_or_default();
                 writeln!(text, " {shown} | | | |")?;
                 if kind == 0 {

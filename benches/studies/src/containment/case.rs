@@ -16,20 +16,20 @@ pub(crate) struct ContainmentCase {
     pub(crate) friction: Option<f64>,
 }
 
-/// A case that has run.
+/// Results of a case.
 pub(crate) struct ContainmentOutcome {
     pub(crate) case: ContainmentCase,
     pub(crate) run: Run,
     /// With the probes of [`Containment::probes`], and "foundation", the acceleration of the foundation's top.
     pub(crate) time_series: TimeSeries,
-    /// Of the superstructure, kg/m.
+    /// Mass of the superstructure, kg/m.
     pub(crate) superstructure_mass: f64,
     /// Largest base shear at the foundation–superstructure interface, N/m.
     pub(crate) peak_shear: f64,
-    /// Largest displacement of the roof corner to a side, relative to the free field's start, and upwards, m.
+    /// Largest displacement of the roof corner to a side, relative to the start of the free field, and upwards, m.
     pub(crate) peak_roof: f64,
     pub(crate) peak_lift: f64,
-    /// Largest horizontal displacement of the roof corner against the base, m.
+    /// Largest horizontal displacement of the roof corner relative to the base, m.
     pub(crate) peak_sway: f64,
 }
 
@@ -52,7 +52,7 @@ impl ContainmentCase {
         Some(PAPER_SHEARS[row])
     }
 
-    /// Runs so many seconds of El Centro.
+    /// Runs El Centro for `duration`, s.
     pub(crate) fn run(
         &self,
         scene: Containment,

@@ -1,4 +1,4 @@
-//! Table 1, the paper's conclusions in figures, comma-separated files, and the paper's pictures as it draws them.
+//! Table 1, the paper's conclusions in figures, comma-separated files, and the pictures of the paper.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn change(value: f64, reference: f64) -> String {
 
 /// Difference between the shear of a rigid superstructure and the computed shear, as a ratio of root mean squares.
 ///
-/// The rigid superstructure moves as the foundation's top does.
+/// The rigid superstructure moves as the top of the foundation.
 fn rigid_difference(outcome: &ContainmentOutcome) -> Result<f64, AnyError> {
     let shear = outcome.time_series.probe("base shear")?;
     let foundation = outcome.time_series.probe("foundation")?;
@@ -218,7 +218,7 @@ pub(crate) fn compare_meshes(
     )
 }
 
-/// Draws the paper's Figs. 4, 5 and 6 as the paper does, uplift only and friction 0.4, and the slip of the base.
+/// Draws Figs. 4, 5 and 6 of the paper, uplift only and friction 0.4, and the slip of the base.
 pub(crate) fn draw(folder: &Path, results: &[ContainmentOutcome]) -> Result<(), AnyError> {
     let shown: Vec<&ContainmentOutcome> = results
         .iter()

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use basemat::fem::Material;
 use basemat_problems::space_beams::{
-    chain, hinged_cantilever, rectangle, sheared, straight_cantilever, twisted_cantilever,
+    chain, hinged_cantilever, rectangle, section_with_shear, straight_cantilever,
+    twisted_cantilever,
 };
 use basemat_problems::supported::{RX, X, Y, Z};
 
@@ -75,7 +76,7 @@ pub(super) fn run(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     straight(rows);
     curved(rows)?;
     twisted(rows);
-    let stiffness = 1.0 / hinged_cantilever(sheared());
+    let stiffness = 1.0 / hinged_cantilever(section_with_shear());
     rows.put("hinge at end 2: lateral stiffness", "N/m", "1", stiffness);
     Ok(())
 }

@@ -13,7 +13,7 @@ fn lines(rows: &mut BenchmarkRows, counts @ [nx, ny, nz]: [usize; 3]) {
         for j in 0..=ny {
             if i == 0 || i == nx || j == 0 || j == ny {
                 let node = block.node([i, j, 0]);
-                block.scene.hold(node, &[Z]);
+                block.scene.fix(node, &[Z]);
             }
         }
     }
@@ -26,7 +26,7 @@ fn lines(rows: &mut BenchmarkRows, counts @ [nx, ny, nz]: [usize; 3]) {
     }
 }
 
-/// Whether upper and lower face move against each other in their planes.
+/// Whether upper and lower face move in opposite directions in their planes.
 fn is_flexural(block: &BrickGrid, [nx, ny, nz]: [usize; 3], mode: &Vibration) -> bool {
     let mut product = 0.0;
     for i in 0..=nx {

@@ -2,7 +2,7 @@
 
 use basemat::fem::{BeamSection, Direction};
 use basemat_problems::columns;
-use basemat_problems::space_beams::{section, sheared};
+use basemat_problems::space_beams::{section, section_with_shear};
 use basemat_problems::supported::{CLAMPED_DIRECTIONS, RX, RY, RZ, X, Y, Z};
 
 use super::row::BenchmarkRows;
@@ -24,7 +24,7 @@ fn supported(rows: &mut BenchmarkRows, section: BeamSection, name: &str) {
 
 pub(super) fn run(rows: &mut BenchmarkRows) {
     supported(rows, section(), "Euler");
-    supported(rows, sheared(), "with shear (Engesser)");
+    supported(rows, section_with_shear(), "with shear (Engesser)");
     for count in [2, 4, 8] {
         let benchmark = "buckling of a cantilever by its weight";
         rows.put(benchmark, "q L, N", &count.to_string(), columns::self_weight_buckling(count));

@@ -56,7 +56,7 @@ impl ClampedContainment {
             }
         }
         for &node in &rings[0] {
-            surface.scene.hold(node, &CLAMPED_DIRECTIONS);
+            surface.scene.fix(node, &CLAMPED_DIRECTIONS);
         }
         Ok(Self { surface, rings })
     }

@@ -43,7 +43,7 @@ pub(crate) struct ElementsOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/elements")]
     out: PathBuf,
-    /// Folder of the documentation: given, the tables go to benches/studies/tables.
+    /// Folder of the documentation; with it the tables go to benches/studies/tables.
     #[arg(long, conflicts_with = "short")]
     docs: Option<PathBuf>,
 }

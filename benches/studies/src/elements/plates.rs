@@ -17,7 +17,7 @@ fn plate(count: usize, pattern: ShellPattern, thickness: f64) -> Result<SquarePl
     let mut surface = ShellSurface::new(Material::new(200.0e9, 0.3, 8000.0)?, thickness);
     let nodes = surface.grid([count; 2], pattern, |x, y| [10.0 * x, 10.0 * y, 0.0])?;
     for &node in nodes.iter().flatten() {
-        surface.scene.hold(node, &[X, Y, RZ]);
+        surface.scene.fix(node, &[X, Y, RZ]);
     }
     Ok(SquarePlate { surface, nodes })
 }
@@ -50,7 +50,7 @@ pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError>
             put(rows, &[name], &mesh, &free, 4, 9, 30.0);
             let mut cantilever = plate(count, pattern, 0.05)?;
             for &node in &cantilever.nodes[0] {
-                cantilever.surface.scene.hold(node, &CLAMPED_DIRECTIONS);
+                cantilever.surface.scene.fix(node, &CLAMPED_DIRECTIONS);
             }
             let name = "NAFEMS FV16 cantilevered thin square plate";
             put(rows, &[name], &mesh, &cantilever, 1, 6, 0.0);
@@ -75,10 +75,10 @@ pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError>
                 let SquarePlate { mut surface, nodes } = plate(count, pattern, thickness)?;
                 for k in 0..=count {
                     for node in [nodes[0][k], nodes[count][k]] {
-                        surface.scene.hold(node, &[Z, RX]);
+                        surface.scene.fix(node, &[Z, RX]);
                     }
                     for node in [nodes[k][0], nodes[k][count]] {
-                        surface.scene.hold(node, &[Z, RY]);
+                        surface.scene.fix(node, &[Z, RY]);
                     }
                 }
                 let hard = SquarePlate { surface, nodes };

@@ -149,7 +149,7 @@ fn on_springs(rows: &mut BenchmarkRows, count: usize) -> Result<(), AnyError> {
         raft.surface.scene.add(SpringElement { nodes: corners, stiffness: 20.0e6 });
     }
     for &node in raft.nodes.iter().flatten() {
-        raft.surface.scene.hold(node, &[X, Y, RZ]);
+        raft.surface.scene.fix(node, &[X, Y, RZ]);
     }
     let forces: Vec<_> =
         loads(&raft.nodes).into_iter().map(|(node, force)| (node, Z, -force)).collect();

@@ -113,7 +113,7 @@ const TABLE_LINES: &[TableLine] = &[
     ("containment R=20 H=45 t=1.2/0.9", WAVE_QUANTITIES, &["48x(24+15) consistent"]),
 ];
 
-/// Five digits.
+/// A number with five digits.
 fn digits(value: f64) -> String {
     let magnitude = value.abs();
     if (1e-3..1e5).contains(&magnitude) {

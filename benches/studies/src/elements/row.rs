@@ -146,7 +146,7 @@ impl BenchmarkRows {
             let mut row =
                 BenchmarkRow::new("raft", grounds[k], quantities[k], solutions[k], tabled);
             if !is_winkler && !has_cell_for_each_element(solutions[k]) {
-                // Two elements a cell: the other program takes other means.
+                // Two elements a cell: the other program uses other means.
                 row.tolerance = 1e-2;
             }
             row.target = raft_target(is_winkler, quantities[k], solutions[k]);

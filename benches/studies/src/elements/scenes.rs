@@ -19,12 +19,20 @@ pub(super) fn run(short: bool) -> Result<String, AnyError> {
     for reason in &outcome.refused {
         println!("{reason}");
     }
-    let FlexibleSceneTotals { scenes, steps, reduced, opened, slid, refused, residual, returned } =
-        &outcome;
+    let FlexibleSceneTotals {
+        scenes,
+        steps,
+        reduced,
+        open_steps,
+        sliding_steps,
+        refused,
+        residual,
+        returned_energy,
+    } = &outcome;
     let text = format!(
         "| random scenes | in other coordinates | not run | steps | with an open cell | with a cell that slides | largest \
          energy error | energy returned by the soil |\n|---|---|---|---|---|---|---|---|\n\
-         | {scenes} | {reduced} | {} | {steps} | {opened} | {slid} | {residual:.1e} | {returned:.1e} |",
+         | {scenes} | {reduced} | {} | {steps} | {open_steps} | {sliding_steps} | {residual:.1e} | {returned_energy:.1e} |",
         refused.len()
     );
     println!("{text}");

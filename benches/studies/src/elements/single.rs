@@ -1,10 +1,10 @@
-//! Single elements and patches: uniform states, rigid_motion motions, renumbered nodes, the beam of the plane.
+//! Single elements and patches: uniform states, rigid motions, renumbered nodes, the beam of the plane.
 
 use basemat::fem::{Beam, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
 use basemat_problems::bricks::DISTORTED_BRICK;
 use basemat_problems::dense::{eigenpairs, largest};
 use basemat_problems::patch::{PATCH_NODES, PATCH_QUADS, SHELL_STATES, bricks, field};
-use basemat_problems::space_beams::{concrete, sheared};
+use basemat_problems::space_beams::{concrete, section_with_shear};
 use basemat_problems::supported::{
     CLAMPED_DIRECTIONS, ElementMatrix, RZ, SupportedMesh, X, Y, Z, rigid_motion, values,
 };
@@ -34,7 +34,7 @@ fn patch_error(mut scene: SupportedMesh, inner: usize, state: &[[f64; 6]]) -> f6
     }
     for (node, forces) in forces.iter().enumerate() {
         if node < inner {
-            scene.hold(node, &CLAMPED_DIRECTIONS);
+            scene.fix(node, &CLAMPED_DIRECTIONS);
         }
         loads.extend(
             CLAMPED_DIRECTIONS
@@ -99,7 +99,7 @@ fn samples() -> Result<Vec<ElementSample>, AnyError> {
         Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)),
         brick,
     ));
-    let beam = SpaceBeam::new([0, 1], concrete, sheared(), [1.0, 1.0, 0.2])?
+    let beam = SpaceBeam::new([0, 1], concrete, section_with_shear(), [1.0, 1.0, 0.2])?
         .with_offsets([[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]])?;
     samples.push((
         "SpaceBeam with offsets",
@@ -176,8 +176,8 @@ fn in_the_plane(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
         let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)?
             .with_shear_stiffness(12.5e9 * 0.1)?
             .with_rotary_inertia();
-        let beam =
-            SpaceBeam::new([0, 1], concrete(), sheared(), [0.0, 1.0, 0.0])?.with_rotary_inertia();
+        let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [0.0, 1.0, 0.0])?
+            .with_rotary_inertia();
         let displacement = [1e-3, 2e-3, 1e-3, -2e-3, -1e-3, 3e-3];
         let mut in_space = [0.0; 12];
         for k in 0..6 {
@@ -222,7 +222,7 @@ fn clamped_squares(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
             for (i, row) in nodes.iter().enumerate() {
                 for (j, &node) in row.iter().enumerate() {
                     let is_edge = [i, j].iter().any(|&k| k == 0 || k == 8);
-                    plate.scene.hold(node, if is_edge { &CLAMPED_DIRECTIONS } else { &[X, Y, RZ] });
+                    plate.scene.fix(node, if is_edge { &CLAMPED_DIRECTIONS } else { &[X, Y, RZ] });
                 }
             }
             let mut loads = Vec::new();

@@ -27,7 +27,7 @@ fn straight(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                     [6.0 * along + slant * (1.0 - 2.0 * across), 0.2 * across, 0.0]
                 })?;
                 for &node in &nodes[0] {
-                    strip.scene.hold(node, &CLAMPED_DIRECTIONS);
+                    strip.scene.fix(node, &CLAMPED_DIRECTIONS);
                 }
                 let tip = &nodes[count];
                 let torque: Vec<NodalLoad> = vec![(tip[0], Z, -5.0), (tip[1], Z, 5.0)];
@@ -60,7 +60,7 @@ fn curved(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                 [radius * cosine, radius * sine, 0.0]
             })?;
             for &node in &nodes[0] {
-                strip.scene.hold(node, &CLAMPED_DIRECTIONS);
+                strip.scene.fix(node, &CLAMPED_DIRECTIONS);
             }
             for (quantity, direction) in [("in-plane", Y), ("out-of-plane", Z)] {
                 let displacement = strip.scene.solve(&spread(&nodes[nx], direction, 1.0));
@@ -88,7 +88,7 @@ fn twisted(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                     [12.0 * along, offset * cosine, offset * sine]
                 })?;
                 for &node in &nodes[0] {
-                    strip.scene.hold(node, &CLAMPED_DIRECTIONS);
+                    strip.scene.fix(node, &CLAMPED_DIRECTIONS);
                 }
                 for (quantity, direction) in
                     [("along the width of the tip (in-plane)", Z), ("across (out-of-plane)", Y)]
@@ -131,7 +131,7 @@ fn z_beam(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                 [10.0 * along, y, z]
             })?;
             for &node in &nodes[0] {
-                beam.scene.hold(node, &CLAMPED_DIRECTIONS);
+                beam.scene.fix(node, &CLAMPED_DIRECTIONS);
             }
             let end = &nodes[along];
             let mut loads = spread(&end[..=factor], Y, 0.6e6);

@@ -20,9 +20,9 @@ fn roof(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                 [25.0 * along, 25.0 * sine, 25.0 * cosine]
             })?;
             for k in 0..=count {
-                roof.scene.hold(nodes[0][k], &[X, RY, RZ]);
-                roof.scene.hold(nodes[k][0], &[Y, RX, RZ]);
-                roof.scene.hold(nodes[count][k], &[Y, Z]);
+                roof.scene.fix(nodes[0][k], &[X, RY, RZ]);
+                roof.scene.fix(nodes[k][0], &[Y, RX, RZ]);
+                roof.scene.fix(nodes[count][k], &[Y, Z]);
             }
             let mut loads: Vec<NodalLoad> = Vec::new();
             for shell in &roof.shells {
@@ -55,10 +55,10 @@ fn cylinder(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
                 [300.0 * along, 300.0 * sine, 300.0 * cosine]
             })?;
             for k in 0..=count {
-                pipe.scene.hold(nodes[0][k], &[X, RY, RZ]);
-                pipe.scene.hold(nodes[k][0], &[Y, RX, RZ]);
-                pipe.scene.hold(nodes[k][count], &[Z, RX, RY]);
-                pipe.scene.hold(nodes[count][k], &[Y, Z]);
+                pipe.scene.fix(nodes[0][k], &[X, RY, RZ]);
+                pipe.scene.fix(nodes[k][0], &[Y, RX, RZ]);
+                pipe.scene.fix(nodes[k][count], &[Z, RX, RY]);
+                pipe.scene.fix(nodes[count][k], &[Y, Z]);
             }
             let load = nodes[0][0];
             let value = pipe.scene.solve(&[(load, Z, -0.25)])(load, Z);
@@ -83,12 +83,12 @@ fn hemisphere(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
                 [radius * east.cos(), radius * east.sin(), 10.0 * north.sin()]
             })?;
             for k in 0..=count {
-                dome.scene.hold(nodes[0][k], &[Y, RX, RZ]);
-                dome.scene.hold(nodes[count][k], &[X, RY, RZ]);
+                dome.scene.fix(nodes[0][k], &[Y, RX, RZ]);
+                dome.scene.fix(nodes[count][k], &[X, RY, RZ]);
             }
             let pulled = nodes[0][0];
             let pushed = nodes[count][0];
-            dome.scene.hold(pulled, &[Z]);
+            dome.scene.fix(pulled, &[Z]);
             let value = dome.scene.solve(&[(pulled, X, 1.0), (pushed, Y, -1.0)])(pulled, X);
             let mesh = format!("{} {count}x{count}", pattern.element());
             rows.put("hemisphere with 18 degree hole", "ux under the load", &mesh, value);
@@ -138,17 +138,17 @@ fn closed_hemisphere(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
             let points = dome.scene.mesh.nodes().to_vec();
             for (node, [x, y, _]) in points.into_iter().enumerate() {
                 if x.abs() < 1e-9 {
-                    dome.scene.hold(node, &[X, RY, RZ]);
+                    dome.scene.fix(node, &[X, RY, RZ]);
                 }
                 if y.abs() < 1e-9 {
-                    dome.scene.hold(node, &[Y, RX, RZ]);
+                    dome.scene.fix(node, &[Y, RX, RZ]);
                 }
             }
             let mesh = &dome.scene.mesh;
             let pole = mesh.node_at_point([0.0, 0.0, 10.0])?;
             let pulled = mesh.node_at_point([10.0, 0.0, 0.0])?;
             let pushed = mesh.node_at_point([0.0, 10.0, 0.0])?;
-            dome.scene.hold(pole, &CLAMPED_DIRECTIONS);
+            dome.scene.fix(pole, &CLAMPED_DIRECTIONS);
             let value = dome.scene.solve(&[(pulled, X, 2e3), (pushed, Y, -2e3)])(pulled, X);
             let mesh = format!("{} 3 patches {count}x{count}", pattern.element());
             rows.put("NAFEMS LE3 hemisphere, point loads", "ux at A, m", &mesh, value);

@@ -1,4 +1,4 @@
-//! Motion of a rigid, massless body in a trench under vertical shear waves, beside the cosine rule of practice.
+//! Motion of a rigid, massless body in a trench under vertical shear waves, beside the cosine rule used in practice.
 //!
 //! The rule: the translation is cos(ωd/c_S), the motion of the free field at the depth of the base, up to 0.7 of the
 //! first frequency of the soil beside the body, and constant beyond.

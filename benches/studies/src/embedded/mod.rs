@@ -16,13 +16,13 @@ use crate::document::splice;
 /// Structures in a trench: accuracy against work, kinematic interaction, pressures on walls.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EmbeddedOptions {
-    /// Few elements, steps and scenes, to see that all works.
+    /// Few elements, steps and scenes, as a test.
     #[arg(long)]
     short: bool,
     /// Folder for the files.
     #[arg(long, default_value = "target/study/embedded")]
     out: PathBuf,
-    /// Folder of the documentation: given, the tables go to benches/studies/tables.
+    /// Folder of the documentation; with it the tables go to benches/studies/tables.
     #[arg(long, conflicts_with = "short")]
     docs: Option<PathBuf>,
     /// Only this part: accuracy, kinematics or pressures.

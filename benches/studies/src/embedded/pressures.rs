@@ -1,6 +1,6 @@
 //! Pressures on the walls of a rigid basement under El Centro, beside closed forms for retaining walls.
 //!
-//! Increments of thrust are divided by k_h γ H²: k_h the peak of the surface's acceleration over gravity, γ the soil's
+//! Increments of thrust are divided by k_h γ H²: k_h the peak acceleration of the surface relative to gravity, γ the soil's
 //! weight, H the depth.
 
 use std::fmt::Write as _;
@@ -29,7 +29,7 @@ const FRICTION_ANGLE: f64 = 35.0;
 const RIGID_BODIES: [(&str, f64, f64); 2] =
     [("box, ρ = 950", BASEMENT_DEPTH, 950.0), ("20 m high, ρ = 400", 20.0, 400.0)];
 
-/// Coefficient of active pressure of a smooth vertical wall with level backfill (Mononobe 1929, Okabe 1926).
+/// Coefficient of active pressure of a frictionless vertical wall with level backfill (Mononobe 1929, Okabe 1926).
 fn active(friction: f64, horizontal: f64) -> f64 {
     let inclination = horizontal.atan();
     let root = friction.sin() * (friction - inclination).sin() / inclination.cos();

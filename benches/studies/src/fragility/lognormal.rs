@@ -65,7 +65,7 @@ fn log_normal(z: f64) -> f64 {
     normal(z).ln()
 }
 
-/// Logarithm of a level from their mean, and the runs there beyond and within the limit.
+/// Logarithm of a level from their mean, and its numbers of runs beyond and within the limit.
 struct ProbitPoint {
     y: f64,
     exceeded: f64,
@@ -91,7 +91,7 @@ fn newton(points: &[ProbitPoint]) -> [f64; 2] {
         let Derivatives { ga, gb, haa, hab, hbb } = derivatives(points, coefficients);
         let determinant = haa * hbb - hab * hab;
         let step = [(hbb * ga - hab * gb) / determinant, (haa * gb - hab * ga) / determinant];
-        // ln L is concave, so that a step that is short enough increases it.
+        // ln L is concave, so that a sufficiently short step increases it.
         let mut fraction = 1.0;
         loop {
             let next = [coefficients[0] + fraction * step[0], coefficients[1] + fraction * step[1]];
@@ -204,7 +204,7 @@ pub(crate) fn curve(stripes: &[Stripe]) -> Option<FragilityCurve> {
 /// Whether each record, row by row, exceeds the limit at each level; `None` for a run that failed.
 pub(crate) type Outcomes = Vec<Vec<Option<bool>>>;
 
-/// Counts of some records, which may come several times.
+/// Counts of some records, which may be repeated.
 pub(crate) fn stripes<'a>(
     levels: &[f64],
     records: impl Iterator<Item = &'a Vec<Option<bool>>>,
@@ -256,7 +256,7 @@ pub(crate) struct FragilityGroup {
     pub(crate) width: f64,
     pub(crate) stripes: Vec<Stripe>,
     pub(crate) fit: Option<Fit>,
-    /// Of the bootstrap.
+    /// Curves of the bootstrap.
     pub(crate) samples: Vec<FragilityCurve>,
 }
 

@@ -7,10 +7,9 @@
 //! ```
 //!
 //! A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are scaled to levels of
-//! peak ground velocity. Where the demand (residual slip, unless another column is given) exceeds its limit, a run
-//! counts; a lognormal curve is fitted to the counts of each friction and width by maximum likelihood. Bands hold 90 %
-//! of the curves of a bootstrap over the motions: the motions at one level are the same as at the next, so that runs
-//! are not independent.
+//! peak ground velocity. Runs whose demand (by default the residual slip) exceeds its limit are counted; a lognormal
+//! curve is fitted to the counts of each friction and width by maximum likelihood. Bands contain 90 % of the curves of
+//! a bootstrap over the motions: all levels have the same motions, so that runs are not independent.
 //!
 //! Cases are rows of one table. The row of a case that fails states the reason; it is not counted.
 //! A run that is stopped continues from its table; `docs/guide.md`, Sweeps, distributes it over a cluster.
@@ -43,22 +42,22 @@ const BOOTSTRAP_SAMPLES: usize = 1000;
 /// Fragility of a shear building that may uplift and slide: friction × width × motions × intensities.
 ///
 /// Writes the table of all cases, the fitted curves and a picture. A shard writes its part of the table
-/// only, and goes on where it was if it is started again.
+/// only, and continues it if it is started again.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct FragilityOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/fragility")]
     pub(crate) out: PathBuf,
-    /// Runs share I of N only, from 0: `--shard 3/16`.
+    /// Runs part I of N only, from 0: `--shard 3/16`.
     #[arg(long, value_parser = shard, conflicts_with = "merge")]
     pub(crate) shard: Option<Shard>,
-    /// Runs nothing: merges the shards in the folder, and fits.
+    /// Merges the shards in the folder and fits, without runs.
     #[arg(long)]
     pub(crate) merge: bool,
-    /// Threads; more than one need the feature `rayon`, which takes all processors unless told.
+    /// Threads; more than one need the feature `rayon`, which uses all processors by default.
     #[arg(long)]
     pub(crate) threads: Option<usize>,
-    /// Few cases, in seconds: to see that all works.
+    /// Few cases, as a test in seconds.
     #[arg(long)]
     pub(crate) short: bool,
     /// Column of the table that is compared with the limit.
@@ -67,7 +66,7 @@ pub(crate) struct FragilityOptions {
     /// Limit of the demand, in the column's unit.
     #[arg(long, default_value_t = 0.05)]
     pub(crate) limit: f64,
-    /// Prints the table of all cases, too.
+    /// Also prints the table of all cases.
     #[arg(long)]
     pub(crate) table: bool,
 }

@@ -34,7 +34,7 @@ impl Pulse {
         0.5 * (1.0 + slow.cos()) * fast.cos()
     }
 
-    /// Its derivative, m/s².
+    /// Acceleration at `time` for A = 1 m/s, m/s².
     pub(crate) fn acceleration(&self, time: f64) -> f64 {
         let angle = self.angle(time);
         let slow = angle / self.oscillations;
@@ -43,7 +43,7 @@ impl Pulse {
         -PI / self.period * (envelope_term + (1.0 + slow.cos()) * fast.sin())
     }
 
-    /// 2πf(t − t₀), constant outside the pulse, which ends at rest.
+    /// 2πf(t − t₀), constant outside the pulse, where the velocity is zero.
     fn angle(&self, time: f64) -> f64 {
         let angle = TAU * (time - 0.5 * self.duration()) / self.period;
         let end = PI * self.oscillations;

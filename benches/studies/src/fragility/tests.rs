@@ -1,6 +1,6 @@
 //! GOAL: the study fits the curves of the largest likelihood and estimates their confidence. SCENE: counts that are
-//! published, made by formula, or drawn. REFERENCE: probit regression in the literature, a search over the likelihood
-//! with a normal distribution by Simpson's rule, and the curves that counts were made of.
+//! published, computed from curves, or random. REFERENCE: probit regression in the literature, a search over the likelihood
+//! with a normal distribution by Simpson's rule, and the curves of the counts.
 
 use super::lognormal::{FragilityCurve, Stripe, curve, fit, normal, quantile, resampled, stripes};
 use super::motions::Pulse;
@@ -27,7 +27,7 @@ fn integrated(z: f64) -> f64 {
 }
 
 #[test]
-fn the_normal_distribution() {
+fn the_normal_distribution_is_the_integral_of_its_density() {
     for z in [-6.0, -2.5, -1.0, 0.0, 0.3, 1.96, 5.0] {
         assert!((normal(z) - integrated(z)).abs() < 1e-13, "{z}");
     }
@@ -37,7 +37,7 @@ fn the_normal_distribution() {
 /// regression on the logarithm of the dose in Dobson and Barnett, "An introduction to generalized
 /// linear models", 3rd edition, table 7.4: −34.94 (standard error 2.64) and 19.73 (1.48).
 #[test]
-fn bliss_1935_beetles() {
+fn the_beetles_of_bliss_1935_have_the_published_fit() {
     let doses = [1.6907, 1.7242, 1.7552, 1.7842, 1.8113, 1.8369, 1.8610, 1.8839];
     let levels = doses.map(|dose: f64| 10.0_f64.powf(dose));
     let beetles = [59.0, 60.0, 62.0, 56.0, 63.0, 59.0, 62.0, 60.0];
@@ -54,7 +54,7 @@ fn bliss_1935_beetles() {
 }
 
 #[test]
-fn expected_counts_give_their_curve_back() {
+fn fits_of_expected_counts_are_their_curves() {
     let levels = [0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5];
     for (median, dispersion) in [(0.5, 0.3), (1.2, 0.8), (0.15, 0.4), (30.0, 1.5), (1e-3, 2.0)] {
         let counts = levels.map(|level: f64| 40.0 * integrated((level / median).ln() / dispersion));
@@ -65,7 +65,7 @@ fn expected_counts_give_their_curve_back() {
     }
 }
 
-/// No neighbour on a fine grid is likelier, and the Fisher information is the curvature there.
+/// No neighbour on a fine grid has a higher likelihood, and the Fisher information is the curvature there.
 #[test]
 fn the_likelihood_is_highest_at_the_fit() {
     let levels = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0];
@@ -121,7 +121,7 @@ fn the_likelihood_is_highest_at_the_fit() {
 }
 
 #[test]
-fn counts_without_a_finite_fit() {
+fn counts_without_a_finite_fit_have_a_step_or_no_curve() {
     let levels = [0.5, 1.0, 2.0];
     let of_four_runs = |counts: [f64; 3]| counted(&levels, &[4.0; 3], &counts);
     for (counts, median) in [
@@ -140,10 +140,10 @@ fn counts_without_a_finite_fit() {
     for (median, probability) in [(0.0, 1.0), (f64::INFINITY, 0.0)] {
         assert_eq!(FragilityCurve { median, dispersion: 0.0 }.probability(1.0), probability);
     }
-    // Fewer at higher levels, and no runs at all.
+    // Fewer runs beyond the limit at higher levels, and no runs at all.
     assert_eq!(curve(&of_four_runs([3.0, 2.0, 1.0])), None);
     assert_eq!(fit(&counted(&levels, &[0.0; 3], &[0.0; 3])), None);
-    // A level whose runs all failed does not matter.
+    // A level whose runs all failed has no effect.
     let counts = of_four_runs([1.0, 2.0, 3.0]);
     let mut with_failed_level = counts.clone();
     with_failed_level.push(Stripe { level: 3.0, runs: 0.0, exceeded: 0.0 });
@@ -155,8 +155,8 @@ fn counts_without_a_finite_fit() {
     );
 }
 
-/// Motions have capacities drawn from a lognormal distribution, and exceed at every level above: the
-/// bootstrap's band contains the true median in 90 of 100 cases, errors of independent runs do not.
+/// Motions have capacities from a lognormal distribution, and exceed the limit at every level above: the
+/// band of the bootstrap contains the true median in about 90 of 100 cases, the band of independent runs in far fewer.
 #[test]
 fn bands_contain_the_true_median() {
     let median = 0.8;
@@ -199,7 +199,7 @@ fn bands_contain_the_true_median() {
 }
 
 #[test]
-fn pulses_are_derivatives_of_their_velocities() {
+fn accelerations_of_pulses_are_derivatives_of_their_velocities() {
     for (period, oscillations, phase) in [(0.6, 1.3, 0.0), (1.6, 2.0, 90.0), (2.5, 3.0, 45.0)] {
         let pulse = Pulse { period, oscillations, phase };
         let end = pulse.duration();

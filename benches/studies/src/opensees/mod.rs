@@ -7,7 +7,7 @@
 //! cargo study opensees --elements 16 --step 0.002 --friction
 //! ```
 //!
-//! The scene is in `scene.json`, which the other half reads too; `compare.py` runs both and prints
+//! The scene is in `scene.json`, also for the other half; `compare.py` runs both and prints
 //! their differences and run times. Prints time series of the block.
 
 use std::io::{BufWriter, Write};
@@ -81,7 +81,7 @@ pub(crate) fn run(options: &OpenseesOptions) -> Result<(), AnyError> {
         .structure(block)
         .interface(law)
         .gravity(number("gravity")?)
-        // As in the finite elements: friction acts while the weight comes on.
+        // As in the finite elements: friction acts while the weight is applied.
         .gravity_stage(GravityStage::Frictional)
         .motion(pulse)
         .probe(Probe::displacement("roof", roof.clone()))

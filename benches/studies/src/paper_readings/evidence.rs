@@ -35,7 +35,7 @@ fn with_crate_scheme(reading: &PaperReading) -> PaperReading {
     PaperReading { law: InterfaceReading::Hard, scheme: SchemeReading::Midpoint, ..reading.clone() }
 }
 
-/// Peak shear with friction 0.4, as printed, over the peak with uplift only.
+/// Peak shear with friction 0.4 relative to the peak with uplift only.
 fn sliding_ratio(reading: &PaperReading) -> Option<f64> {
     let uplift = reading.run(1).ok()?.shear[0];
     let sliding = reading.run(2).ok()?.shear[0];
@@ -83,7 +83,7 @@ pub(crate) fn print_geometries(reading: &PaperReading, short: bool) {
     );
 }
 
-/// Root mean square of the log ratios of some rows to the paper's.
+/// Root mean square of the logarithms of some rows relative to those of the paper.
 fn misfit(reading: &PaperReading, rows: &[usize]) -> f64 {
     let logarithms: Result<Vec<f64>, _> = rows
         .iter()
@@ -99,7 +99,7 @@ struct Geometry {
     misfit: f64,
 }
 
-/// Geometry of the smallest `misfit` near `start`, by smaller and smaller steps; with `short` one step.
+/// Geometry of the smallest `misfit` near `start`, by decreasing steps; with `short` one step.
 fn refine(misfit: &impl Fn([f64; 2]) -> f64, start: Geometry, short: bool) -> Geometry {
     let mut best = start;
     let mut step = 0.16;
@@ -147,7 +147,7 @@ pub(crate) fn print_calibration(reading: &PaperReading, short: bool) {
     }
 }
 
-/// Prints width and height that fit Table 1 best, by a coarse grid, then smaller and smaller steps.
+/// Prints width and height that fit Table 1 best, by a coarse grid, then decreasing steps.
 pub(crate) fn print_search(reading: &PaperReading, short: bool) {
     let reading = with_crate_scheme(reading);
     println!();

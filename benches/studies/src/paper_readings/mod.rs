@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Structure, soil and record are as in the example `containment`, the soil by the crate's half-plane. The interface is
-//! the paper's layer and the time scheme Newmark's, unless the options say otherwise.
+//! the paper's layer and the time scheme Newmark's, unless other options are set.
 
 mod evidence;
 mod forcing;
@@ -106,7 +106,7 @@ pub(crate) struct PaperReadingsOptions {
     /// All readings, then geometries and searches.
     #[arg(long)]
     all: bool,
-    /// Three seconds of the record, few readings and geometries: to see that all works, not to be quoted.
+    /// Three seconds of the record, few readings and geometries, as a test.
     #[arg(long)]
     short: bool,
     /// Folder for readings.csv.

@@ -21,37 +21,37 @@ pub(crate) struct PaperReading {
     /// Rule for the sense of slip.
     #[arg(long, value_enum, default_value = "inelastic")]
     pub(crate) sense: SlipSenseReading,
-    /// Share of the shear stiffness left in slip.
+    /// Fraction of the shear stiffness left in slip.
     #[arg(long, default_value_t = 0.0)]
     pub(crate) slip_shear: f64,
-    /// Share of the normal stiffness left in slip.
+    /// Fraction of the normal stiffness left in slip.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) slip_normal: f64,
-    /// Share of the stiffness left in debonding.
+    /// Fraction of the stiffness left in debonding.
     #[arg(long, default_value_t = 1e-3)]
     pub(crate) debonded: f64,
     /// Thickness of the layer over the height of the element beside it.
     #[arg(long, default_value_t = 0.1)]
     pub(crate) ratio: f64,
-    /// Height of the element beside the layer, ft; a layer of the mesh unless given.
+    /// Height of the element beside the layer, ft; by default a layer of the mesh.
     #[arg(long)]
     pub(crate) neighbour: Option<f64>,
-    /// Share of the static pressure that friction feels, with `--limit lagged`.
+    /// Fraction of the static pressure that counts for friction, with `--limit lagged`.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) static_share: f64,
-    /// Change modes by what the step before ended with, without iteration.
+    /// Modes by the end of the step before, without iteration.
     #[arg(long)]
     pub(crate) lag_modes: bool,
     /// Gravity over standard gravity: pressures under weight are multiplied, friction is not.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) gravity: f64,
-    /// Factor on all friction coefficients: the weight stays.
+    /// Factor on all friction coefficients, without effect on the weight.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) friction_factor: f64,
     /// Read μσ of eq. 12 as the force at a node, without the element's length in ft.
     #[arg(long)]
     pub(crate) length_left_out: bool,
-    /// Friction in slip over that which slip must overcome.
+    /// Kinetic friction relative to static friction.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) kinetic: f64,
     /// Add the free field's `[K]{δ}` to the forces, as eq. 21 is printed.
@@ -63,7 +63,7 @@ pub(crate) struct PaperReading {
     /// Contact length, ft (the default is calibrated on Table 1's first two rows).
     #[arg(long, default_value_t = 34.0)]
     pub(crate) width: f64,
-    /// Height, ft (calibrated likewise).
+    /// Height, ft (also calibrated).
     #[arg(long, default_value_t = 80.0)]
     pub(crate) height: f64,
     /// Factor on the foundation's density.
@@ -84,7 +84,7 @@ pub(crate) struct PaperReading {
     /// Elements integrated at their centre: constant strain, as the paper says.
     #[arg(long)]
     pub(crate) one_point: bool,
-    /// End a case where the paper's flow chart does not settle (instead of counting such steps).
+    /// End a case where the paper's flow chart does not converge (instead of counting such steps).
     #[arg(long)]
     pub(crate) flow_chart: bool,
     /// Seconds to compute.
@@ -119,7 +119,7 @@ pub(crate) enum LimitReading {
     Dynamic,
     /// Dynamic pressure where it compresses, lagged.
     Compression,
-    /// Mean static pressure, whatever gravity does elsewhere.
+    /// Mean static pressure under full gravity.
     Weight,
 }
 
@@ -131,7 +131,7 @@ pub(crate) enum SlipSenseReading {
 }
 
 impl PaperReading {
-    /// The model to be built.
+    /// The model of the reading.
     pub(crate) fn containment(&self) -> Containment {
         let paper = Containment::default();
         Containment {

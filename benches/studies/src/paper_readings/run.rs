@@ -21,7 +21,7 @@ pub(crate) struct ReadingResults {
     pub(crate) slip: f64,
     /// Largest absolute motion of A to a side, and upwards, m.
     pub(crate) roof: [f64; 2],
-    /// Steps in which the flow chart did not settle.
+    /// Steps in which the flow chart did not converge.
     pub(crate) cycles: usize,
 }
 

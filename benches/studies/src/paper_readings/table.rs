@@ -18,7 +18,7 @@ pub(crate) struct ReadingsTable {
 }
 
 impl ReadingsTable {
-    /// Prints the heading and makes readings.csv in `folder`.
+    /// Prints the heading and creates readings.csv in `folder`.
     pub(crate) fn new(folder: &Path) -> Result<Self, AnyError> {
         std::fs::create_dir_all(folder)?;
         let mut writer = Writer::from_path(folder.join("readings.csv"))?;

@@ -11,14 +11,14 @@ use cpu_time::ProcessTime;
 
 use super::scheme::ComparedScheme;
 
-/// Why a run ended.
+/// Cause of the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum MarchEnd {
-    /// With the record.
+    /// End of the record.
     Record,
     /// Base shear beyond the limit of [`march`].
     Grew,
-    /// The flow chart did not settle.
+    /// The flow chart did not converge.
     NoModes,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct MarchOutcome {
     pub(crate) shear: Vec<f64>,
     pub(crate) time_step: f64,
     pub(crate) end: MarchEnd,
-    /// Set-up and march.
+    /// Processor time of set-up and march.
     pub(crate) processor: Duration,
 }
 
@@ -57,7 +57,7 @@ pub(crate) fn march(
 }
 
 impl MarchOutcome {
-    /// When the run ended, s.
+    /// Time at the end of the run, s.
     pub(crate) fn time(&self) -> f64 {
         self.shear.len() as f64 * self.time_step
     }
@@ -67,7 +67,7 @@ impl MarchOutcome {
         self.shear.iter().take(steps).fold(0.0, |peak, shear| shear.abs().max(peak))
     }
 
-    /// Steps until the base shear differs by this fraction of `reference`'s peak from `reference`'s.
+    /// Steps until the base shear differs from that of `reference` by this fraction of its peak.
     pub(crate) fn steps_until_difference(&self, reference: &Self, fraction: f64) -> Option<usize> {
         let limit = fraction * reference.peak(usize::MAX);
         self.shear.iter().zip(&reference.shear).position(|(a, b)| (a - b).abs() > limit)
@@ -83,9 +83,9 @@ impl MarchOutcome {
         (difference / scale).sqrt()
     }
 
-    /// Growth per step of the difference from `reference` beyond `reference`'s peak, if it grew tenfold or more.
+    /// Growth per step of the difference from `reference` beyond the peak of `reference`, if it grew tenfold or more.
     ///
-    /// A factor minus one.
+    /// It is a factor minus one.
     pub(crate) fn growth(&self, reference: &Self) -> Option<f64> {
         let begin = self.steps_until_difference(reference, 1.0)?;
         let differences = self.shear.iter().zip(&reference.shear).map(|(a, b)| (a - b).abs());

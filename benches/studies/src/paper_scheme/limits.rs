@@ -78,7 +78,7 @@ fn step_count(scene: &PaperScene, duration: f64) -> usize {
     steps
 }
 
-/// Prints the table of steps and dampings, rows with contact.
+/// Prints the table of steps and dampings for the rows with contact.
 pub(crate) fn print(scene: &PaperScene, duration: f64, short: bool) -> Result<(), AnyError> {
     let limit = 1e6 * PAPER_SHEARS[0] * POUND_FORCE_PER_FOOT;
     let rows = &TABLE_1_ROWS[1..];

@@ -1,6 +1,6 @@
 //! The containment of Patel & Spyrakos by four schemes, on one mesh and record.
 //!
-//! The schemes are the paper's as far as it marches, the paper's with convolution quadrature in its soil, the paper's
+//! The schemes are the paper's up to its end, the paper's with convolution quadrature in its soil, the paper's
 //! with the soil of the half-plane, and the crate's.
 //!
 //! ```text
@@ -17,8 +17,8 @@
 //! | half-plane | half-plane kernel, element means | thin layer | Newmark | robust |
 //! | basemat | half-plane kernel, element means | Coulomb | midpoint rule | robust |
 //!
-//! The third separates the soil's part of the differences from the part of interface and structure. Peaks and
-//! differences of a run that grows are taken before it leaves the third by 30 % of its peak.
+//! The third separates the effect of the soil from the effects of interface and structure. Peaks and
+//! differences of a run that grows are those before it differs from the third by 30 % of its peak.
 
 mod case;
 mod limits;
@@ -45,10 +45,10 @@ pub(crate) struct PaperSchemeOptions {
     /// Folder for summary.csv and plots.
     #[arg(long, default_value = "target/study/paper_scheme")]
     out: PathBuf,
-    /// Folder of the documentation: the pictures that docs/paper.md shows go to images/ in it.
+    /// Folder of the documentation: the pictures of docs/paper.md go to images/ in it.
     #[arg(long)]
     docs: Option<PathBuf>,
-    /// Seconds to compute; the whole record unless given.
+    /// Seconds to compute, by default the whole record.
     #[arg(long)]
     duration: Option<f64>,
     /// Three seconds only.
@@ -60,8 +60,8 @@ pub(crate) struct PaperSchemeOptions {
     /// Traction-free elements on either side of the paper's base.
     #[arg(long, default_value_t = 5)]
     free: usize,
-    /// Midpoint rules over so many sub-elements in the paper's kernel (it has 5) in place of exact
-    /// integrals.
+    /// Midpoint rules over this number of sub-elements in the paper's kernel (5 in the paper) in place
+    /// of exact integrals.
     #[arg(long)]
     subelements: Option<usize>,
     /// Gauss points in each of these sub-elements; one is the midpoint rule.
@@ -70,10 +70,10 @@ pub(crate) struct PaperSchemeOptions {
     /// Thickness of the layer over the height of the elements beside it.
     #[arg(long, default_value_t = 0.1)]
     ratio: f64,
-    /// Look for contact beyond the flow chart in the paper's scheme too.
+    /// Robust search for contact modes in the paper's scheme too.
     #[arg(long)]
     robust: bool,
-    /// Only the table of steps and dampings with which the paper's scheme lasts.
+    /// Only the table of steps and dampings with which the paper's scheme reaches the end.
     #[arg(long)]
     limits: bool,
     /// Only the table of growth and passivity of boundary equations over β.

@@ -177,7 +177,7 @@ pub(crate) fn write_summary(folder: &Path, rows: &[SchemeRow]) -> Result<(), Any
     )
 }
 
-/// Duration that a picture shows, s.
+/// Duration in a picture, s.
 const SHOWN_DURATION: f64 = 8.0;
 
 /// Draws one picture per row.

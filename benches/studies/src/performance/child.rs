@@ -13,7 +13,7 @@ use super::report::timed;
 use crate::AnyError;
 use crate::document::peak_memory;
 use basemat_problems::headline::{
-    ELEMENT_COUNT, ELEMENT_LENGTH, headline, soil, time_step, without_end,
+    ELEMENT_COUNT, ELEMENT_LENGTH, headline, repeated_record, soil, time_step,
 };
 
 const SWEEP_CASES: usize = 8;
@@ -29,7 +29,7 @@ pub(crate) enum RunScene {
     Long,
     /// 200 elements under a rigid block, bonded.
     Wide,
-    /// Eight coefficients of friction, on as many threads as there are.
+    /// Eight coefficients of friction, on all threads.
     Sweep,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct RunCost {
     pub(crate) slowest: f64,
 }
 
-/// Runs `scene` here, and prints what [`measure`] reads.
+/// Runs `scene` here, and prints the numbers for [`measure`].
 pub(crate) fn run(scene: RunScene, steps: usize) -> std::result::Result<(), AnyError> {
     let begin = Instant::now();
     // A sweep does not measure its steps.
@@ -69,7 +69,7 @@ pub(crate) fn run(scene: RunScene, steps: usize) -> std::result::Result<(), AnyE
 #[derive(Default)]
 struct StepTimes {
     total: f64,
-    /// Without the first step.
+    /// Slowest step but the first.
     slowest_step: f64,
 }
 
@@ -88,7 +88,7 @@ fn march(scene: RunScene, steps: usize) -> Result<StepTimes> {
             builder.ground(ground).interface(Coulomb::new(0.4)?)
         }
         RunScene::Long => {
-            let record = without_end(steps as f64 * time_step())?;
+            let record = repeated_record(steps as f64 * time_step())?;
             builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
         }
         RunScene::Friction | RunScene::Sweep => {
@@ -161,7 +161,7 @@ pub(crate) fn containment() -> std::result::Result<[f64; 2], AnyError> {
     build.current_dir(root);
     build.args(["build", "--quiet", "--release", "--example", "containment"]);
     let program = std::env::current_exe()?;
-    let folder = program.parent().ok_or("this program is in no folder")?;
+    let folder = program.parent().ok_or("the program has no folder")?;
     if !build.status()?.success() {
         return Err("the example containment does not compile".into());
     }

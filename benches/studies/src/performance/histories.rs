@@ -81,7 +81,7 @@ pub(crate) fn history_cost(
     let infinite = f64::INFINITY;
     let mut best = HistoryCost { setup: infinite, march: infinite, slowest_step: infinite };
     for _ in 0..repeats {
-        // A new kernel each time, because a kernel keeps its spectra.
+        // A new kernel each time, because a kernel stores its spectra.
         let kernel = patch(count)?;
         let history = timed(|| prepare(kernel, steps));
         let cost = march(&mut *history.result?, 2 * count, steps)?;
@@ -114,7 +114,7 @@ pub(crate) struct Growth {
     pub(crate) exponent: f64,
 }
 
-/// Times (s) of a march of so many steps.
+/// Times (s) of a march of `steps` steps.
 pub(crate) struct GrowthPoint {
     pub(crate) steps: usize,
     pub(crate) march: f64,
@@ -136,7 +136,7 @@ pub(crate) fn growth(prepare: PrepareHistory, longest: usize) -> Result<Growth> 
     Ok(Growth { points, exponent })
 }
 
-/// Slope of the least squares in logarithms of seconds over steps.
+/// Slope of seconds over steps in logarithms, by least squares.
 pub(crate) fn exponent(points: &[GrowthPoint]) -> f64 {
     let logarithms: Vec<_> =
         points.iter().map(|point| [(point.steps as f64).ln(), point.march.ln()]).collect();

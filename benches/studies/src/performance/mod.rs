@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Prints Markdown. Times are processor times of the thread, so that other work on the machine
-//! disturbs little; the largest single step, and numbers marked so, are wall time. Whole runs are
+//! has little effect; the largest single step, and numbers marked so, are wall time. Whole runs are
 //! child processes, whose peak resident memory the system reports.
 
 mod child;
@@ -28,10 +28,10 @@ use report::Report;
 /// The crate's performance targets, measured.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct PerformanceOptions {
-    /// Shorter runs: to see that all works, not to be quoted.
+    /// Shorter runs, as a test.
     #[arg(long)]
     short: bool,
-    /// Folder of the documentation: given, the tables go to benches/studies/tables/performance.md.
+    /// Folder of the documentation; with it the tables go to benches/studies/tables/performance.md.
     #[arg(long)]
     docs: Option<PathBuf>,
     /// Run one scene in this process and print its times and memory.

@@ -24,7 +24,7 @@ struct ReducedTower {
     /// Damping ratio at 1 and 10 Hz.
     damping: f64,
     bonded: bool,
-    /// Whether a probe reads the roof's acceleration.
+    /// Whether there is a probe of the roof's acceleration.
     acceleration: bool,
 }
 
@@ -33,7 +33,7 @@ struct ReducedRun {
     build: f64,
     step: f64,
     /// Base shear and probes of every step.
-    history: Vec<Vec<f64>>,
+    series: Vec<Vec<f64>>,
 }
 
 impl ReducedTower {
@@ -73,16 +73,16 @@ impl ReducedTower {
 
     /// The smallest times of a few runs.
     fn run(self, coordinates: Coordinates, repeats: usize) -> Result<ReducedRun> {
-        let mut run = ReducedRun { build: f64::INFINITY, step: f64::INFINITY, history: Vec::new() };
+        let mut run = ReducedRun { build: f64::INFINITY, step: f64::INFINITY, series: Vec::new() };
         for _ in 0..repeats {
             let build = timed(|| self.build(coordinates));
             let mut simulation = build.result?;
-            run.history.clear();
+            run.series.clear();
             let march = timed(|| {
                 for _ in 0..STEP_COUNT {
                     let state = simulation.step()?;
                     let shear = std::iter::once(state.base_shear);
-                    run.history.push(shear.chain(state.probes.iter().copied()).collect());
+                    run.series.push(shear.chain(state.probes.iter().copied()).collect());
                 }
                 Ok::<(), basemat::Error>(())
             });
@@ -103,7 +103,7 @@ impl ReducedRun {
     fn error(&self, reference: &Self, quantity: usize) -> Option<f64> {
         let mut largest = 0.0_f64;
         let mut difference = 0.0_f64;
-        for (values, references) in self.history.iter().zip(&reference.history) {
+        for (values, references) in self.series.iter().zip(&reference.series) {
             let expected = references.get(quantity)?;
             largest = largest.max(expected.abs());
             difference = difference.max((values.get(quantity)? - expected).abs());

@@ -16,7 +16,7 @@ use crate::AnyError;
 /// A block of a reference table: base from −1 to 1, μ = ρ = c_S = 1, bonded, under a Ricker pulse.
 pub(crate) struct BlockTable {
     name: &'static str,
-    /// After `td_`.
+    /// File name after `td_`.
     file: &'static str,
     poisson: f64,
     structure: TableStructure,
@@ -24,7 +24,7 @@ pub(crate) struct BlockTable {
 
 #[derive(Clone, Copy)]
 enum TableStructure {
-    /// Height and density.
+    /// A block of this height and density.
     Block(f64, f64),
     Building,
 }
@@ -96,14 +96,14 @@ impl BlockTable {
                     TableStructure::Building => builder.structure(three_storeys()?),
                 };
                 let pulse = RickerDisplacement::new(1.0, 1.0, 5.0)?;
-                // Without dimensions, and without weight.
+                // Dimensionless, without weight.
                 Ok(builder.interface(Bonded).motion(pulse).gravity(0.0))
             }),
         })
     }
 }
 
-/// The example's containment, 15 ft wide and 35 ft high, under the first `duration` seconds of El Centro.
+/// The containment of the example, but 15 ft wide and 35 ft high, under the first `duration` seconds of El Centro.
 ///
 /// It is bonded or has friction. It has ten columns of finite elements for all meshes of the ground.
 pub(crate) fn containment(

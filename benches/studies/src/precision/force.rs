@@ -22,8 +22,8 @@ pub(crate) struct ForceSeries {
 pub(crate) struct Errors {
     /// Error of the peak, relative to the peak.
     pub(crate) peak: f64,
-    /// Root of the summed squares over the history, relative to the history's.
-    pub(crate) history: f64,
+    /// Root of the summed squared errors over the time series, relative to that of the reference.
+    pub(crate) series: f64,
 }
 
 impl ForceSeries {
@@ -68,7 +68,7 @@ impl ForceSeries {
 
     /// Errors against a reference with shorter steps.
     ///
-    /// Time series are compared as means over this force's steps, peaks as largest magnitudes.
+    /// Time series are compared as means over the steps of this series, peaks as largest magnitudes.
     pub(crate) fn errors(&self, reference: &Self) -> Errors {
         let mut square = 0.0;
         let mut norm = 0.0;
@@ -84,6 +84,6 @@ impl ForceSeries {
             norm += expected * expected;
         }
         let peak = reference.peak();
-        Errors { peak: (self.peak() - peak).abs() / peak, history: (square / norm).sqrt() }
+        Errors { peak: (self.peak() - peak).abs() / peak, series: (square / norm).sqrt() }
     }
 }

@@ -56,13 +56,13 @@ pub(crate) struct LineFamily {
 pub(crate) struct FrontPoint {
     pub(crate) elements: usize,
     pub(crate) time_step: f64,
-    /// The larger of the errors of history and peak.
+    /// The larger of the errors of time series and peak.
     pub(crate) error: f64,
-    /// Processor time of building and running, s.
+    /// Processor time of build and run, s.
     pub(crate) seconds: f64,
 }
 
-/// A line that has run.
+/// Results of a line.
 pub(crate) struct FrontLine {
     pub(crate) family: LineFamily,
     pub(crate) points: Vec<FrontPoint>,
@@ -145,7 +145,7 @@ impl TowerCase {
         if !self.layered {
             return Ok(Box::new(ElasticGround::new(Self::soil()?, strip)?));
         }
-        // Twelve metres of the half-plane's soil with 3 % of damping on rock with 1 %.
+        // Twelve metres of the soil of the half-plane with 3 % damping on rock with 1 %.
         let rock = Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?;
         let profile = SoilProfile::on_half_plane(rock)
             .with_bedrock_damping(constant_damping(0.01)?)
@@ -256,7 +256,7 @@ pub(crate) fn run(
             let errors = first.force.errors(&reference.force);
             // The error is of second order, and the reference has this fraction of it.
             let fraction = (reference_settings(reference.points).1 / time_step).powi(2);
-            let error = errors.history.max(errors.peak) / (1.0 - fraction);
+            let error = errors.series.max(errors.peak) / (1.0 - fraction);
             points.push(FrontPoint { elements, time_step, error, seconds });
             bar.inc(1);
         }
@@ -290,7 +290,7 @@ fn el_centro(seconds: f64) -> basemat::Result<Record> {
     Record::new(record.time_step(), record.accelerations()[..samples].to_vec())
 }
 
-/// Near-fault pulse with as much time of rest.
+/// Near-fault pulse, followed by rest of the same duration.
 ///
 /// Its velocity is ½ (1 + cos(2πt/γT)) cos(2πt/T + φ), |t| ≤ γT/2, of G. P. Mavroeidis and A. S.
 /// Papageorgiou, Bull. Seism. Soc. Am. 93 (2003), 1099–1131.

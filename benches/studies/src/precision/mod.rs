@@ -1,8 +1,8 @@
 //! Error of the base shear against processor time.
 //!
 //! Scenes are a rigid block with a reference table, five seconds of the containment of the example of that name, and
-//! towers of 300 to 30 000 degrees of freedom. The study varies elements, grading, time step, history and time scheme, and coordinates of the towers. The content of
-//! `benches/studies/tables/precision.md` comes from
+//! towers of 300 to 30 000 degrees of freedom. The study varies elements, grading, time step, history and time scheme,
+//! and coordinates of the towers. The content of `benches/studies/tables/precision.md` comes from
 //!
 //! ```text
 //! cargo study precision --docs docs
@@ -37,23 +37,23 @@ pub(crate) struct PrecisionOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/precision")]
     pub(crate) out: PathBuf,
-    /// Folder of the documentation: given, the main tables go to benches/studies/tables, and its
-    /// images/ the plots.
+    /// Folder of the documentation; with it the main tables go to benches/studies/tables, and the
+    /// plots to its images/.
     #[arg(long)]
     pub(crate) docs: Option<PathBuf>,
-    /// Small sweeps, in seconds: to see that all works, not to be quoted.
+    /// Small sweeps, as a test in seconds.
     #[arg(long)]
     pub(crate) short: bool,
     /// Only the lines of error against time of structures of 300 to 30 000 degrees of freedom.
     #[arg(long)]
     pub(crate) front: bool,
-    /// Only structures of shells in three directions.
+    /// Only structures of shells in space.
     #[arg(long)]
     pub(crate) space: bool,
     /// With `--space`: only its references, in a quarter of an hour.
     #[arg(long, requires = "space")]
     pub(crate) reference: bool,
-    /// Runs of each setting, of which the fastest counts; one only where a run takes over a second.
+    /// Runs of each setting, of which the fastest is used; a single one where a run takes over a second.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     pub(crate) repeats: u8,
 }

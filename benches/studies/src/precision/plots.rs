@@ -72,7 +72,7 @@ fn families() -> Vec<PointFamily> {
     list
 }
 
-/// Draws the error of the history on the left, of the peak on the right.
+/// Draws the error of the time series on the left, of the peak on the right.
 pub(crate) fn draw(path: &Path, sweep: &SweepOutcome) -> Result<(), AnyError> {
     let root = SVGBackend::new(path, PICTURE_SIZE).into_drawing_area();
     root.fill(&WHITE)?;
@@ -86,7 +86,7 @@ pub(crate) fn draw(path: &Path, sweep: &SweepOutcome) -> Result<(), AnyError> {
     let body = key::draw(&body, 30, &entries)?;
     let halves = body.split_evenly((1, 2));
     draw_panel(&halves[0], "error of the history (relative L2)", sweep, true, |point| {
-        point.errors.history
+        point.errors.series
     })?;
     draw_panel(&halves[1], "error of the peak (relative)", sweep, false, |point| {
         point.errors.peak
@@ -164,7 +164,7 @@ impl PointFamily {
     fn draw(&self, chart: &mut LogChart, points: Vec<(f64, f64)>) -> Result<(), AnyError> {
         let points = points.into_iter();
         let style = self.color.filled();
-        // Each shape has another type.
+        // Each shape has a separate type.
         match self.shape {
             MarkerShape::Circle => chart.draw_series(points.map(|at| Circle::new(at, 4, style)))?,
             MarkerShape::Triangle => {
@@ -181,7 +181,7 @@ impl PointFamily {
     }
 }
 
-/// 1e-3 and the like.
+/// A power of ten, such as 1e-3.
 fn power(value: f64) -> String {
     format!("{value:.0e}")
 }

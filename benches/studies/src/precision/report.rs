@@ -37,7 +37,7 @@ pub(crate) fn write_points(path: &Path, sweeps: &[SweepOutcome]) -> Result<(), A
             (sweep.crossing / settings.time_step).to_string(),
             settings.history.name.to_owned(),
             settings.scheme.name(),
-            format!("{:.4e}", point.errors.history),
+            format!("{:.4e}", point.errors.series),
             format!("{:.4e}", point.errors.peak),
             format!("{:.4e}", point.seconds),
             point.front.to_string(),
@@ -71,7 +71,7 @@ pub(crate) fn summary(settings: &str, sweeps: &[SweepOutcome]) -> Result<String,
     Ok(text)
 }
 
-/// Machine, the fastest settings for each tolerance, and how good the references are.
+/// Machine, the fastest settings for each tolerance, and the errors of the references.
 fn fastest(sweeps: &[SweepOutcome]) -> Result<String, AnyError> {
     let mut text = format!(
         "{}\n\nThe fastest settings with both errors within the tolerance:\n\n\
@@ -84,7 +84,7 @@ fn fastest(sweeps: &[SweepOutcome]) -> Result<String, AnyError> {
             let accurate = sweep
                 .points
                 .iter()
-                .filter(|point| point.errors.history.max(point.errors.peak) <= tolerance);
+                .filter(|point| point.errors.series.max(point.errors.peak) <= tolerance);
             let best = accurate.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
             write!(text, "| {} | {} % ", sweep.scene, 100.0 * tolerance)?;
             match best {
@@ -106,7 +106,7 @@ fn add_reference_errors(text: &mut String, sweeps: &[SweepOutcome]) -> Result<()
                 "\n{}: half the elements and twice the step of the reference differ from it by \
                  {:.1e} (history) and {:.1e} (peak).",
                 capitalised(sweep.scene),
-                error.history,
+                error.series,
                 error.peak
             )?;
         }
@@ -124,7 +124,7 @@ fn row(point: &SweepPoint, crossing: f64) -> String {
         crossing / settings.time_step,
         settings.history.name,
         settings.scheme.name(),
-        point.errors.history,
+        point.errors.series,
         point.errors.peak,
         time(point.seconds)
     )

@@ -9,7 +9,7 @@ use super::force::ForceSeries;
 use super::settings::Settings;
 use crate::AnyError;
 
-/// A scene: everything but mesh of the ground, time step, history and time scheme.
+/// A scene but for mesh of the ground, time step, history and time scheme.
 pub(crate) struct PrecisionScene {
     pub(crate) name: &'static str,
     pub(crate) soil: Soil,
@@ -26,7 +26,7 @@ type AddParts = dyn Fn(SimulationBuilder) -> basemat::Result<SimulationBuilder>;
 /// Base shear of a run, and its time.
 pub(crate) struct SceneRun {
     pub(crate) force: ForceSeries,
-    /// Processor time of building and running, s.
+    /// Processor time of build and run, s.
     pub(crate) seconds: f64,
 }
 

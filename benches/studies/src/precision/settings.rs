@@ -75,7 +75,7 @@ impl SchemeSetting {
 pub(crate) struct Settings {
     pub(crate) elements: usize,
     pub(crate) grading: Grading,
-    /// s.
+    /// Time step, s.
     pub(crate) time_step: f64,
     pub(crate) history: HistorySetting,
     pub(crate) scheme: SchemeSetting,

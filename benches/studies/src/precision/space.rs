@@ -1,8 +1,8 @@
-//! Error against run time in three directions: structures of shells on half-spaces.
+//! Error against run time in space: structures of shells on half-spaces.
 //!
-//! Elements of each part, cells and step are chosen one by one. Errors of the base shear and of the displacement of the top
-//! are relative to finer runs, which `--reference` makes again. The content of `benches/studies/tables/precision.md` comes
-//! from
+//! Elements of each part, cells and step are chosen one by one. Errors of the base shear and of the displacement of the
+//! top are relative to finer runs, which `--reference` computes again. The content of
+//! `benches/studies/tables/precision.md` comes from
 //!
 //! ```text
 //! cargo study precision --space --reference --docs docs
@@ -53,15 +53,15 @@ struct SpaceScene {
     elements_text: fn([usize; 4]) -> String,
     /// Shear wave speed, m/s.
     speed: f64,
-    /// m.
+    /// Amplitude of the pulse, m.
     pulse_amplitude: f64,
-    /// s.
+    /// Width of the pulse, s.
     pulse_width: f64,
     /// Interval of the series, s.
     interval: f64,
     intervals: usize,
     settings: &'static [SpaceSetting],
-    /// The finest; with half the elements; and with these fewer cells, or twice the step.
+    /// The finest setting; half its elements; half its elements with fewer cells, and with twice the step.
     reference: [SpaceSetting; 4],
 }
 
@@ -135,7 +135,7 @@ struct SpaceRun {
     /// Processor time of build and run, s.
     seconds: f64,
     largest_open_fraction: f64,
-    /// m.
+    /// Largest mean slip, m.
     largest_slip: f64,
 }
 

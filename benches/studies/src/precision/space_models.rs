@@ -1,4 +1,4 @@
-//! Structures of shells in three directions.
+//! Structures of shells in space.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use basemat::structure::{FemModel, RayleighDamping};
 
 /// A core of walls under a heavy roof on a raft of 18 × 18 m.
 ///
-/// The numbers are elements across, and rows of a wall in the side of an element.
+/// The arguments are the number of elements across, and the number of rows of a wall in the side of an element.
 pub(super) fn building(
     [cells, rows_per_side, ..]: [usize; 4],
 ) -> basemat::Result<(FemModel, usize)> {

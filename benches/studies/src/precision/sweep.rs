@@ -34,11 +34,11 @@ pub(crate) struct SweepPoint {
     pub(crate) errors: Errors,
     /// Processor time, s.
     pub(crate) seconds: f64,
-    /// Whether no other point is both faster and closer in the history.
+    /// Whether no other point is both faster and closer in the time series.
     pub(crate) front: bool,
 }
 
-/// A sweep that has run.
+/// Results of a sweep.
 pub(crate) struct SweepOutcome {
     pub(crate) scene: &'static str,
     pub(crate) crossing: f64,
@@ -72,7 +72,7 @@ impl SettingsSweep {
         Ok(sweeps)
     }
 
-    /// Runs all settings; the fastest of `repeats` runs counts.
+    /// Runs all settings; the time is that of the fastest of `repeats` runs.
     pub(crate) fn run(self, repeats: u8, bar: &ProgressBar) -> Result<SweepOutcome, AnyError> {
         let (reference, reference_error) = match self.reference {
             SweepReference::Table(force) => (force, None),
@@ -106,7 +106,7 @@ impl SettingsSweep {
     }
 }
 
-/// Pareto's front of time and history error.
+/// Pareto's front of time and error of the time series.
 fn mark_front(points: &mut [SweepPoint]) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[a].seconds.total_cmp(&points[b].seconds));
@@ -114,14 +114,14 @@ fn mark_front(points: &mut [SweepPoint]) {
     for index in order {
         let point = &mut points[index];
         // Better by a percent at least: results that differ by rounding would all be in the front.
-        if point.errors.history < 0.99 * best {
-            best = point.errors.history;
+        if point.errors.series < 0.99 * best {
+            best = point.errors.series;
             point.front = true;
         }
     }
 }
 
-/// Elements and steps of the blocks; steps in units of B/c_S, of which the base is two wide.
+/// Elements and steps of the blocks; steps in units of b/c_S, with a base 2 b wide.
 fn block_settings(short: bool) -> Vec<Settings> {
     let elements: &[usize] = if short { &[4, 8] } else { &[4, 8, 16, 32, 64] };
     let steps: &[f64] = if short { &[0.4, 0.2] } else { &[0.4, 0.2, 0.1, 0.05, 0.025] };

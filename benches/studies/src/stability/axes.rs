@@ -1,4 +1,4 @@
-//! The sweeps: pairs of parameters, the rest as in [`Scene::default`].
+//! The sweeps: pairs of parameters, with all others as in [`StabilityScene::default`].
 
 use basemat::history::HistoryMethod;
 
@@ -6,10 +6,10 @@ use super::motions::{SHAKING_MOTIONS, ShakingMotion};
 use super::run::Verdict;
 use super::scene::{StabilityLaw, StabilityScene, StabilityScheme};
 
-/// Puts the value of a number into a scene.
+/// Sets the value with this number in a scene.
 type SetValue = dyn Fn(usize, &mut StabilityScene) + Sync;
 
-/// A parameter and the values it takes.
+/// A parameter and its values.
 pub(crate) struct MapAxis {
     pub(crate) name: &'static str,
     pub(crate) labels: Vec<String>,
@@ -96,7 +96,7 @@ const STEP_BETAS: [f64; 11] = [0.01, 0.03, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 
 const POISSON_RATIOS: [f64; 12] =
     [-0.9, -0.5, 0.0, 0.2, 0.25, 0.333, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.49999];
 
-/// All values; in the short form every `every`-th value and the last one.
+/// All values, or in the short form every `every`-th value and the last one.
 fn thin(values: &[f64], short: bool, every: usize) -> Vec<f64> {
     if !short {
         return values.to_vec();

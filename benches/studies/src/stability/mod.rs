@@ -33,23 +33,23 @@ use scene::Assessments;
 /// it refuses.
 ///
 /// Prints tables, and writes cells.csv, tables.md and one SVG of heat maps per sweep. Ends with an
-/// error if a cell of the crate's scheme is not as it is guaranteed to be.
+/// error if a cell of the crate's scheme violates its guarantees.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct StabilityOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/stability")]
     pub(crate) out: PathBuf,
-    /// Folder of the documentation: given, the tables go to benches/studies/tables, and its
-    /// images/ the heat maps.
+    /// Folder of the documentation; with it the tables go to benches/studies/tables, and the
+    /// heat maps to its images/.
     #[arg(long)]
     pub(crate) docs: Option<PathBuf>,
-    /// Few cells and few steps, in seconds: to see that all is well, not to be quoted.
+    /// Few cells and few steps, as a test in seconds.
     #[arg(long)]
     pub(crate) short: bool,
     /// Cells computed at the same time.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=64))]
     pub(crate) threads: u8,
-    /// Only the sweep of this name; may be given several times.
+    /// Only the sweep of this name; may be repeated.
     #[arg(long = "map")]
     pub(crate) maps: Vec<String>,
     /// Only cells with this label on the horizontal axis.
@@ -61,7 +61,7 @@ pub(crate) struct StabilityOptions {
     /// Only this scheme: basemat, dissipative, newmark, hht, paper or quadrature.
     #[arg(long)]
     pub(crate) scheme: Option<String>,
-    /// Names the sweeps and their axes, and computes nothing.
+    /// Lists the sweeps and their axes, without runs.
     #[arg(long)]
     pub(crate) list: bool,
 }

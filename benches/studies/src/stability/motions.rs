@@ -1,7 +1,7 @@
 //! Ground motions that are difficult for a time integrator.
 //!
-//! Each is a function of the step's number, so that it is as difficult for every time step. It shakes
-//! for a number of steps, stops suddenly, and keeps its last displacement.
+//! Each is a function of the step's number, so that it is equally difficult for every time step. It shakes
+//! for a number of steps, stops suddenly, and remains at its last displacement.
 
 use std::sync::Arc;
 
@@ -16,17 +16,17 @@ pub(crate) enum ShakingMotion {
     Still,
     /// Twelve sines in either direction, from 2.5 rad per step to 400 steps a period, 1 g each at most.
     Sines,
-    /// Pulses of acceleration of 50 g that last a fifth of a step, up and down by turns.
+    /// Pulses of acceleration of 50 g that last a fifth of a step, up and down alternately.
     Pulses,
     /// Displacement at the end of single steps only.
     Spikes,
-    /// A jump by 5 cm to the side and 2 cm up within one step.
+    /// A jump by g Δt² to the side and 0.4 g Δt² up within one step.
     Step,
     /// Velocity pulse of Mavroeidis & Papageorgiou (2003), scaled to 5 g, with half of it upwards.
     NearFault,
     /// Up and down with 3 g, so that the whole base leaves the ground.
     LiftOff,
-    /// To and fro with every step, 5 g in either direction.
+    /// Alternating direction with every step, 5 g.
     Nyquist,
     /// Independent random displacements at every step, up to 5 g.
     Noise,
@@ -73,7 +73,7 @@ impl ShakingMotion {
         }))
     }
 
-    /// Displacement at the end of step `n`, in g Δt²; metres over g Δt² for a step.
+    /// Displacement at the end of step `n`, in g Δt².
     fn shape(self, n: f64) -> [f64; 2] {
         match self {
             Self::Still | Self::ElCentro | Self::NearFault => [0.0; 2],

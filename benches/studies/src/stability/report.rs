@@ -255,7 +255,7 @@ fn verdicts(cells: &[&MapCell]) -> String {
     if text.is_empty() { "–".into() } else { text }
 }
 
-/// The cells of the crate's schemes that are not as guaranteed, one a line.
+/// The cells of the crate's schemes that violate their guarantees, one per line.
 pub(crate) fn broken(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::new();
     let passive = cells.iter().filter(|cell| cell.scheme.is_passive());
@@ -281,7 +281,7 @@ pub(crate) fn broken(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     if text.is_empty() { text } else { format!("not as guaranteed:{text}") }
 }
 
-/// Predictions for the full-plane schemes and their outcome, each equation counted once a cell.
+/// Predictions for the full-plane schemes and their outcome, one count per cell.
 fn assessments(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::from(
         "\n| sweep | scheme | assessed | growth foretold: of these grew or failed | were active | \

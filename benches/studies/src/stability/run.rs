@@ -1,10 +1,10 @@
-//! Marches a cell and judges it.
+//! Computes a cell and its verdict.
 //!
 //! After the end of the shaking, no energy enters the scene. For the crate's scheme it is proved
-//! that then
+//! that
 //!
 //! ```text
-//! H = kinetic + strain + interface + static_contact + soil
+//! H = kinetic + strain + interface + static contact + soil
 //! ```
 //!
 //! cannot rise, because dashpots, friction and impacts only dissipate. The work of a weight that acts as a load is
@@ -36,7 +36,7 @@ pub(crate) enum Verdict {
     Active,
     /// Energy grows without work from outside.
     Grows,
-    /// No simulation could be made.
+    /// The simulation could not be built.
     Refused,
     /// A step failed.
     Failed,
@@ -77,7 +77,7 @@ pub(crate) struct CellOutcome {
     pub(crate) fallbacks: [usize; 2],
     pub(crate) mode_changes: usize,
     pub(crate) largest_uplift: f64,
-    /// Steps made.
+    /// Steps computed.
     pub(crate) steps: usize,
     /// Growth per step by the assessment of the boundary equation, base uplifted and bonded.
     pub(crate) assessed: Option<[f64; 2]>,
@@ -104,7 +104,7 @@ impl CellOutcome {
         }
     }
 
-    /// Whether the cell is as guaranteed for the crate's scheme.
+    /// Whether the cell fulfils the guarantees of the crate's scheme.
     pub(crate) fn is_as_guaranteed(&self, allowed: &[Verdict]) -> bool {
         (self.verdict == Verdict::Bounded || allowed.contains(&self.verdict))
             && self.energy_balance[0] < ENERGY_ROUNDING
@@ -137,7 +137,7 @@ struct EnergyTracker {
     rest_steps: usize,
     /// Largest energy of the structure in each window of the rest.
     windows: [f64; WINDOW_COUNT],
-    /// The same in the first and second half of the shaking.
+    /// Largest energy of the structure in the first and second half of the shaking.
     halves: [f64; 2],
     /// Energy H at the end of the shaking, from which growth is measured.
     stored: f64,
@@ -178,7 +178,7 @@ impl EnergyTracker {
     }
 }
 
-/// Marches the cell; `progress` receives the completed fraction from time to time.
+/// Computes the cell; `progress` receives the completed fraction from time to time.
 pub(crate) fn march(
     scene: &StabilityScene,
     assessments: &Assessments,
@@ -274,7 +274,7 @@ impl CellOutcome {
                 source: StepError::NotFinite { .. } | StepError::Runaway { .. },
                 ..
             }) => true,
-            // A march whose soil has increased the energy counts as growth, not as failure.
+            // A failed run whose soil has increased the energy counts as growth, not as failure.
             Some(_) => active && ratio > 1e3,
             // `rise` decides here.
             None if tracker.sinks => !last.is_finite(),

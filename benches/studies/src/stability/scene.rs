@@ -27,9 +27,9 @@ const FREE_ELEMENTS: usize = 5;
 /// Scheme of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum StabilityScheme {
-    /// Half-plane in the mean, midpoint rule.
+    /// Half-plane with element means, midpoint rule.
     Basemat,
-    /// The same with other time schemes: dissipative midpoint rule with γ = 0.8, average acceleration,
+    /// The half-plane with other time schemes: dissipative midpoint rule with γ = 0.8, average acceleration,
     /// HHT-α with α = −0.1.
     Dissipative,
     Newmark,
@@ -71,7 +71,7 @@ pub(crate) enum StabilityLaw {
     Coulomb(f64),
     /// Thickness over height of the neighbouring element (1 m), and ratio of the debonded stiffness; friction 0.4.
     Layer(f64, f64),
-    /// Bearing pressure over the mean static one; friction 0.4.
+    /// Bearing pressure relative to the mean static pressure; friction 0.4.
     Yielding(f64),
 }
 
@@ -98,7 +98,7 @@ pub(crate) struct StabilityScene {
     pub(crate) history: HistoryMethod,
     /// Amplitude of a horizontal load at the top, over the weight.
     pub(crate) push: f64,
-    /// Initial tilt over b/h, the largest tilt in static equilibrium on rigid ground; zero: in equilibrium.
+    /// Initial tilt over b/h, the largest tilt in static equilibrium on rigid ground.
     pub(crate) tilt: f64,
 }
 
@@ -124,7 +124,7 @@ impl Default for StabilityScene {
 }
 
 impl StabilityScene {
-    /// The simulation, ready to march.
+    /// The simulation at its first step.
     pub(crate) fn build(&self) -> Result<Simulation> {
         let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
         let step = self.time_step(&soil);
@@ -148,8 +148,8 @@ impl StabilityScene {
 
     /// Whether the scheme is computed for these parameters.
     ///
-    /// Coefficients of the full plane have as many lags as waves travel steps. These are many where S waves are slow
-    /// compared with the P waves of a step. The quadrature computes all of them at once.
+    /// The number of lags of the full plane is the number of steps in which waves cross its surface. It is large where
+    /// S waves are slow compared with the P waves of a step. The quadrature computes all of them at once.
     pub(crate) fn exists(&self) -> bool {
         match self.scheme {
             StabilityScheme::Basemat
@@ -173,7 +173,7 @@ impl StabilityScene {
                 _ => builder,
             });
         }
-        // The maps show marches with growth, too.
+        // The maps also have runs with growth.
         let ground = self.full_plane(soil)?.allow_growth();
         Ok(builder.ground(ground).scheme(Newmark::default()))
     }

@@ -1,4 +1,4 @@
-//! Contact in plan by the measures of robotics: residuals of Signorini, Coulomb and maximum dissipation.
+//! Contact in space by the measures of robotics: residuals of Signorini, Coulomb and maximum dissipation.
 
 use basemat::bem::ElasticGround;
 use basemat::bem::plan::Plan;
@@ -63,7 +63,7 @@ fn violations(
 struct ConeMarch {
     /// Largest of each violation in every tenth of a second.
     series: Vec<[f64; 5]>,
-    /// Parts of elements and steps.
+    /// Fractions of elements and steps.
     open: f64,
     sliding: f64,
 }

@@ -8,7 +8,7 @@ use crate::AnyError;
 use crate::figure::{
     CURVE_BLUE, CURVE_GRAY, CURVE_GREEN, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel,
 };
-use basemat_problems::sampled_block::{PulsedBlock, SampledHistory, distance};
+use basemat_problems::sampled_block::{PulsedBlock, SampledSeries, distance};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "convergence",
@@ -18,16 +18,16 @@ pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     run,
 };
 
-fn history(
+fn block_series(
     scene: PulsedBlock,
     mesh: (Grading, usize),
     time_step: f64,
-) -> Result<SampledHistory, AnyError> {
-    let (history, run) = scene.history(mesh, time_step)?;
+) -> Result<SampledSeries, AnyError> {
+    let (series, run) = scene.run(mesh, time_step)?;
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
-    Ok(history)
+    Ok(series)
 }
 
 /// Smallest and largest order of the three quantities over the last `halvings`.
@@ -50,7 +50,7 @@ fn add(checks: &mut Vec<ValidationCheck>, name: &str, [low, high]: [f64; 2], lim
 fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut checks = Vec::new();
     let counts = if short { &[4, 8, 16][..] } else { &[4, 8, 16, 32][..] };
-    let exact = PulsedBlock::exact();
+    let exact = PulsedBlock::table_series();
     let mut left = FigurePanel::new("number of elements", "error of the rotation, relative L2")
         .categories(&["4", "8", "16", "32"])
         .logarithmic();
@@ -60,7 +60,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     ] {
         let mut errors = Vec::new();
         for &count in counts {
-            let computed = history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025)?;
+            let computed = block_series(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025)?;
             errors.push(distance(&computed, &exact));
         }
         add(&mut checks, name, orders(&errors, 1), range);
@@ -78,11 +78,11 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         .categories(&["0.2", "0.1", "0.05", "0.025", "0.0125"])
         .room(0.1, 0.08)
         .logarithmic();
-    let finest = history(PulsedBlock::BONDED_BLOCK, mesh, 0.003_125)?;
+    let finest = block_series(PulsedBlock::BONDED_BLOCK, mesh, 0.003_125)?;
     let steps = [0.2, 0.1, 0.05, 0.025];
     let mut errors = Vec::new();
     for step in steps {
-        errors.push(distance(&history(PulsedBlock::BONDED_BLOCK, mesh, step)?, &finest));
+        errors.push(distance(&block_series(PulsedBlock::BONDED_BLOCK, mesh, step)?, &finest));
     }
     add(&mut checks, "time step, bonded", orders(&errors, 2), [1.8, 2.2]);
     right = right.circles("bonded", CURVE_BLUE, points(0, &errors));
@@ -106,10 +106,10 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let list = if short { &list[..1] } else { &list[..] };
     let steps = [0.1, 0.05, 0.025, 0.0125];
     for (name, color, scene) in list {
-        let finest = history(*scene, mesh, 0.003_125)?;
+        let finest = block_series(*scene, mesh, 0.003_125)?;
         let mut errors = Vec::new();
         for step in steps {
-            errors.push(distance(&history(*scene, mesh, step)?, &finest));
+            errors.push(distance(&block_series(*scene, mesh, step)?, &finest));
         }
         add(&mut checks, &format!("time step, {name}"), orders(&errors, 3), [1.0, 3.0]);
         right = right.circles(name, *color, points(1, &errors));

@@ -38,7 +38,7 @@ use outcome::{Finished, ValidationCase};
 
 /// The validation problems: errors against references, limits, pictures.
 ///
-/// Prints a table a case, writes checks.csv and SVG plots, and fails if a limit is exceeded.
+/// Prints a table for each case, writes checks.csv and SVG plots, and fails if a limit is exceeded.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct ValidationOptions {
     /// Only the case of this name.
@@ -47,11 +47,11 @@ pub(crate) struct ValidationOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/validation")]
     pub(crate) out: PathBuf,
-    /// Folder of the documentation: given, the numbers go to benches/studies/tables, and its
-    /// images/ the plots.
+    /// Folder of the documentation; with it the numbers go to benches/studies/tables, and the
+    /// plots to its images/.
     #[arg(long, conflicts_with = "short")]
     pub(crate) docs: Option<PathBuf>,
-    /// Fewer and shorter runs, in seconds: for continuous integration.
+    /// Fewer and shorter runs, in seconds, for continuous integration.
     #[arg(long)]
     pub(crate) short: bool,
 }
@@ -90,7 +90,7 @@ const VALIDATION_CASES: [ValidationCase; 21] = [
 pub(crate) fn run(options: &ValidationOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
     let mut finished = Vec::new();
-    // Cases with a number outside its limits, or that did not run to their end.
+    // Cases with a number outside its limits, and cases that failed.
     let mut failed = Vec::new();
     for case in VALIDATION_CASES.into_iter().filter(|case| options.selects(case.name)) {
         let begin = ProcessTime::try_now()?;

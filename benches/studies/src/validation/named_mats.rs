@@ -1,4 +1,4 @@
-//! Rigid discs and rectangles on the half-space beside formulas and tables that engineers know by name.
+//! Rigid discs and rectangles on the half-space beside formulas and tables that are known by name.
 
 use std::f64::consts::TAU;
 
@@ -34,10 +34,10 @@ const BOUNDARY_ELEMENTS: [(f64, [[f64; 2]; 4]); 3] = [
 
 /// Impedances of a rigid disc without friction, ν = 1/3, over μR and μR³: sideways, vertical, rocking; `a0` = ωR/c_S.
 ///
-/// Veletsos and Verbic, Earthquake Engineering and Structural Dynamics 2 (1973), 87–102. The coefficients were read in the
-/// verification notes of the program SASSI-EDU, which take them from a report of 1980 (Shye and Robinson, SRS 484); the paper
-/// was not at hand. They are of one ν and up to 11 % off, so that `basemat::reference` does not have them. At high frequency
-/// they are within 4 % of plane waves.
+/// Veletsos and Verbic, Earthquake Engineering and Structural Dynamics 2 (1973), 87–102. The coefficients were read in
+/// the verification notes of the program SASSI-EDU, which take them from a report of 1980 (Shye and Robinson, SRS 484);
+/// the paper was not available. They are of one ν and up to 11 % off, so that `basemat::reference` does not have them.
+/// At high frequency they are within 4 % of plane waves.
 fn veletsos_verbic(a0: f64) -> [Complex; 3] {
     [
         Complex::new(1.0, 0.65 * a0) * 4.8,

@@ -1,4 +1,4 @@
-//! A low rigid block that slides on ever stiffer soil under El Centro: Newmark's block.
+//! A low rigid block that slides on stiff and on soft soil under El Centro: Newmark's block.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::Coulomb;
@@ -26,7 +26,7 @@ const SAMPLE_INTERVAL: f64 = 0.005;
 
 /// Slip of a rigid block on rigid shaken ground at every sample.
 ///
-/// Friction reduces the slip velocity with at most φg, and not below zero within a step.
+/// Friction reduces the slip velocity by φg at most, and not below zero within a step.
 fn reference(record: &Record, friction: f64, duration: f64) -> Vec<f64> {
     let substeps = 500;
     let step = SAMPLE_INTERVAL / f64::from(substeps);

@@ -69,7 +69,7 @@ pub(crate) fn milli_curve(interval: f64, values: &[f64]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// A case that has run.
+/// Results of a case.
 pub(crate) struct Finished {
     pub(crate) case: ValidationCase,
     pub(crate) outcome: ValidationOutcome,

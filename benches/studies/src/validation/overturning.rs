@@ -1,4 +1,4 @@
-//! Pulses that just overturn a rigid block, on stiff ground and on soil.
+//! Smallest pulses that overturn a rigid block, on stiff ground and on soil.
 
 use std::f64::consts::TAU;
 
@@ -177,7 +177,7 @@ fn boundary(
 }
 
 /// Whether a record overturns the block on this ground.
-fn falls(
+fn overturns(
     ground: impl Ground + 'static,
     width: f64,
     time_step: f64,
@@ -221,13 +221,13 @@ fn on_corners(time_step: f64, record: Record) -> Result<bool, AnyError> {
     let bed = SpringGround::new(-2.0 * B..2.0 * B, 2, 4e12, 1e13)?
         .with_dashpots(2e8, 0.0)?
         .with_theta(1.0)?;
-    falls(bed, 4.0 * B, time_step, record)
+    overturns(bed, 4.0 * B, time_step, record)
 }
 
 fn on_soil(speed: f64, record: Record) -> Result<bool, AnyError> {
     let soil = Soil::from_wave_speeds(speed, 2.0 * speed, 2000.0)?;
     let ground = ElasticGround::new(soil, Strip::new(-B..B, 16, Grading::Cosine)?)?;
-    falls(ground, 2.0 * B, 2.5e-3, record)
+    overturns(ground, 2.0 * B, 2.5e-3, record)
 }
 
 /// One cycle of sine.
@@ -248,7 +248,7 @@ fn impulse_rate(velocity: f64) -> f64 {
     BLOCK_MASS * H * velocity / corner_inertia() / (rate() * CORNER_TILT)
 }
 
-/// Jumps of the ground's velocity by `velocity`, at the begin and, back, a time `after` (over 1/q) after the impact.
+/// Jumps of the ground's velocity by `velocity`, at the beginning and, back, a time `after` (over 1/q) after the impact.
 fn jumps(velocity: f64, after: f64) -> Result<Record, AnyError> {
     let step = 5e-4;
     // The block starts with the rate Ω, turns where tanh t = Ω, and is back after twice this time.

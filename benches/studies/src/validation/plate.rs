@@ -28,7 +28,7 @@ const YOUNG_MODULUS: f64 = 30.0e9;
 const POISSON_RATIO: f64 = 0.2;
 const MASS_DENSITY: f64 = 2400.0;
 
-/// A plate, and the nodes at which its settlements are read.
+/// A plate, and the nodes of its settlements.
 struct Plate {
     model: FemModel,
     nodes: Vec<usize>,
@@ -126,7 +126,9 @@ fn even_load(count: usize) -> Result<[Vec<f64>; 2], AnyError> {
 }
 
 /// D/(G R³), the stiffness over G R under an even load and under a force in the middle, both by the settlement of the
-/// middle, and limits of their errors. Stiffnesses are printed by tests/data/plan/disc_on_half_space.py. Rigid: 4/(1 − ν); flexible, even load: π/(1 − ν).
+/// middle, and limits of their errors. Stiffnesses are printed by tests/data/plan/disc_on_half_space.py.
+///
+/// Rigid: 4/(1 − ν); flexible, even load: π/(1 − ν).
 const DISC_CASES: [(f64, [f64; 2], [f64; 2]); 5] = [
     (0.006, [4.7028, 1.2356], [4e-3, 5e-2]),
     (0.02, [4.7660, 1.8193], [4e-3, 2e-2]),
@@ -144,7 +146,7 @@ fn disc(rigidity: f64, cells: usize) -> Result<[f64; 2], AnyError> {
     let thickness = 0.1_f64;
     let stiffness = rigidity * soil.shear_modulus() * radius.powi(3);
     let young = 12.0 * (1.0 - POISSON_RATIO * POISSON_RATIO) * stiffness / thickness.powi(3);
-    // A polygon of the circle's area.
+    // A polygon with the area of the circle.
     let half_sector = std::f64::consts::PI / SECTOR_COUNT as f64;
     let outer = radius * (half_sector / (half_sector.sin() * half_sector.cos())).sqrt();
     let step = 1.0 / RING_COUNT as f64;

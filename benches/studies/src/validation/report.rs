@@ -37,7 +37,7 @@ pub(crate) fn write_checks(path: &Path, list: &[Finished]) -> Result<(), AnyErro
     )
 }
 
-/// Puts numbers into the table of validation and pictures into `images`.
+/// Writes the numbers to the table of validation and the pictures to `images`.
 pub(crate) fn write_docs(docs: &Path, list: &[Finished]) -> Result<(), AnyError> {
     for finished in list {
         let name = format!("validation {}", finished.case.name);

@@ -133,7 +133,7 @@ fn on_corners(time_step: f64, duration: f64, factor: f64) -> Result<Vec<f64>, An
     Ok(tilts(bed, block, time_step, duration)?.into_iter().step_by(stride).collect())
 }
 
-/// Difference of histories relative to the reference, in the L2 norm.
+/// Difference of time series relative to the reference, in the L2 norm.
 fn relative(computed: &[f64], reference: &[f64]) -> f64 {
     let mut error = RelativeError::default();
     computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
@@ -142,7 +142,7 @@ fn relative(computed: &[f64], reference: &[f64]) -> f64 {
 
 struct QuarterRatios {
     rigid_base: f64,
-    yielding_soil: f64,
+    deformable_soil: f64,
 }
 
 /// Quarter period of free rocking on the half-plane over Housner's, and over the one on a half-plane without inertia.
@@ -172,7 +172,7 @@ fn quarter_ratios(speed: f64, elements: usize) -> Result<QuarterRatios, AnyError
     // Pressure on the last element acts at its middle, about which the block rotates.
     let slenderness = (B - 0.5 * edge) / H;
     let yielding = quarter_period(tilt, lift_off, slenderness, rate);
-    Ok(QuarterRatios { rigid_base: computed / housner, yielding_soil: computed / yielding })
+    Ok(QuarterRatios { rigid_base: computed / housner, deformable_soil: computed / yielding })
 }
 
 /// Largest tilt between two times.
@@ -239,7 +239,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     ];
     let list = if short { &list[2..3] } else { &list[..] };
     let mut over_housner = Vec::new();
-    let mut over_yielding = Vec::new();
+    let mut over_deformable = Vec::new();
     for &(speed, elements, housner, yielding) in list {
         let ratios = quarter_ratios(speed, elements)?;
         let scene = format!("c_S = {speed} m/s, {elements} elements: quarter period");
@@ -250,10 +250,10 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
             1.0..=1.0 + housner,
         ));
         let name = format!("{scene} against yielding soil");
-        checks.push(ValidationCheck::below(name, (ratios.yielding_soil - 1.0).abs(), yielding));
+        checks.push(ValidationCheck::below(name, (ratios.deformable_soil - 1.0).abs(), yielding));
         if elements == 16 {
             over_housner.push((speed, 100.0 * (ratios.rigid_base - 1.0)));
-            over_yielding.push((speed, 100.0 * (ratios.yielding_soil - 1.0)));
+            over_deformable.push((speed, 100.0 * (ratios.deformable_soil - 1.0)));
         }
     }
     let left = FigurePanel::new("time, s", "tilt, mrad")
@@ -271,7 +271,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         .legend(SeriesLabelPosition::UpperRight)
         .room(0.15, 0.15)
         .crosses("against Housner's rigid base", CURVE_RED, over_housner)
-        .circles("against soil that yields without inertia", CURVE_BLUE, over_yielding);
+        .circles("against soil that yields without inertia", CURVE_BLUE, over_deformable);
     let title = "Block 1 m × 4 m, pushed for half a second, then free: tilt (left); 16 elements on the half-plane (right)";
     Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
 }

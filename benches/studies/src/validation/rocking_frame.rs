@@ -44,7 +44,7 @@ const SAMPLE_INTERVAL: f64 = 0.01;
 /// Number of impacts that are compared.
 const IMPACT_COUNT: usize = 4;
 
-/// Part of the largest push.
+/// The push relative to its largest value.
 fn pulse(time: f64) -> f64 {
     if time > 0.0 && time < PUSH_DURATION {
         (PI * time / PUSH_DURATION).sin()
@@ -54,7 +54,7 @@ fn pulse(time: f64) -> f64 {
 }
 
 /// Displacement of the cap to the right and tilt of the footings, at every sample.
-type FrameHistory = [Vec<f64>; 2];
+type FrameSeries = [Vec<f64>; 2];
 
 /// The frame, the nodes of its hinges, and the left foot.
 struct RockingFrame {
@@ -105,7 +105,7 @@ fn march(
     push: f64,
     time_step: f64,
     duration: f64,
-) -> Result<FrameHistory, AnyError> {
+) -> Result<FrameSeries, AnyError> {
     // The stiff bed is damped, so that a corner lands without rebound.
     let bed = SpringGround::under(&model, 2, 4e12, 1e13)?
         .with_dashpots(2e8, 0.0)?
@@ -119,10 +119,10 @@ fn march(
         .load(Load::new(pushed, move |time| push * pulse(time)))
         .build()?;
     let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
-    let mut history: FrameHistory = [vec![0.0], vec![0.0]];
+    let mut series: FrameSeries = [vec![0.0], vec![0.0]];
     let run = simulation.run(nearest_integer(duration / time_step), |state| {
         if state.step % stride == 0 {
-            for (values, row) in history.iter_mut().zip(&rows) {
+            for (values, row) in series.iter_mut().zip(&rows) {
                 values.push(row.value(state.displacement()));
             }
         }
@@ -130,11 +130,11 @@ fn march(
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
-    Ok(history)
+    Ok(series)
 }
 
-/// Marches rigid columns 1 m × 4 m of stone, with P–Δ, under a cap.
-fn rigid(push: f64, time_step: f64, duration: f64) -> Result<FrameHistory, AnyError> {
+/// Marches rigid columns 1 m × 4 m with P–Δ under a cap.
+fn rigid(push: f64, time_step: f64, duration: f64) -> Result<FrameSeries, AnyError> {
     let cap = 2.0 * COLUMN_MASS * CAP_MASS_RATIO;
     let width = 2.0 * B;
     let compression = STANDARD_GRAVITY * (0.5 * cap + 0.5 * COLUMN_MASS);
@@ -160,7 +160,7 @@ fn single_column() -> Rocker {
 }
 
 /// Marches light columns that bend and shorten, without P–Δ, on footings with a mass.
-fn flexible(push: f64, time_step: f64, duration: f64) -> Result<FrameHistory, AnyError> {
+fn flexible(push: f64, time_step: f64, duration: f64) -> Result<FrameSeries, AnyError> {
     let sway = CAP_MASS * SWAY_RATE * SWAY_RATE;
     let axial = CAP_MASS * AXIAL_RATE * AXIAL_RATE;
     let frame = frame(Some(FOOTING_MASS), 2.0 * CAP_MASS, |ends| {
@@ -198,7 +198,7 @@ impl BendingColumn {
         [state[3], state[4], state[5], cap, thrust / CAP_MASS - STANDARD_GRAVITY, turn]
     }
 
-    /// Makes a step by the method of Runge and Kutta.
+    /// Computes a step of Runge–Kutta integration.
     fn step(&mut self, time: f64, step: f64) {
         let start = self.state;
         let advanced = |rates: &[f64; 6], part: f64| -> [f64; 6] {
@@ -237,7 +237,7 @@ impl BendingColumn {
 }
 
 /// Displacement and tilt of one column of `flexible` from event to event, and the number of landings.
-fn by_events(push: f64, step: f64, duration: f64) -> (FrameHistory, usize) {
+fn by_events(push: f64, step: f64, duration: f64) -> (FrameSeries, usize) {
     let axial_stiffness = CAP_MASS * AXIAL_RATE * AXIAL_RATE;
     let mut column = BendingColumn {
         push,
@@ -247,17 +247,17 @@ fn by_events(push: f64, step: f64, duration: f64) -> (FrameHistory, usize) {
         state: [0.0, -CAP_MASS * STANDARD_GRAVITY / axial_stiffness, 0.0, 0.0, 0.0, 0.0],
     };
     let mut landings = 0;
-    let mut history: FrameHistory = [vec![0.0], vec![0.0]];
+    let mut series: FrameSeries = [vec![0.0], vec![0.0]];
     let stride = nearest_integer(SAMPLE_INTERVAL / step);
     for n in 0..nearest_integer(duration / step) {
         column.step(n as f64 * step, step);
         landings += usize::from(column.change_side());
         if (n + 1) % stride == 0 {
-            history[0].push(column.state[0]);
-            history[1].push(column.state[2]);
+            series[0].push(column.state[0]);
+            series[1].push(column.state[2]);
         }
     }
-    (history, landings)
+    (series, landings)
 }
 
 fn relative(computed: &[f64], reference: &[f64]) -> f64 {
@@ -298,7 +298,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let differences = times.iter().zip(&impacts).take(count).map(|(a, b)| (a - b).abs());
     let time_error = differences.fold(0.0, worse);
     checks.push(ValidationCheck::below("rigid columns: times of impacts, s", time_error, 2e-3));
-    // Without the cap the tilt has another history.
+    // Without the cap the tilt differs.
     let without_cap = Rocker {
         mass: COLUMN_MASS,
         height: 0.5 * HINGE_HEIGHT,

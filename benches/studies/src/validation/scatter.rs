@@ -25,7 +25,7 @@ pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
 
 const INPUT_COUNT: usize = 50;
 const RUN_DURATION: f64 = 14.0;
-/// m/s.
+/// Shear wave speed of the soil, m/s.
 const SHEAR_WAVE_SPEED: f64 = 300.0;
 
 /// Function of the largest tilt and twist of a run (mrad) by factor of the motion and time step.
@@ -49,7 +49,7 @@ fn rocking_block(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
     Ok([1e3 * run.whole.base_rotation.magnitude(), 0.0])
 }
 
-/// A column in plan under a factor of El Centro and, across, of an artificial motion.
+/// A column in space under a factor of El Centro and, across, of an artificial motion.
 fn twisting_column(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
     let column = RigidBody::cuboid([2.0, 2.0, 7.0], 2000.0)?.with_p_delta(STANDARD_GRAVITY)?;
     let across = artificial_motion(2.0, 3)?.scaled(0.35 * STANDARD_GRAVITY * factor)?;
@@ -69,7 +69,7 @@ fn twisting_column(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
     Ok([1e3 * tilt, 1e3 * whole.twist.magnitude()])
 }
 
-/// Value below which this part of the sorted values lies.
+/// Value below which this fraction of the sorted values lies.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
     let position = part * (sorted.len() - 1) as f64;
     let below = nearest_integer(position.floor());
@@ -84,7 +84,7 @@ struct Peaks {
 }
 
 impl Peaks {
-    /// Part of the inputs over their peak.
+    /// Fraction of the inputs over their peak.
     fn distribution(&self) -> Vec<(f64, f64)> {
         let peaks = self.all.iter().enumerate();
         peaks.map(|(n, peak)| (*peak, (n as f64 + 0.5) / self.all.len() as f64)).collect()

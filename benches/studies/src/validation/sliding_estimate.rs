@@ -27,7 +27,7 @@ const FRICTION_COEFFICIENT: f64 = 0.15;
 const TIME_STEP: f64 = 0.005;
 /// Peak ground accelerations over the acceleration that starts slip.
 const PEAK_LEVELS: [f64; 3] = [1.5, 2.5, 5.0];
-/// Limits of the median and the smallest ratio, and of the part of ratios below one, at each level.
+/// Limits of the median and the smallest ratio, and of the fraction of ratios below one, at each level.
 const MEDIAN_LIMITS: [[f64; 2]; 3] = [[5.0, 40.0], [2.0, 8.0], [1.2, 4.0]];
 const SMALLEST_RATIOS: [f64; 3] = [1.5, 0.9, 0.6];
 const UNSAFE_PARTS: [f64; 3] = [0.0, 0.1, 0.4];
@@ -69,8 +69,8 @@ fn estimate(record: &Record, vertical: f64) -> Result<f64, AnyError> {
 
 /// Largest slip on rigid ground, m.
 fn on_rigid_ground(record: &Record) -> Result<f64, AnyError> {
-    let history = SlidingBlock::new(FRICTION_COEFFICIENT, STANDARD_GRAVITY)?.slide(record);
-    Ok(history.maximum().max(-history.minimum()))
+    let slide = SlidingBlock::new(FRICTION_COEFFICIENT, STANDARD_GRAVITY)?.slide(record);
+    Ok(slide.maximum().max(-slide.minimum()))
 }
 
 /// Largest slip on soil of this wave speed, m.

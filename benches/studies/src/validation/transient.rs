@@ -46,7 +46,7 @@ impl<'a> TabledQuantity<'a> {
 }
 
 /// Time series of one quantity.
-struct QuantityHistory {
+struct QuantitySeries {
     name: String,
     error: f64,
     limit: f64,
@@ -57,14 +57,14 @@ struct QuantityHistory {
 
 /// All quantities of a run.
 struct TabledRun {
-    list: Vec<QuantityHistory>,
+    list: Vec<QuantitySeries>,
     energy_error: f64,
 }
 
 /// Runs a structure with degrees of freedom `[u_x, u_y, θ, …]` under the S wave of the tables.
 ///
 /// The free field is a Ricker pulse with amplitude 1 and σ = 1 about t = 5, in units of b, c_S, μ.
-fn histories(
+fn time_series(
     file: &str,
     structure: impl Structure + 'static,
     poisson: f64,
@@ -84,9 +84,9 @@ fn histories(
         .gravity(0.0)
         .motion(RickerDisplacement::new(1.0, 1.0, 5.0)?)
         .build()?;
-    let mut histories: Vec<_> = quantities
+    let mut time_series: Vec<_> = quantities
         .iter()
-        .map(|quantity| QuantityHistory {
+        .map(|quantity| QuantitySeries {
             name: quantity.name.to_owned(),
             error: 0.0,
             limit: quantity.limit,
@@ -97,46 +97,50 @@ fn histories(
         .collect();
     let duration = columns.first().ok_or("no quantities")?.duration();
     let run = simulation.run(nearest_integer(duration / TIME_STEP), |state| {
-        for ((history, quantity), column) in histories.iter_mut().zip(quantities).zip(&columns) {
+        for ((series, quantity), column) in time_series.iter_mut().zip(quantities).zip(&columns) {
             // The force of a step is its mean over the step, in the middle of the step.
             if quantity.mean {
-                history.times.push(state.time - 0.5 * TIME_STEP);
-                history.tabled.push(column.mean(state.time, TIME_STEP));
+                series.times.push(state.time - 0.5 * TIME_STEP);
+                series.tabled.push(column.mean(state.time, TIME_STEP));
             } else {
-                history.times.push(state.time);
-                history.tabled.push(column.at(state.time));
+                series.times.push(state.time);
+                series.tabled.push(column.at(state.time));
             }
-            history.computed.push((quantity.value)(state));
+            series.computed.push((quantity.value)(state));
         }
     })?;
-    for history in &mut histories {
+    for series in &mut time_series {
         let mut error = RelativeError::default();
-        history.computed.iter().zip(&history.tabled).for_each(|(a, b)| error.add(*a, *b));
-        history.error = error.relative();
+        series.computed.iter().zip(&series.tabled).for_each(|(a, b)| error.add(*a, *b));
+        series.error = error.relative();
     }
-    Ok(TabledRun { list: histories, energy_error: run.energy_error })
+    Ok(TabledRun { list: time_series, energy_error: run.energy_error })
 }
 
-/// Checks of the histories, and of the energy balance.
-fn checks(histories: &TabledRun) -> Vec<ValidationCheck> {
+/// Checks of the time series, and of the energy balance.
+fn checks(time_series: &TabledRun) -> Vec<ValidationCheck> {
     let mut checks = Vec::new();
-    for history in &histories.list {
-        let name = format!("{}, relative L2", history.name);
-        checks.push(ValidationCheck::below(name, history.error, history.limit));
+    for series in &time_series.list {
+        let name = format!("{}, relative L2", series.name);
+        checks.push(ValidationCheck::below(name, series.error, series.limit));
     }
-    checks.push(ValidationCheck::below("energy balance, residual", histories.energy_error, 1e-10));
+    checks.push(ValidationCheck::below(
+        "energy balance, residual",
+        time_series.energy_error,
+        1e-10,
+    ));
     checks
 }
 
-/// A panel with the first 25 b/c_S of a history; what follows is small.
-fn panel(history: &QuantityHistory, unit: &str) -> FigurePanel {
+/// A panel with the first 25 b/c_S of a series; the rest is small.
+fn panel(series: &QuantitySeries, unit: &str) -> FigurePanel {
     let points = |values: &[f64]| {
-        let samples = history.times.iter().copied().zip(values.iter().copied());
+        let samples = series.times.iter().copied().zip(values.iter().copied());
         samples.take_while(|(time, _)| *time <= 25.0).collect()
     };
-    FigurePanel::new("t c_S / b", &format!("{}{unit}", history.name))
-        .reference("frequency-domain table", CURVE_RED, points(&history.tabled))
-        .line("basemat", CURVE_BLUE, points(&history.computed))
+    FigurePanel::new("t c_S / b", &format!("{}{unit}", series.name))
+        .reference("frequency-domain table", CURVE_RED, points(&series.tabled))
+        .line("basemat", CURVE_BLUE, points(&series.computed))
 }
 
 pub(crate) const BLOCK_CASE: ValidationCase = ValidationCase {
@@ -151,7 +155,7 @@ fn block(name: &str, poisson: f64, height: f64, density: f64) -> Result<TabledRu
     let roof = |state: &State| {
         state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
     };
-    histories(
+    time_series(
         &format!("td_block_SV_{name}.csv"),
         RigidBlock::new(2.0, height, density)?,
         poisson,
@@ -180,20 +184,20 @@ fn blocks(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut worst_balance = 0.0_f64;
     let mut shown = Vec::new();
     for (name, poisson, height, density) in list {
-        let histories = block(name, *poisson, *height, *density)?;
-        worst_balance = worse(worst_balance, histories.energy_error);
-        for (k, history) in histories.list.iter().enumerate() {
+        let time_series = block(name, *poisson, *height, *density)?;
+        worst_balance = worse(worst_balance, time_series.energy_error);
+        for (k, series) in time_series.list.iter().enumerate() {
             match checks.get_mut(k) {
-                Some(check) => check.value = worse(check.value, history.error),
+                Some(check) => check.value = worse(check.value, series.error),
                 None => checks.push(ValidationCheck::below(
-                    format!("{}, relative L2, worst block", history.name),
-                    history.error,
-                    history.limit,
+                    format!("{}, relative L2, worst block", series.name),
+                    series.error,
+                    series.limit,
                 )),
             }
         }
         if shown.is_empty() {
-            shown = histories.list;
+            shown = time_series.list;
         }
     }
     checks.push(ValidationCheck::below("energy balance, residual", worst_balance, 1e-10));
@@ -214,7 +218,7 @@ pub(crate) const CANTILEVER_CASE: ValidationCase = ValidationCase {
 fn cantilever(_short: bool) -> Result<ValidationOutcome, AnyError> {
     let cantilever = Cantilever::new(8);
     let top = cantilever.top();
-    let histories = histories(
+    let time_series = time_series(
         "td_EBcantilever_SV_nu0333.csv",
         cantilever,
         1.0 / 3.0,
@@ -239,10 +243,10 @@ fn cantilever(_short: bool) -> Result<ValidationOutcome, AnyError> {
         ],
     )?;
     let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
-    let panels = [0, 2, 3, 5].map(|k| panel(&histories.list[k], units[k]));
+    let panels = [0, 2, 3, 5].map(|k| panel(&time_series.list[k], units[k]));
     let title = "Euler–Bernoulli cantilever of height 4b on a massive rigid base, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
-    Ok(ValidationOutcome { checks: checks(&histories), figure })
+    Ok(ValidationOutcome { checks: checks(&time_series), figure })
 }
 
 pub(crate) const THREE_STOREY_CASE: ValidationCase = ValidationCase {
@@ -262,7 +266,7 @@ fn floor_motion(state: &State, floor: u8) -> f64 {
 fn storeys(_short: bool) -> Result<ValidationOutcome, AnyError> {
     let building = three_storeys()?;
     let rows = building.shear(0)?;
-    let histories = histories(
+    let time_series = time_series(
         "td_shearbuilding3_SV_nu0333_sig1.csv",
         building,
         1.0 / 3.0,
@@ -295,9 +299,9 @@ fn storeys(_short: bool) -> Result<ValidationOutcome, AnyError> {
         ],
     )?;
     let units = [" / A", " b / A", " / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
-    let panels = [0, 3, 4, 6].map(|k| panel(&histories.list[k], units[k]));
+    let panels = [0, 3, 4, 6].map(|k| panel(&time_series.list[k], units[k]));
     let title =
         "Three storeys of height b on a massive rigid base, 5 % damping in the first mode, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
-    Ok(ValidationOutcome { checks: checks(&histories), figure })
+    Ok(ValidationOutcome { checks: checks(&time_series), figure })
 }

@@ -34,7 +34,7 @@ const MASS_DENSITY: f64 = 500.0;
 const MOMENT_RATIOS: [f64; 9] = [0.02, 0.25, 0.28, 0.31, 0.34, 0.37, 0.4, 0.42, 0.44];
 const SMALLEST_CONTACT: f64 = 0.4;
 const TIME_STEP: f64 = 0.005;
-/// s.
+/// Duration of a run, s.
 const RUN_DURATION: f64 = 12.0;
 
 /// Base and ground of the body.

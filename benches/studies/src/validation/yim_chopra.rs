@@ -100,7 +100,7 @@ impl Structure for UpliftModel {
 }
 
 /// Deformation of the column, settlement (m), tilt (rad, counter-clockwise) and uplifted part at every sample.
-type UpliftHistory = [Vec<f64>; 4];
+type UpliftSeries = [Vec<f64>; 4];
 
 /// Interval of the samples, s.
 const SAMPLE_INTERVAL: f64 = 0.01;
@@ -168,7 +168,7 @@ impl StripBed {
         ]
     }
 
-    /// Makes a step of the midpoint method of Runge and Kutta, then changes the contact.
+    /// Computes a step of the midpoint method, then changes the contact.
     fn step(&mut self, record: &Record, time: f64, step: f64) {
         let first = self.rates(interpolated(record, time), &self.state);
         let middle = std::array::from_fn(|i| self.state[i] + 0.5 * step * first[i]);
@@ -180,7 +180,7 @@ impl StripBed {
         for (strip, x) in self.positions.iter().enumerate() {
             let settlement = -(self.state[1] + x * self.state[2]);
             let free = self.settlements[strip] * creep;
-            // A free strip touches the mat where the mat is as deep as the strip, or deeper.
+            // A free strip touches the mat where the mat is at least as deep as the strip.
             self.touching[strip] = if self.touching[strip] {
                 self.pressure(&self.state, *x) > 0.0
             } else {
@@ -202,26 +202,26 @@ fn reference(
     strips: usize,
     step: f64,
     duration: f64,
-) -> UpliftHistory {
+) -> UpliftSeries {
     let mut bed = StripBed::new(model, strips);
     let stride = nearest_integer(SAMPLE_INTERVAL / step);
-    let mut history: UpliftHistory = [vec![0.0], vec![-bed.state[1]], vec![0.0], vec![0.0]];
+    let mut series: UpliftSeries = [vec![0.0], vec![-bed.state[1]], vec![0.0], vec![0.0]];
     for n in 0..nearest_integer(duration / step) {
         bed.step(record, n as f64 * step, step);
         if (n + 1) % stride == 0 {
             let y = &bed.state;
-            history[0].push(y[0] + model.height * y[2]);
-            history[1].push(-y[1]);
-            history[2].push(y[2]);
-            history[3].push(bed.uplifted_part());
+            series[0].push(y[0] + model.height * y[2]);
+            series[1].push(-y[1]);
+            series[2].push(y[2]);
+            series[3].push(bed.uplifted_part());
         }
     }
-    history
+    series
 }
 
-/// History of a run, and its energy error.
+/// Time series of a run, and its energy error.
 struct UpliftRun {
-    history: UpliftHistory,
+    series: UpliftSeries,
     energy_error: f64,
 }
 
@@ -252,20 +252,20 @@ fn computed(
     let mut simulation = builder.build()?;
     let settlement = -simulation.static_displacement()[1];
     let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
-    let mut history: UpliftHistory = [vec![0.0], vec![settlement], vec![0.0], vec![0.0]];
+    let mut series: UpliftSeries = [vec![0.0], vec![settlement], vec![0.0], vec![0.0]];
     let run = simulation.run(nearest_integer(duration / time_step), |state| {
         if state.step % stride == 0 {
             let u = state.absolute_displacement();
-            history[0].push(u[3] - u[0] + model.height * u[2]);
-            history[1].push(settlement - u[1]);
-            history[2].push(u[2]);
-            history[3].push(state.uplifted_fraction);
+            series[0].push(u[3] - u[0] + model.height * u[2]);
+            series[1].push(settlement - u[1]);
+            series[2].push(u[2]);
+            series[3].push(state.uplifted_fraction);
         }
     })?;
-    Ok(UpliftRun { history, energy_error: run.energy_error })
+    Ok(UpliftRun { series, energy_error: run.energy_error })
 }
 
-fn errors(computed: &UpliftHistory, reference: &UpliftHistory) -> [f64; 4] {
+fn errors(computed: &UpliftSeries, reference: &UpliftSeries) -> [f64; 4] {
     std::array::from_fn(|k| {
         let mut error = RelativeError::default();
         computed[k].iter().zip(&reference[k]).for_each(|(a, b)| error.add(*a, *b));
@@ -297,8 +297,8 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let step = if short { 5e-5 } else { 2e-5 };
     let fine = reference(&model, &record, strips, step, duration);
     let coarse = reference(&model, &record, strips / 2, 2.0 * step, duration);
-    let UpliftRun { history, energy_error } = computed(model, 40, 1e-3, duration, true)?;
-    let bonded = computed(model, 40, 1e-3, duration, false)?.history;
+    let UpliftRun { series, energy_error } = computed(model, 40, 1e-3, duration, true)?;
+    let bonded = computed(model, 40, 1e-3, duration, false)?.series;
     let names = [
         "deformation of the column, relative L2",
         "settlement, relative L2",
@@ -306,15 +306,15 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         "uplifted part of the mat, relative L2",
     ];
     let mut checks =
-        ValidationCheck::list(&names, &errors(&history, &fine), &[4e-3, 5e-3, 4e-3, 2.5e-2]);
-    let ratio = peak(&history[0]) / peak(&fine[0]);
+        ValidationCheck::list(&names, &errors(&series, &fine), &[4e-3, 5e-3, 4e-3, 2.5e-2]);
+    let ratio = peak(&series[0]) / peak(&fine[0]);
     checks.push(ValidationCheck::below("peak deformation, relative", (ratio - 1.0).abs(), 2e-3));
     let coarse_errors = errors(&coarse, &fine);
     let reference_error = coarse_errors[..3].iter().fold(0.0_f64, |worst, e| worse(worst, *e));
     let name = "reference against half its strips and steps";
     checks.push(ValidationCheck::below(name, reference_error, 1e-3));
     checks.push(ValidationCheck::below("energy balance, residual", energy_error, 1e-9));
-    let reduced = peak(&history[0]) / peak(&bonded[0]);
+    let reduced = peak(&series[0]) / peak(&bonded[0]);
     checks.push(ValidationCheck::within(
         "peak deformation over that without uplift",
         reduced,
@@ -324,17 +324,17 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let weight = (model.mass + model.mat) * STANDARD_GRAVITY;
     let limit = weight * model.half_width / (model.height * model.stiffness);
     let name = "peak deformation over (m+m₀)gb/(hk), which the weight can hold";
-    checks.push(ValidationCheck::within(name, peak(&history[0]) / limit, 0.7..=1.0));
+    checks.push(ValidationCheck::within(name, peak(&series[0]) / limit, 0.7..=1.0));
     let deformation = FigurePanel::new("time, s", "deformation of the column, mm")
         .dashed("basemat, no uplift", CURVE_GRAY, scaled_curve(&bonded[0], 1e3))
         .reference("Runge–Kutta, 400 strips", CURVE_RED, scaled_curve(&fine[0], 1e3))
-        .line("basemat, 40 elements, 1 ms", CURVE_BLUE, scaled_curve(&history[0], 1e3))
+        .line("basemat, 40 elements, 1 ms", CURVE_BLUE, scaled_curve(&series[0], 1e3))
         .legend(SeriesLabelPosition::UpperRight);
     let panels = vec![
         deformation.room(0.05, 0.6),
-        panel("tilt of the mat, mrad", &fine[2], &history[2], 1e3).room(0.05, 0.3),
-        panel("settlement of its middle (down), mm", &fine[1], &history[1], 1e3).room(0.05, 0.5),
-        panel("uplifted part of the mat", &fine[3], &history[3], 1.0).room(0.05, 0.5),
+        panel("tilt of the mat, mrad", &fine[2], &series[2], 1e3).room(0.05, 0.3),
+        panel("settlement of its middle (down), mm", &fine[1], &series[1], 1e3).room(0.05, 0.5),
+        panel("uplifted part of the mat", &fine[3], &series[3], 1.0).room(0.05, 0.5),
     ];
     let title =
         "Column of 0.6 s on a mat on springs and dashpots without tension, El Centro 1940 NS";

@@ -30,7 +30,7 @@ pub enum SoilError {
         value: f64,
         /// Real and imaginary part of s, 1/s.
         s: [f64; 2],
-        /// Requirement.
+        /// Requirement on this quantity.
         needed: &'static str,
     },
     /// An inclined wave without a first arrival.
@@ -53,7 +53,9 @@ pub enum SoilError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GroundError {
-    /// Bisection does not resolve a wavenumber integral: a pole lies on its path.
+    /// Bisection does not resolve a wavenumber integral.
+    ///
+    /// A pole lies on its path, or the stiffnesses of the layers differ by more than double precision resolves.
     #[error(
         "wavenumber integral at s = {re} + {im}i 1/s is not resolved near k = {wavenumber} 1/m \
          (without damping, poles lie on the path at real frequencies: give every layer some damping; \
@@ -101,7 +103,7 @@ pub enum GroundError {
          fastest by {growth_per_step:.1e} per step (use a longer time step or another kernel, or allow the growth)"
     )]
     Unstable {
-        /// Factor minus one by which the fastest mode grows in a step.
+        /// Growth factor per step of the fastest growing mode, minus one.
         growth_per_step: f64,
         /// Number of growing modes.
         growing_modes: usize,
@@ -112,10 +114,10 @@ pub enum GroundError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// A mat or a mask without a cell.
+    /// A mat without a cell: no cell lies in its faces, or no entry of its mask is true.
     #[error("mat {mat} has no cell: cells are {} m x {} m (use more cells)", number_text(pitch[0]), number_text(pitch[1]))]
     NoCells {
-        /// Mat, from 0 in the order of its first face.
+        /// Number of the mat, from 0 in the order of the mats' first faces.
         mat: usize,
         /// Sides of a cell, m.
         pitch: [f64; 2],
@@ -126,7 +128,7 @@ pub enum PlanError {
         faces[0], faces[1], number_text(*area)
     )]
     Overlap {
-        /// Numbers of the two faces.
+        /// Numbers of the two faces, from 0.
         faces: [usize; 2],
         /// Area of the overlap, m².
         area: f64,
@@ -143,7 +145,7 @@ pub enum PlanError {
     Uncovered {
         /// Area of the faces, m².
         faces: f64,
-        /// Area of the cells inside the outline, m².
+        /// Area of the parts of the cells inside the faces, m².
         cells: f64,
         /// Sides of a cell, m.
         pitch: [f64; 2],

@@ -1,6 +1,6 @@
 //! Factors of matrices whose numbers change while their sparsity pattern stays, in reused memory.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, factorize_symbolic_lu};
@@ -8,14 +8,17 @@ use faer::{Par, Side, Spec};
 
 use super::{Factors, LastEntry, SparseFactor, last_entries};
 use crate::SparseMatrix;
+use crate::block_lu::BlockLu;
 use crate::elimination::{Elimination, by_columns, column_indices};
 use crate::error::{Error, Result};
-use crate::symmetry::{MAX_ASYMMETRY, relative_asymmetry};
+use crate::symmetry::{MAX_ASYMMETRY, MirroredPairs};
 
 /// Factor of the last of many matrices with one sparsity pattern.
 ///
 /// The order of elimination and the pattern of the factor are determined once. Each new matrix is factored in the
-/// memory of the last one, with the same result to the last bit as by [`SparseFactor::with_elimination`].
+/// memory of the last one. For symmetric positive definite matrices the result is that of
+/// [`SparseFactor::with_elimination`] to the last bit. Large matrices with a symmetric pattern, but unsymmetric values,
+/// keep the order of elimination of the symmetric ones.
 pub struct ChangingFactor {
     name: &'static str,
     elimination: Elimination,
@@ -23,14 +26,17 @@ pub struct ChangingFactor {
     columns: SparseColMat<usize, f64>,
     /// Position, in storage by columns, of each entry in storage by rows.
     column_indices: Vec<usize>,
-    /// Index of the mirrored entry of each entry, both by rows; `usize::MAX` if the mirrored entry is not stored.
-    mirrored_indices: Vec<usize>,
+    mirrored_pairs: MirroredPairs,
     /// Factor of symmetric positive definite matrices.
     cholesky: Option<ReusedFactor>,
+    /// Factor of other matrices with a symmetric pattern, in the same order of elimination.
+    block_lu: Option<ReusedFactor>,
+    /// Whether the last rows are the last in this order.
+    ends_with_last_rows: bool,
     /// Factor of all other matrices.
     lu: Option<ReusedFactor>,
-    /// Whether the last matrix was factored by LU.
-    uses_lu: bool,
+    /// Method of the last factorization.
+    method: Method,
     /// Buffer for the solution of a factor's test, and for solutions of right-hand sides on the last rows.
     solution: Vec<f64>,
     last_rows: Vec<usize>,
@@ -39,6 +45,19 @@ pub struct ChangingFactor {
     /// Cholesky's factor of the matrix condensed on the last rows, row-major.
     last_lower: Vec<f64>,
 }
+
+/// Method of a factorization.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Method {
+    Cholesky,
+    BlockLu,
+    Lu,
+}
+
+/// Largest unbalanced value of the solution for a test vector, relative to the largest sum of its terms.
+///
+/// Pivots that would need an exchange beyond a front leave more.
+const MAX_TEST_IMBALANCE: f64 = 1e-10;
 
 /// A factor with the workspaces of its factorization and of solves.
 struct ReusedFactor {
@@ -76,10 +95,12 @@ impl ChangingFactor {
             elimination: ending_elimination.flatten().unwrap_or_else(|| elimination.clone()),
             columns,
             column_indices: column_indices(matrix),
-            mirrored_indices: matrix.mirrored_indices().collect(),
+            mirrored_pairs: MirroredPairs::of(matrix),
             cholesky: None,
+            block_lu: None,
+            ends_with_last_rows: false,
             lu: None,
-            uses_lu: false,
+            method: Method::Cholesky,
             solution: vec![0.0; matrix.order()],
             last_rows: last_rows.to_vec(),
             last_entries: None,
@@ -97,20 +118,23 @@ impl ChangingFactor {
         for (column_index, value) in self.column_indices.iter().zip(&matrix.values) {
             values[*column_index] = *value;
         }
-        let is_symmetric = self.asymmetry(matrix) <= MAX_ASYMMETRY;
-        self.uses_lu = !(is_symmetric && self.factor_by_cholesky());
-        if (!self.uses_lu || self.factor_by_lu()) && self.solves_test() {
+        let is_symmetric = self.mirrored_pairs.asymmetry(matrix) <= MAX_ASYMMETRY;
+        self.method = Method::Cholesky;
+        if is_symmetric && self.factor_by_cholesky() {
+            if self.solves_test() {
+                return Ok(());
+            }
+            return Err(Error::Singular { matrix: self.name, order: matrix.order() });
+        }
+        self.method = Method::BlockLu;
+        if self.factor_by_block_lu(matrix) && self.balances_test(matrix) {
+            return Ok(());
+        }
+        self.method = Method::Lu;
+        if self.factor_by_lu() && self.solves_test() {
             return Ok(());
         }
         Err(Error::Singular { matrix: self.name, order: matrix.order() })
-    }
-
-    /// Largest |a_ij − a_ji| relative to the largest |a_ij|, as [`SparseMatrix::asymmetry`].
-    fn asymmetry(&self, matrix: &SparseMatrix) -> f64 {
-        let pairs = matrix.values.iter().zip(&self.mirrored_indices);
-        relative_asymmetry(pairs.map(|(value, mirrored_index)| {
-            (*value, matrix.values.get(*mirrored_index).copied().unwrap_or(0.0))
-        }))
     }
 
     /// Factors by Cholesky; false unless the matrix is positive definite.
@@ -128,7 +152,7 @@ impl ChangingFactor {
         }
         let Self { cholesky, columns, last_entries, last_lower, .. } = self;
         let Some(reused) = cholesky else { return false };
-        let has_succeeded = reused.refactor(columns);
+        let has_succeeded = reused.refactor(columns, &[]);
         if let (Factors::Cholesky { values, .. }, Some(entries)) =
             (&reused.factor.factors, last_entries)
         {
@@ -137,6 +161,45 @@ impl ChangingFactor {
             }
         }
         has_succeeded
+    }
+
+    /// Factors by LU with exchanges within fronts; false for a pattern without fronts.
+    fn factor_by_block_lu(&mut self, matrix: &SparseMatrix) -> bool {
+        if self.block_lu.is_none() {
+            if !self.mirrored_pairs.is_symmetric_pattern() {
+                return false;
+            }
+            let symbolic = self.elimination.analyse(self.columns.symbolic());
+            let blocks = symbolic.and_then(|symbolic| BlockLu::new(&symbolic, matrix));
+            let Some(blocks) = blocks else { return false };
+            self.ends_with_last_rows = blocks.ends_with(&self.last_rows);
+            let factors = Factors::BlockLu(Box::new(blocks));
+            let workspace = MemBuffer::new(StackReq::EMPTY);
+            self.block_lu = Some(ReusedFactor::new(factors, self.columns.ncols(), workspace));
+        }
+        let columns = &self.columns;
+        self.block_lu.as_mut().is_some_and(|factor| factor.refactor(columns, &matrix.values))
+    }
+
+    /// Whether the solution for a test vector is finite and balances the vector.
+    fn balances_test(&mut self, matrix: &SparseMatrix) -> bool {
+        if !self.solves_test() {
+            return false;
+        }
+        let mut max_imbalance = 0.0_f64;
+        let mut max_sum = 1.0_f64;
+        for row in 0..matrix.order() {
+            let mut imbalance = -1.0;
+            let mut sum = 0.0;
+            for (column, value) in matrix.row(row) {
+                let term = value * self.solution[column];
+                imbalance += term;
+                sum += term.abs();
+            }
+            max_imbalance = max_imbalance.max(imbalance.abs());
+            max_sum = max_sum.max(sum);
+        }
+        max_imbalance <= MAX_TEST_IMBALANCE * max_sum
     }
 
     /// Factors by LU with partial pivoting; false if it fails.
@@ -151,7 +214,7 @@ impl ChangingFactor {
             let factors = Factors::Lu { symbolic, numeric: NumericLu::new() };
             self.lu = Some(ReusedFactor::new(factors, self.columns.ncols(), workspace));
         }
-        self.lu.as_mut().is_some_and(|factor| factor.refactor(&self.columns))
+        self.lu.as_mut().is_some_and(|factor| factor.refactor(&self.columns, &[]))
     }
 
     /// Whether the solution for a test vector is finite: the pivots of a singular matrix may be rounding errors.
@@ -165,13 +228,21 @@ impl ChangingFactor {
 
     /// The factor of the last matrix; `None` if its factorization failed.
     pub fn factor(&self) -> Option<&SparseFactor> {
-        let factor = if self.uses_lu { &self.lu } else { &self.cholesky };
+        let factor = match self.method {
+            Method::Cholesky => &self.cholesky,
+            Method::BlockLu => &self.block_lu,
+            Method::Lu => &self.lu,
+        };
         factor.as_ref().map(|reused| &reused.factor)
     }
 
     /// The factor of the last matrix, with its workspaces.
     fn reused_factor(&mut self) -> Option<&mut ReusedFactor> {
-        let factor = if self.uses_lu { &mut self.lu } else { &mut self.cholesky };
+        let factor = match self.method {
+            Method::Cholesky => &mut self.cholesky,
+            Method::BlockLu => &mut self.block_lu,
+            Method::Lu => &mut self.lu,
+        };
         factor.as_mut()
     }
 
@@ -187,9 +258,20 @@ impl ChangingFactor {
     /// `rhs`: the values on the last rows, one right-hand side after the other.
     pub fn solve_on_last_rows(&mut self, rhs: &mut [f64]) {
         let count = self.last_rows.len().max(1);
-        if !self.uses_lu && self.last_entries.is_some() {
+        if self.method == Method::Cholesky && self.last_entries.is_some() {
             for column in rhs.chunks_exact_mut(count) {
                 solve_by_lower(&self.last_lower, column);
+            }
+            return;
+        }
+        if self.method == Method::BlockLu
+            && self.ends_with_last_rows
+            && let Some(reused) = &mut self.block_lu
+            && let Factors::BlockLu(blocks) = &reused.factor.factors
+        {
+            for column in rhs.chunks_exact_mut(count) {
+                let stack = MemStack::new(&mut reused.factor.buffer);
+                blocks.solve_on_last_positions(column, stack);
             }
             return;
         }
@@ -241,7 +323,9 @@ impl ReusedFactor {
     }
 
     /// Factors a matrix; false if it fails.
-    fn refactor(&mut self, columns: &SparseColMat<usize, f64>) -> bool {
+    ///
+    /// `values`: its values by rows, for LU by fronts alone.
+    fn refactor(&mut self, columns: &SparseColMat<usize, f64>, values: &[f64]) -> bool {
         let stack = MemStack::new(&mut self.workspace);
         let matrix = columns.as_ref();
         match &mut self.factor.factors {
@@ -263,6 +347,10 @@ impl ReusedFactor {
             Factors::Lu { symbolic, numeric } => symbolic
                 .factorize_numeric_lu(numeric, matrix, Par::Seq, stack, Spec::default())
                 .is_ok(),
+            Factors::BlockLu(blocks) => {
+                blocks.factor(values);
+                true
+            }
         }
     }
 
@@ -279,87 +367,4 @@ impl ReusedFactor {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Triplets;
-
-    /// Grid of springs to near neighbours, with stiffnesses between `low` and 1, and an unsymmetric part.
-    fn grid(side: usize, seed: f64, low: f64, skew: f64) -> SparseMatrix {
-        let mut matrix = Triplets::new(side * side);
-        for v in 0..side * side {
-            matrix.add(v, v, 0.1);
-            let stiffness = low + (seed + v as f64).sin().abs() * (1.0 - low);
-            // Many neighbours: the factor of a large grid then has dense blocks.
-            for [x, y] in (1..16).map(|k| [v % side + k % 4, v / side + k / 4]) {
-                if x < side && y < side {
-                    matrix.add_spring(v, x + side * y, stiffness);
-                    matrix.add(v, x + side * y, skew);
-                }
-            }
-        }
-        SparseMatrix::new("grid", &matrix).unwrap()
-    }
-
-    /// REFERENCE: a new factor of each matrix, to the last bit.
-    #[test]
-    fn changing_factors_are_new_factors() {
-        for side in [5, 40] {
-            let elimination = Elimination::default();
-            let first = grid(side, 0.0, 0.5, 0.0);
-            let mut changing = ChangingFactor::new("grid", &first, &elimination).unwrap();
-            // Symmetric, unsymmetric, indefinite and symmetric again.
-            let cases = [(0.1, 0.0), (0.5, 0.2), (-0.9, 0.0), (0.3, 0.0), (0.3, -0.1)];
-            for (k, (low, skew)) in (0..).zip(cases) {
-                let matrix = grid(side, f64::from(k), low, skew);
-                changing.refactor(&matrix).unwrap();
-                let new_factor =
-                    SparseFactor::with_elimination("grid", &matrix, &elimination).unwrap();
-                let is_definite = changing.factor().unwrap().is_positive_definite();
-                assert_eq!(is_definite, new_factor.is_positive_definite());
-                assert_eq!(is_definite, low > 0.0 && skew == 0.0);
-                let right_sides: Vec<f64> =
-                    (0..7 * side * side).map(|i| (i as f64).sin()).collect();
-                let mut computed = right_sides.clone();
-                let mut expected = right_sides;
-                changing.solve_many(&mut computed);
-                new_factor.solve_many(&mut expected);
-                assert_eq!(computed, expected);
-                let residual = matrix.times(&computed[..side * side]);
-                let error = residual.iter().enumerate().map(|(i, r)| (r - (i as f64).sin()).abs());
-                assert!(error.fold(0.0, f64::max) < 1e-9);
-            }
-            // On the last rows, with computed dense block or without.
-            let last_rows: Vec<usize> = (0..side).map(|k| k * side + (k * k) % side).collect();
-            let mut ending_factor =
-                ChangingFactor::ending_with("grid", &first, &elimination, &last_rows).unwrap();
-            for (low, skew) in [(0.2, 0.0), (0.2, 0.1), (-0.9, 0.0), (0.4, 0.0)] {
-                let matrix = grid(side, 0.7, low, skew);
-                ending_factor.refactor(&matrix).unwrap();
-                changing.refactor(&matrix).unwrap();
-                let mut last_values: Vec<f64> = (0..3 * side).map(|i| (i as f64).cos()).collect();
-                for (k, column) in last_values.clone().chunks_exact(side).enumerate() {
-                    let mut full_solution = vec![0.0; side * side];
-                    last_rows
-                        .iter()
-                        .zip(column)
-                        .for_each(|(row, value)| full_solution[*row] = *value);
-                    changing.solve(&mut full_solution);
-                    ending_factor.solve_on_last_rows(&mut last_values[k * side..][..side]);
-                    for (row, value) in last_rows.iter().zip(&last_values[k * side..]) {
-                        assert!(
-                            (full_solution[*row] - value).abs() < 1e-9,
-                            "{} {value}",
-                            full_solution[*row]
-                        );
-                    }
-                }
-            }
-            assert_eq!(ending_factor.last_entries.is_some(), side == 40);
-            let zero = grid(side, 0.0, 0.0, 0.0);
-            let mut singular = zero.clone();
-            singular.values.fill(0.0);
-            assert!(matches!(changing.refactor(&singular), Err(Error::Singular { .. })));
-            changing.refactor(&first).unwrap();
-        }
-    }
-}
+mod tests;

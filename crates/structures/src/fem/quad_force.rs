@@ -44,12 +44,16 @@ impl<const N: usize> IntegrationPoint<N> {
 
     /// Adds the stiffness of a tangent ∂stress/∂strain, Pa, to a row-major `matrix`.
     fn add_stiffness(&self, tangent: &[[f64; 4]; 4], matrix: &mut [f64]) {
-        let stresses = self
-            .strains
-            .map(|column| tangent.map(|row| self.area * inner_product(&row, &column)));
-        for (row, strains) in matrix.chunks_exact_mut(N).zip(&self.strains) {
-            for (entry, stress) in row.iter_mut().zip(&stresses) {
-                *entry += inner_product(strains, stress);
+        // Stress components by each degree of freedom, component after component, so that the inner loop is over
+        // neighbouring numbers.
+        let stresses =
+            tangent.map(|row| self.strains.map(|column| self.area * inner_product(&row, &column)));
+        for (matrix_row, strains) in matrix.as_chunks_mut::<N>().0.iter_mut().zip(&self.strains) {
+            for j in 0..N {
+                matrix_row[j] += strains[0] * stresses[0][j]
+                    + strains[1] * stresses[1][j]
+                    + strains[2] * stresses[2][j]
+                    + strains[3] * stresses[3][j];
             }
         }
     }

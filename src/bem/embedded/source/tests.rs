@@ -3,7 +3,7 @@ use crate::bem::embedded::Trench;
 use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
 use crate::history::PairClasses;
-use crate::soil::{KelvinVoigt, Soil, SoilProfile};
+use crate::soil::{GeneralizedMaxwell, KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
 
 const TIME_STEP: f64 = 0.8;
@@ -69,6 +69,48 @@ fn weights_are_the_coefficients_of_the_mobility() {
     println!("{:e} {:e}", max_error_at_rest / largest, max_mobility_error / largest);
     assert!(max_error_at_rest < 1e-5 * largest, "{max_error_at_rest:e}");
     assert!(max_mobility_error < 1e-6 * largest, "{max_mobility_error:e}");
+}
+
+/// Grounds of the table of weights: half-plane, damped layer on rock, and on rigid bedrock.
+fn grounds_of_table() -> [SoilProfile; 3] {
+    let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap();
+    let clay = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0).unwrap();
+    let rock = Soil::from_shear_wave_speed(600.0, 0.3, 2200.0).unwrap();
+    let on_rock = SoilProfile::on_half_plane(rock).with_bedrock_damping(damping(0.01));
+    let with_layer =
+        |bedrock: SoilProfile| bedrock.with_layer(clay, 15.0).unwrap().with_damping(damping(0.05));
+    [clay.into(), with_layer(on_rock), with_layer(SoilProfile::on_rigid_bedrock())]
+}
+
+/// The table was computed by elimination of whole vertical lines, with dense matrices; errors relative to the largest of the lag.
+#[test]
+fn weights_are_those_of_an_elimination_line_by_line() {
+    let table = basemat_testkit::table("embedded/weights.csv");
+    let rows = table.rows(["ground", "class", "kind", "lag_1", "lag_2", "lag_10", "lag_100"]);
+    for (ground, profile) in grounds_of_table().into_iter().enumerate() {
+        let elements = Trench::new(-12.0..12.0, 6.0).unwrap().elements(4, 2).unwrap();
+        let soil = TrenchSoil::new(profile, elements).unwrap();
+        let source = TrenchSource { soil, stages: None, file: None };
+        let weights = source.weights(0.01).unwrap();
+        let mut max_weights = [0.0_f64; 4];
+        let mut max_errors = [0.0_f64; 4];
+        for class in 0..weights.classes.count() {
+            for (kind, lags) in lags(&weights, class).iter().enumerate() {
+                let labels = [ground, class, kind].map(|label| label as f64);
+                let row = rows.iter().find(|row| row[..3] == labels).unwrap();
+                for (k, lag) in [1, 2, 10, 100].into_iter().enumerate() {
+                    let expected = row[3 + k];
+                    max_weights[k] = max_weights[k].max(expected.abs());
+                    max_errors[k] = max_errors[k].max((lags[lag - 1] - expected).abs());
+                }
+            }
+        }
+        for k in 0..4 {
+            let error = max_errors[k] / max_weights[k];
+            println!("{ground} {k}: {error:e}");
+            assert!(error < 1e-8, "{ground} {k}: {error:e}");
+        }
+    }
 }
 
 /// The work of any tractions is not negative where these eigenvalues are not.

@@ -1,4 +1,4 @@
-//! The measured rows.
+//! Measured rows of the slow cyclic test.
 
 use super::{FootingRow, RockingPacket};
 use crate::table;

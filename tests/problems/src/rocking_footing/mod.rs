@@ -14,11 +14,11 @@ pub const FOOTING_SIDES: [f64; 2] = [2.8, 0.65];
 pub const VERTICAL_FORCE: f64 = 285.0e3;
 /// Height of the actuator above the base, m.
 pub const ACTUATOR_HEIGHT: f64 = 4.9;
-/// Height of the centre of gravity above the base, m: P Δ of the measured moments.
+/// Height of the centre of gravity above the base, m, for P–Δ in the measured moments.
 pub const GRAVITY_CENTER_HEIGHT: f64 = 4.52;
 /// Bearing pressure of the sand under the footing, Pa.
 pub const BEARING_PRESSURE: f64 = 814.0e3;
-/// kg/m³.
+/// Density of the sand, kg/m³.
 pub const SAND_DENSITY: f64 = 1657.0;
 /// Cycles of a packet.
 pub const CYCLES_PER_PACKET: usize = 3;
@@ -73,8 +73,8 @@ impl RockingPacket {
 
     /// Equivalent viscous damping ratio of a cycle, ΔW/(2π M θ) with the amplitudes of the packet.
     ///
-    /// ΔW is a third of the packet's energy. Packets do not end at the load of their beginning, so that stored energy is a
-    /// part of it.
+    /// ΔW is a third of the packet's energy. A packet does not end at the load with which it began; ΔW therefore contains
+    /// some stored energy.
     pub fn equivalent_damping(&self) -> f64 {
         let cycle_energy = self.dissipated_energy() / CYCLES_PER_PACKET as f64;
         cycle_energy / (std::f64::consts::TAU * self.moment() * self.rotation_amplitude())

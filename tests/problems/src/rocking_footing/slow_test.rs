@@ -1,4 +1,4 @@
-//! The test in plan: a rigid wall on its footing, whose actuator turns it slowly through packets of cycles.
+//! The test in space: an actuator turns a rigid wall on its footing slowly through packets of cycles.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -6,10 +6,11 @@
 //! | θ | rotation of the footing that the actuator reaches |
 //! | u | displacement of the footing along x at the end of the step before |
 //!
-//! The actuator is a mass so large that only its own force moves it, joined to the wall by a stiff spring. Before each
-//! step its force is set so that u_a = h θ + u at the end of the step, by the midpoint rule. A structure of this crate has no
-//! support, which an actuator on a frame would be. Steps are so long that inertia and waves have no effect. P Δ is left out:
-//! at the rotations of the actuator it changes the shear, and the moment on the soil only through the shear.
+//! The actuator is a mass that a stiff spring joins to the wall. The mass is so large that only the force on it moves it.
+//! Before each step this force is set so that u_a = h θ + u at the end of the step, by the midpoint rule. A support in
+//! place of the mass is not possible, since a structure of this crate stands on the soil alone. Steps are so long that
+//! inertia and waves have no effect. P–Δ is left out: at a prescribed rotation it changes the shear, and the moment on
+//! the soil only through the shear.
 
 use std::time::Duration;
 
@@ -35,14 +36,14 @@ const TURN_DOF: usize = 4;
 const ACTUATOR_DOF: usize = 6;
 const DOF_COUNT: usize = 7;
 
-/// kg.
+/// Mass of the actuator, kg.
 const ACTUATOR_MASS: f64 = 1e13;
-/// N/m: a force of 60 kN strains it by 0.6 µm.
+/// Stiffness of the actuator's spring, N/m: a force of 60 kN stretches it by 0.6 µm.
 const ACTUATOR_STIFFNESS: f64 = 1e11;
-/// Of the guides against tilting across the load, N·m: a single row of cells does not resist it.
+/// Stiffness of the guides against tilting across the load, N·m. A single row of cells does not resist this tilt.
 const GUIDE_STIFFNESS: f64 = 1e9;
-/// s: a cycle takes a minute, in which waves cross the footing 3000 times. In much longer steps the mode search fails on
-/// several rows of cells.
+/// Time step, s. A cycle takes a minute, in which waves cross the footing 3000 times. In much longer steps the mode search
+/// fails on several rows of cells.
 const TIME_STEP: f64 = 0.3;
 
 /// The test, and how finely it is computed.
@@ -60,10 +61,10 @@ pub struct SlowRockingTest {
     pub packets: Vec<(String, f64)>,
 }
 
-/// What the test gives.
+/// Results of the test.
 #[derive(Debug)]
 pub struct SlowRockingRun {
-    /// Row by row, from the state at rest on.
+    /// Rows of each packet, from the state at rest on.
     pub packets: Vec<RockingPacket>,
     /// Largest violation of the energy balance, relative to the energy of the actuator.
     pub energy_error: f64,
@@ -143,8 +144,8 @@ fn wall() -> basemat::Result<MatrixModel> {
     let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
     let mass = VERTICAL_FORCE / STANDARD_GRAVITY;
     // Inertia has no effect: that of a wall of twice the height of its centre of gravity.
-    let tilting = mass * (2.0 * GRAVITY_CENTER_HEIGHT).powi(2) / 12.0;
-    let inertia = [[tilting, 0.0, 0.0], [0.0, tilting, 0.0], [0.0, 0.0, mass]];
+    let tilt_inertia = mass * (2.0 * GRAVITY_CENTER_HEIGHT).powi(2) / 12.0;
+    let inertia = [[tilt_inertia, 0.0, 0.0], [0.0, tilt_inertia, 0.0], [0.0, 0.0, mass]];
     let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];
     let gravity_center = [0.0, 0.0, GRAVITY_CENTER_HEIGHT];
     let body = RigidBody::from_mass(outline, mass, inertia, gravity_center)?;

@@ -87,6 +87,33 @@ impl HystereticSpring {
         }
     }
 
+    /// Work of the force at `midstep` on the way from `start` to `end`, without the change of the energies.
+    pub(super) fn remainder(&self, start: &[f64], midstep: &[f64], end: &[f64]) -> f64 {
+        let work_along = |deformations: &[DofCombination], force: &[f64]| -> f64 {
+            let forces = deformations.iter().zip(force);
+            forces.map(|(d, force)| force * (d.value(end) - d.value(start))).sum()
+        };
+        let work = match self {
+            Self::Uniaxial(deformation, law) => {
+                let force = law.response(deformation.value(midstep)).force;
+                work_along(std::slice::from_ref(deformation), &[force])
+            }
+            Self::Biaxial(deformations, law) => {
+                let response = law.response(deformation_values(deformations, midstep));
+                work_along(deformations, &response.force)
+            }
+            Self::Pendulum(deformations, law) => {
+                let force = law.force(deformation_values(deformations, midstep));
+                work_along(deformations, &force)
+            }
+        };
+        let start_energy = self.energy(start);
+        let end_energy = self.energy(end);
+        let stored_change = end_energy.stored - start_energy.stored;
+        let dissipated_change = end_energy.dissipated - start_energy.dissipated;
+        work - stored_change - dissipated_change
+    }
+
     pub(super) fn commit(&mut self, displacement: &[f64]) {
         match self {
             Self::Uniaxial(deformation, law) => law.commit(deformation.value(displacement)),

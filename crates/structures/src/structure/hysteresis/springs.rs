@@ -78,6 +78,13 @@ impl HystereticSprings {
         self.0.iter().flat_map(HystereticSpring::save).collect()
     }
 
+    /// Work of the springs inside a step that is neither stored nor dissipated, by its definition.
+    ///
+    /// An empty `start` is zero displacement.
+    fn total_remainder(&self, start: &[f64], midstep: &[f64], end: &[f64]) -> f64 {
+        self.0.iter().map(|spring| spring.remainder(start, midstep, end)).sum()
+    }
+
     /// Restores the springs in order; stops at the first error.
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
         let mut remaining_values = values;
@@ -160,6 +167,10 @@ impl NonlinearForce for HystereticSprings {
 pub struct WithSprings {
     structure: Box<dyn Structure>,
     springs: HystereticSprings,
+    /// Displacement at the end of the last step, m and rad, for a structure whose force has a remainder.
+    ///
+    /// Empty before the first step, and for other structures.
+    committed_displacement: Vec<f64>,
 }
 
 short_debug! {
@@ -169,7 +180,11 @@ short_debug! {
 impl WithSprings {
     /// Prepares `structure` for springs, which are added by the other methods.
     pub fn new(structure: impl Structure + 'static) -> Self {
-        Self { structure: Box::new(structure), springs: HystereticSprings::default() }
+        Self {
+            structure: Box::new(structure),
+            springs: HystereticSprings::default(),
+            committed_displacement: Vec::new(),
+        }
     }
 
     /// The structure between whose degrees of freedom the springs act, with its present internal variables.
@@ -276,6 +291,15 @@ impl NonlinearForce for WithSprings {
         }
     }
 
+    /// Remainder of the structure's force, if it has one, and that of the springs by its definition.
+    ///
+    /// Around other structures it is `None`, and the work of the springs counts as algorithmic.
+    fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
+        let structure_remainder = self.structure.nonlinear()?.remainder(midstep, end)?;
+        let start = &self.committed_displacement;
+        Some(structure_remainder + self.springs.total_remainder(start, midstep, end))
+    }
+
     /// State of the structure's force; springs have no text.
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         self.structure.nonlinear()?.describe_state(displacement, dofs)
@@ -283,6 +307,12 @@ impl NonlinearForce for WithSprings {
 
     fn commit(&mut self, displacement: &[f64]) {
         if let Some(structure_force) = self.structure.nonlinear_mut() {
+            let stores_displacement = !self.committed_displacement.is_empty()
+                || structure_force.remainder(displacement, displacement).is_some();
+            if stores_displacement {
+                self.committed_displacement.clear();
+                self.committed_displacement.extend_from_slice(displacement);
+            }
             structure_force.commit(displacement);
         }
         self.springs.commit(displacement);
@@ -290,17 +320,25 @@ impl NonlinearForce for WithSprings {
 
     fn save(&self) -> Result<Vec<f64>> {
         let mut values = self.springs.internal_variables();
+        values.extend(&self.committed_displacement);
         values.extend(save_variables(self.structure.as_ref())?);
         Ok(values)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let variable_count = self.springs.variable_count().min(values.len());
+        let displacement_start = self.springs.variable_count().min(values.len());
+        let displacement_end =
+            (displacement_start + self.committed_displacement.len()).min(values.len());
+        let displacement = &values[displacement_start..displacement_end];
         let previous_variables = self.springs.internal_variables();
-        self.springs.restore(&values[..variable_count])?;
-        let result = restore_variables(self.structure.as_mut(), &values[variable_count..]);
-        if result.is_err() {
-            self.springs.restore(&previous_variables)?;
+        self.springs.restore(&values[..displacement_start])?;
+        let result = restore_variables(self.structure.as_mut(), &values[displacement_end..]);
+        match &result {
+            Ok(()) => {
+                self.committed_displacement.clear();
+                self.committed_displacement.extend_from_slice(displacement);
+            }
+            Err(_) => self.springs.restore(&previous_variables)?,
         }
         result
     }

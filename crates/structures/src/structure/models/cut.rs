@@ -35,27 +35,27 @@ impl<'a> SectionCut<'a> {
         let mesh = &model.mesh;
         let tolerance = mesh.height_tolerance();
         let up_axis = mesh.up_axis();
-        let level = Level { height, tolerance, up_axis };
+        let level = SectionLevel { height, tolerance, up_axis };
         let mut positions =
             mesh.elements().map(|element| level.position(&mesh.coordinates(element.nodes())));
-        let is_crossed = positions.clone().any(|position| position == Position::Across);
+        let is_crossed = positions.clone().any(|position| position == ElementPosition::Across);
         let needed = "a height that no element crosses";
         require("height of the section", height, !is_crossed, needed)?;
         let section_nodes = mesh.nodes_at_height(height, tolerance)?;
-        let has_part_above = positions.any(|position| position == Position::Above);
+        let has_part_above = positions.any(|position| position == ElementPosition::Above);
         let needed = "the height of a row of nodes with elements above it";
-        let is_section = !section_nodes.is_empty() && has_part_above;
-        require("height of the section", height, is_section, needed)?;
-        check_linear_above(mesh, &level)?;
+        let divides_model = !section_nodes.is_empty() && has_part_above;
+        require("height of the section", height, divides_model, needed)?;
+        check_no_internal_variables_above(mesh, &level)?;
         let mut is_below: Vec<bool> =
             mesh.nodes().iter().map(|node| node[up_axis] <= height + tolerance).collect();
-        // A rigid body with a node below transfers the forces of the elements on all its nodes.
+        // A rigid body with a node below transfers the element forces on all its nodes to the part below.
         if let Some(links) = &model.links {
             links.mark_bodies(&mut is_below);
         }
         let matrix_above = |kind, factor: f64| {
             let mut matrix = Triplets::new(model.numbering.dofs());
-            let is_above = |points: &[[f64; 3]]| level.position(points) == Position::Above;
+            let is_above = |points: &[[f64; 3]]| level.position(points) == ElementPosition::Above;
             assemble(mesh, &model.numbering, kind, -factor, is_above, &mut matrix);
             matrix
         };
@@ -71,7 +71,9 @@ impl<'a> SectionCut<'a> {
         Ok(Self { model, height, reference, is_below, stiffness, damping, mass })
     }
 
-    /// Resultant in `direction` on the part below, times `sign`.
+    /// Rows of the resultant in `direction` on the part below, times `sign`.
+    ///
+    /// The resultant is the sum of their products with displacement, velocity and acceleration.
     pub(super) fn rows(&self, direction: Direction, sign: f64) -> SectionRows {
         let model = self.model;
         let x = self.reference[0];
@@ -99,21 +101,21 @@ impl<'a> SectionCut<'a> {
         };
         SectionRows {
             unit,
-            displacement: model.remaining_row(weighted_rows(&weights, &self.stiffness)),
-            velocity: model.remaining_row(weighted_rows(&weights, &self.damping)),
-            acceleration: model.remaining_row(weighted_rows(&weights, &self.mass)),
+            displacement: model.remaining_row(weighted_row_sum(&weights, &self.stiffness)),
+            velocity: model.remaining_row(weighted_row_sum(&weights, &self.damping)),
+            acceleration: model.remaining_row(weighted_row_sum(&weights, &self.mass)),
         }
     }
 }
 
-/// Returns an error for an element above a section that has internal variables.
-fn check_linear_above(mesh: &Mesh, level: &Level) -> Result<()> {
+/// Error if an element with internal variables lies above the section.
+fn check_no_internal_variables_above(mesh: &Mesh, level: &SectionLevel) -> Result<()> {
     let mut elements = mesh.elements().enumerate();
-    let inelastic = elements.find(|(_, element)| {
+    let inelastic_element = elements.find(|(_, element)| {
         element.inelastic().is_some()
-            && level.position(&mesh.coordinates(element.nodes())) == Position::Above
+            && level.position(&mesh.coordinates(element.nodes())) == ElementPosition::Above
     });
-    let Some((index, _)) = inelastic else { return Ok(()) };
+    let Some((index, _)) = inelastic_element else { return Ok(()) };
     let reason = format!(
         "element {index} above it has internal variables: its force is no weighted sum of displacements"
     );
@@ -122,37 +124,37 @@ fn check_linear_above(mesh: &Mesh, level: &Level) -> Result<()> {
 
 /// Position of an element relative to a section.
 #[derive(PartialEq)]
-enum Position {
+enum ElementPosition {
     Above,
     Across,
     /// Below the section, or with all nodes in it.
     NotAbove,
 }
 
-/// Height of a section along the coordinate `up_axis`.
-struct Level {
+/// Height of a section along the coordinate `up_axis`, with the tolerance within which a node lies at it.
+struct SectionLevel {
     height: f64,
     tolerance: f64,
     up_axis: usize,
 }
 
-impl Level {
+impl SectionLevel {
     /// Position of an element with nodes at these points.
-    fn position(&self, points: &[[f64; 3]]) -> Position {
-        let is_above =
+    fn position(&self, points: &[[f64; 3]]) -> ElementPosition {
+        let has_node_above =
             points.iter().any(|point| point[self.up_axis] > self.height + self.tolerance);
-        let is_below =
+        let has_node_below =
             points.iter().any(|point| point[self.up_axis] < self.height - self.tolerance);
-        match (is_above, is_below) {
-            (true, true) => Position::Across,
-            (true, false) => Position::Above,
-            (false, _) => Position::NotAbove,
+        match (has_node_above, has_node_below) {
+            (true, true) => ElementPosition::Across,
+            (true, false) => ElementPosition::Above,
+            (false, _) => ElementPosition::NotAbove,
         }
     }
 }
 
 /// Nonzero entries of wᵀ A, with the `weights` w and the sum A of `matrices`.
-fn weighted_rows(weights: &[f64], matrices: &[Triplets]) -> Vec<(usize, f64)> {
+fn weighted_row_sum(weights: &[f64], matrices: &[Triplets]) -> Vec<(usize, f64)> {
     let mut sums = vec![0.0; weights.len()];
     for &(row, column, value) in matrices.iter().flat_map(Triplets::entries) {
         if let (Some(weight), Some(sum)) = (weights.get(row), sums.get_mut(column)) {

@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 use std::ops::Range;
 
-use crate::error::{Error, Result, finite, in_bounds, require, same_length};
+use crate::error::{Error, Result, finite, in_bounds, require, require_part, same_length};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::dof_list_text;
 use crate::structure::nonlinear::check_nonlinear_force;
@@ -15,8 +15,10 @@ use crate::structure::{
 /// A structure of the group, and its base in the group.
 pub(super) struct Member {
     pub(super) structure: Box<dyn Structure>,
-    /// Base in coordinates and degrees of freedom of the group.
+    /// Base in coordinates and degrees of freedom of the group; without lines for a structure above others.
     base: Base,
+    /// Shift to the right and upwards, m.
+    pub(super) offset: [f64; 2],
     /// Index of its first degree of freedom in the group.
     pub(super) first_dof: usize,
     /// Number of its degrees of freedom.
@@ -95,6 +97,7 @@ impl StructureGroup {
         finite("shift of a structure", shift)?;
         let mut member = Member {
             base: structure.base(),
+            offset: [shift, 0.0],
             first_dof: self.dofs(),
             dof_count: structure.dofs(),
             structure: Box::new(structure),
@@ -141,6 +144,64 @@ impl StructureGroup {
                 Ok(())
             }
         }
+    }
+
+    /// Adds `structure`, shifted by `offset` to the right and upwards (m), which touches no ground.
+    ///
+    /// It stands on other members by joints (`basemat::coupled::Joint`), whose
+    /// nodes [`contact_nodes`](StructureGroup::contact_nodes) converts. Its own base is not part of the group's base.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an offset that is not finite, [`Error::Scene`] for a structure in space.
+    pub fn with_above(
+        mut self,
+        structure: impl Structure + 'static,
+        offset: [f64; 2],
+    ) -> Result<Self> {
+        finite("shift of a structure", offset[0])?;
+        finite("height of a structure above the ground", offset[1])?;
+        let is_in_plane = matches!(structure.base(), Base::Lines(_));
+        let needed = "must be in the plane to stand on others";
+        require_part("structure of a group", is_in_plane, needed)?;
+        self.members.push(Member {
+            base: Base::Lines(Vec::new()),
+            offset,
+            first_dof: self.dofs(),
+            dof_count: structure.dofs(),
+            structure: Box::new(structure),
+        });
+        Ok(self)
+    }
+
+    /// Converts contact nodes of structure `member` to coordinates and degrees of freedom of the group.
+    ///
+    /// Members count from 0, the first one added.
+    ///
+    /// ```
+    /// use basemat::structure::{RigidBlock, StructureGroup};
+    ///
+    /// let block = RigidBlock::new(2.0, 1.0, 2000.0)?;
+    /// let top = block.contact_nodes(&[[-1.0, 1.0], [1.0, 1.0]])?;
+    /// let group = StructureGroup::new().with(block.clone(), 3.0)?.with_above(block, [3.0, 1.0])?;
+    /// let nodes = group.contact_nodes(0, top)?;
+    /// assert_eq!([nodes[0].x, nodes[0].z], [2.0, 1.0]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a structure or a degree of freedom that does not exist; [`Error::Input`] for a weight
+    /// that is not finite.
+    pub fn contact_nodes(&self, member: usize, mut nodes: Vec<BaseNode>) -> Result<Vec<BaseNode>> {
+        let index = in_bounds("structure of the group", member, self.len())?;
+        let [shift, height] = self.members[index].offset;
+        for node in &mut nodes {
+            node.horizontal = self.row(member, node.horizontal.clone())?;
+            node.across = self.row(member, node.across.clone())?;
+            node.vertical = self.row(member, node.vertical.clone())?;
+            node.x += shift;
+            node.z += height;
+        }
+        Ok(nodes)
     }
 
     /// Number of structures.
@@ -227,11 +288,6 @@ fn group_row(row: &DofCombination, member_dofs: &Range<usize>) -> DofCombination
     })
 }
 
-/// Coordinate x of the first node of a base, m.
-fn first_x(base: &Base) -> f64 {
-    base.nodes().next().map_or(0.0, |node| node.x)
-}
-
 /// Whether there is a gap between two convex polygons.
 ///
 /// There is a gap if, along the normal of some edge, one polygon ends before the other begins.
@@ -263,15 +319,7 @@ impl Structure for StructureGroup {
     }
 
     fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
-        let mut masses = None;
-        for member in &self.members {
-            if let Some(member_masses) = member.structure.mass_at_rest()? {
-                let masses = masses.get_or_insert_with(|| vec![0.0; self.dofs()]);
-                same_length("mass at rest", member_masses.len(), member.dof_count)?;
-                masses[member.dof_range()].copy_from_slice(&member_masses);
-            }
-        }
-        Ok(masses)
+        self.mass_of_soil_at_rest()
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
@@ -317,10 +365,10 @@ impl Structure for StructureGroup {
     }
 
     fn description(&self) -> StructureDescription {
-        let descriptions = self.members.iter().map(|member| {
-            let shift = first_x(&member.base) - first_x(&member.structure.base());
-            member.structure.description().shifted(shift)
-        });
+        let descriptions = self
+            .members
+            .iter()
+            .map(|member| member.structure.description().shifted(member.offset[0]));
         descriptions.reduce(StructureDescription::combined).unwrap_or_default()
     }
 

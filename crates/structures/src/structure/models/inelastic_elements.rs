@@ -19,6 +19,8 @@ struct InelasticElement {
     terms: Vec<(usize, f64)>,
     /// Range of the terms of each of the element's degrees of freedom.
     rows: Vec<Range<usize>>,
+    /// The model's degree of freedom of each of the element's, if each is one of the model's with a weight of 1.
+    dofs: Option<Vec<usize>>,
     /// Range of the element's internal variables.
     variables: Range<usize>,
 }
@@ -26,10 +28,23 @@ struct InelasticElement {
 impl InelasticElement {
     /// Overwrites `element_displacement` by the displacements of the element's degrees of freedom.
     fn gather(&self, displacement: &[f64], element_displacement: &mut [f64]) {
+        if let Some(dofs) = &self.dofs {
+            let values = element_displacement.iter_mut().zip(dofs);
+            return values.for_each(|(value, dof)| *value = displacement[*dof]);
+        }
         for (value, row) in element_displacement.iter_mut().zip(&self.rows) {
             let terms = self.terms[row.clone()].iter();
             *value = terms.map(|&(dof, weight)| weight * displacement[dof]).sum();
         }
+    }
+
+    /// The model's degree of freedom of each of the element's; `None` unless each is one with a weight of 1.
+    fn single_dofs(&self) -> Option<Vec<usize>> {
+        let single_dof = |row: &Range<usize>| match self.terms[row.clone()] {
+            [(dof, 1.0)] => Some(dof),
+            _ => None,
+        };
+        self.rows.iter().map(single_dof).collect()
     }
 
     /// Adds forces on the element's degrees of freedom to those on the model's.
@@ -43,6 +58,9 @@ impl InelasticElement {
 
     /// Adds a matrix of the element, with all its zeros, to that of the model.
     fn scatter_matrix(&self, element_matrix: &[f64], matrix: &mut Triplets) {
+        if let Some(dofs) = &self.dofs {
+            return matrix.add_block(dofs, element_matrix);
+        }
         for (values, row) in element_matrix.chunks_exact(self.rows.len()).zip(&self.rows) {
             for (value, column) in values.iter().zip(&self.rows) {
                 for &(i, row_weight) in &self.terms[row.clone()] {
@@ -151,6 +169,7 @@ impl InelasticElements {
                 coordinates: mesh.coordinates(element.nodes()),
                 terms: Vec::new(),
                 rows: Vec::new(),
+                dofs: None,
                 variables: first_variable..variables.len(),
             };
             for &node in element.nodes() {
@@ -161,6 +180,7 @@ impl InelasticElements {
                 }
             }
             let element_variables = &mut variables[first_variable..];
+            inelastic.dofs = inelastic.single_dofs();
             force
                 .initialize(&inelastic.coordinates, element_variables)
                 .and_then(|()| all_finite("internal variables", element_variables))

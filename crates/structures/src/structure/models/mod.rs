@@ -15,6 +15,7 @@ mod inelastic_elements;
 mod line_load;
 mod linked;
 mod matrix_model;
+mod model_nodes;
 mod p_delta;
 mod rigid_block;
 mod rigid_body;

@@ -31,6 +31,8 @@ pub struct RigidBlock {
     center: f64,
     /// Acceleration of gravity for P–Δ, m/s²; zero without it.
     gravity: f64,
+    /// Overturning moment of carried weights per rotation, N m/m.
+    carried_moment: f64,
 }
 
 impl RigidBlock {
@@ -75,7 +77,15 @@ impl RigidBlock {
         positive("rotary inertia of the block", rotary_inertia)?;
         not_negative("height of the centre of gravity", center_height)?;
         finite("rotary inertia about the base", rotary_inertia + mass * center_height.powi(2))?;
-        Ok(Self { width, mass, rotary_inertia, center_height, center: 0.0, gravity: 0.0 })
+        Ok(Self {
+            width,
+            mass,
+            rotary_inertia,
+            center_height,
+            center: 0.0,
+            gravity: 0.0,
+            carried_moment: 0.0,
+        })
     }
 
     /// Moves the middle of the base from 0 to `center` (m) on the surface.
@@ -92,6 +102,51 @@ impl RigidBlock {
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
+    }
+
+    /// Adds the P–Δ effect of a carried weight: `−weight · height · θ²/2` in the potential energy.
+    ///
+    /// `weight`: N/m, of what stands on the block at `height` (m) above its base, such as its share of a cap. The
+    /// weight itself acts by a load or a joint.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless both are finite and not negative.
+    pub fn with_carried_weight(self, weight: f64, height: f64) -> Result<Self> {
+        not_negative("carried weight", weight)?;
+        not_negative("height of a carried weight", height)?;
+        let carried_moment =
+            finite("moment of carried weights", self.carried_moment + weight * height)?;
+        Ok(Self { carried_moment, ..self })
+    }
+
+    /// Points of the block as contact nodes, for a joint with another structure.
+    ///
+    /// Each point has its coordinate on the surface and its height above the base, m.
+    ///
+    /// ```
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?.centered_at(1.0)?;
+    /// let top = block.contact_nodes(&[[-1.0, 10.0], [3.0, 10.0]])?;
+    /// assert_eq!(top[0].horizontal[..], [(0, 1.0), (2, -10.0)]);
+    /// assert_eq!(top[0].vertical[..], [(1, 1.0), (2, -2.0)]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for coordinates that are not finite.
+    pub fn contact_nodes(&self, points: &[[f64; 2]]) -> Result<Vec<BaseNode>> {
+        let mut nodes = Vec::with_capacity(points.len());
+        for &[x, z] in points {
+            nodes.push(BaseNode {
+                x: finite("coordinate of a contact node", x)?,
+                z: finite("coordinate of a contact node", z)?,
+                horizontal: self.horizontal_at(z),
+                vertical: self.vertical_at(x),
+                ..BaseNode::default()
+            });
+        }
+        Ok(nodes)
     }
 
     /// Mass m, kg per metre of thickness.
@@ -146,8 +201,8 @@ impl Structure for RigidBlock {
     }
 
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        if self.gravity > 0.0 {
-            let overturning = self.mass * self.gravity * self.center_height;
+        if self.gravity > 0.0 || self.carried_moment > 0.0 {
+            let overturning = self.mass * self.gravity * self.center_height + self.carried_moment;
             matrix.add(Self::ROTATION_DOF, Self::ROTATION_DOF, -overturning);
         }
         Ok(())

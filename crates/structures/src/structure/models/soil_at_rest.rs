@@ -1,11 +1,11 @@
-//! Soil at rest in a finite-element model: its sides, and its mass without weight.
+//! Soil at rest in a finite-element model or a group: its sides, and its mass without weight.
 
 use std::collections::{HashMap, HashSet};
 
 use super::feet::Foot;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, same_length};
 use crate::fem::{Direction, Element, Mesh};
-use crate::structure::{FemModel, Structure};
+use crate::structure::{FemModel, Structure, StructureGroup};
 
 /// Returns an error unless all sides of soil at rest are supported as at rest.
 ///
@@ -108,6 +108,22 @@ impl FemModel {
                 for (dof, weight) in self.row(*node, *direction)? {
                     masses[dof] += weight * mass;
                 }
+            }
+        }
+        Ok(masses)
+    }
+}
+
+impl StructureGroup {
+    /// Mass of soil at rest of all members on the degrees of freedom of the group, kg; `None` without such soil.
+    pub(super) fn mass_of_soil_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        let mut masses = None;
+        for member in &self.members {
+            if let Some(member_masses) = member.structure.mass_at_rest()? {
+                let range = member.dof_range();
+                same_length("mass at rest", member_masses.len(), range.len())?;
+                let masses = masses.get_or_insert_with(|| vec![0.0; self.dofs()]);
+                masses[range].copy_from_slice(&member_masses);
             }
         }
         Ok(masses)

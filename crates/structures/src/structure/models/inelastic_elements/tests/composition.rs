@@ -90,6 +90,54 @@ fn springs_and_elements_act_together() {
     assert!(combined.has_symmetric_tangent());
 }
 
+/// REFERENCE: the work of the midstep force less the changes of the energies, and the remainder of the model alone.
+#[test]
+fn springs_around_elements_have_the_remainder_of_both() {
+    let mut model = yielding();
+    let n = model.dofs();
+    let drift = DofCombination::from(n - 2) - DofCombination::from(0);
+    let spring = Bilinear::new(5.0e6, 2.0e4, 0.1).unwrap();
+    let with_springs = || WithSprings::new(yielding()).spring(drift.clone(), spring.clone());
+    let mut sprung = with_springs().unwrap();
+    // The first step starts at zero displacement.
+    let mut start = vec![0.0; n];
+    let mut spring_remainder = 0.0_f64;
+    for (k, size) in [(2, 5e-3), (7, 2e-2), (4, 1e-2), (6, 4e-3)] {
+        let end = displacements(k, n, size);
+        let midstep: Vec<f64> = start.iter().zip(&end).map(|(a, b)| 0.5 * (a + b)).collect();
+        let sprung_force = sprung.nonlinear().unwrap();
+        let work: f64 = force(&sprung, &midstep)
+            .iter()
+            .zip(end.iter().zip(&start))
+            .map(|(force, (end, start))| force * (end - start))
+            .sum();
+        let start_energy = sprung_force.energy(&start).unwrap();
+        let end_energy = sprung_force.energy(&end).unwrap();
+        let energy_change = end_energy.stored + end_energy.dissipated
+            - start_energy.stored
+            - start_energy.dissipated;
+        let remainder = sprung_force.remainder(&midstep, &end).unwrap();
+        assert!((remainder - work + energy_change).abs() < 1e-11 * work.abs(), "{remainder}");
+        let model_remainder = model.nonlinear().unwrap().remainder(&midstep, &end).unwrap();
+        spring_remainder = spring_remainder.max((remainder - model_remainder) / remainder);
+        sprung.nonlinear_mut().unwrap().commit(&end);
+        model.nonlinear_mut().unwrap().commit(&end);
+        start = end;
+    }
+    assert!(spring_remainder > 1e-6, "{spring_remainder}");
+    // The displacement at the end of the last step is among the saved variables.
+    let mut restored = with_springs().unwrap();
+    restored.nonlinear_mut().unwrap().commit(&vec![0.0; n]);
+    let values = sprung.nonlinear().unwrap().save().unwrap();
+    restored.nonlinear_mut().unwrap().restore(&values).unwrap();
+    let end = displacements(3, n, 5e-3);
+    let remainders = [&sprung, &restored].map(|s| s.nonlinear().unwrap().remainder(&end, &end));
+    assert!(remainders[0].is_some() && remainders[0] == remainders[1]);
+    let error = restored.nonlinear_mut().unwrap().restore(&values[1..]).unwrap_err();
+    assert!(matches!(error, Error::Checkpoint(_)), "{error}");
+    assert_eq!(restored.nonlinear().unwrap().remainder(&end, &end), remainders[0]);
+}
+
 #[test]
 fn p_delta_takes_the_forces_of_small_displacements() {
     let material = Material::new(20.0e6, 0.3, 1900.0).unwrap();

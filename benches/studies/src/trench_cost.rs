@@ -1,0 +1,84 @@
+//! Processor time of the convolution weights of soil around a trench.
+//!
+//! ```text
+//! cargo study trench-cost
+//! ```
+//!
+//! Trench of a box of soil below a foundation of 12 m: 24 m wide, 6 m deep, steps of 10 ms. Processor time of all threads,
+//! with the histories' transforms of the weights.
+
+use std::path::PathBuf;
+
+use basemat::bem::Ground;
+use basemat::bem::embedded::{Trench, TrenchGround};
+use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::{Result, Soil, unobserved};
+use cpu_time::ProcessTime;
+
+use crate::AnyError;
+
+/// Processor time of the convolution weights of soil around a trench.
+#[derive(Debug, clap::Args)]
+pub(crate) struct TrenchCostOptions {
+    /// Few elements and steps, to see that all works.
+    #[arg(long)]
+    short: bool,
+    /// Folder for files of the convolution weights, to compare them with others.
+    #[arg(long)]
+    weights: Option<PathBuf>,
+    /// Only cases with this number of elements.
+    #[arg(long)]
+    elements: Option<usize>,
+}
+
+const TIME_STEP: f64 = 0.01;
+const HALF_WIDTH: f64 = 12.0;
+const TRENCH_DEPTH: f64 = 6.0;
+
+/// Numbers of contact elements and of steps.
+const CASE_SIZES: [[usize; 2]; 3] = [[32, 390], [48, 390], [64, 740]];
+const SHORT_SIZES: [[usize; 2]; 1] = [[8, 100]];
+
+fn profiles() -> Result<[(&'static str, SoilProfile); 3]> {
+    let clay = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
+    let rock = Soil::from_shear_wave_speed(600.0, 0.3, 2200.0)?;
+    let damped = |ratio: f64| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
+    let on_rock = SoilProfile::on_half_plane(rock)
+        .with_bedrock_damping(damped(0.01)?)
+        .with_layer(clay, 15.0)?
+        .with_damping(damped(0.05)?);
+    let on_rigid_bedrock =
+        SoilProfile::on_rigid_bedrock().with_layer(clay, 15.0)?.with_damping(damped(0.05)?);
+    Ok([
+        ("half-plane", clay.into()),
+        ("layer, 5 %, on rock", on_rock),
+        ("layer, 5 %, on rigid bedrock", on_rigid_bedrock),
+    ])
+}
+
+/// Runs the study.
+pub(crate) fn run(options: &TrenchCostOptions) -> std::result::Result<(), AnyError> {
+    let sizes: &[[usize; 2]] = if options.short { &SHORT_SIZES } else { &CASE_SIZES };
+    println!("| ground | elements | steps | processor s | elapsed s |");
+    println!("|---|---|---|---|---|");
+    for (index, (name, profile)) in profiles()?.into_iter().enumerate() {
+        for [element_count, steps] in sizes {
+            if options.elements.is_some_and(|only| only != *element_count) {
+                continue;
+            }
+            let trench = Trench::new(-HALF_WIDTH..HALF_WIDTH, TRENCH_DEPTH)?;
+            let elements = trench.elements(element_count / 2, element_count / 4)?;
+            let mut ground = TrenchGround::new(profile.clone(), elements)?;
+            if let Some(folder) = &options.weights {
+                ground = ground.with_kernel_file(folder.join(format!("{index}_{element_count}")));
+            }
+            let processor = ProcessTime::try_now()?;
+            let clock = std::time::Instant::now();
+            ground.prepare(TIME_STEP, Some(*steps), &mut unobserved)?;
+            let seconds = processor.try_elapsed()?.as_secs_f64();
+            let elapsed = clock.elapsed().as_secs_f64();
+            println!("| {name} | {element_count} | {steps} | {seconds:.2} | {elapsed:.2} |");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! Factors of changing matrices beside new factors.
+
+use super::*;
+use crate::Triplets;
+
+/// Grid of springs to near neighbours, with stiffnesses between `low` and 1, and an unsymmetric part.
+fn grid(side: usize, seed: f64, low: f64, skew: f64) -> SparseMatrix {
+    let mut matrix = Triplets::new(side * side);
+    for v in 0..side * side {
+        matrix.add(v, v, 0.1);
+        let stiffness = low + (seed + v as f64).sin().abs() * (1.0 - low);
+        // Many neighbours: the factor of a large grid then has dense blocks.
+        for [x, y] in (1..16).map(|k| [v % side + k % 4, v / side + k / 4]) {
+            if x < side && y < side {
+                matrix.add_spring(v, x + side * y, stiffness);
+                matrix.add(v, x + side * y, skew);
+            }
+        }
+    }
+    SparseMatrix::new("grid", &matrix).unwrap()
+}
+
+/// Checks that no value differs by more than rounding of the largest.
+fn assert_near(computed: &[f64], expected: &[f64]) {
+    let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
+    let differences = computed.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    assert!(differences.fold(0.0, f64::max) < 1e-10 * largest);
+}
+
+/// REFERENCE: a new factor of each matrix, to the last bit where it is Cholesky's.
+#[test]
+fn changing_factors_are_new_factors() {
+    for side in [5, 40] {
+        let elimination = Elimination::default();
+        let first = grid(side, 0.0, 0.5, 0.0);
+        let mut changing = ChangingFactor::new("grid", &first, &elimination).unwrap();
+        // Symmetric, unsymmetric, indefinite and symmetric again.
+        let cases = [(0.1, 0.0), (0.5, 0.2), (-0.9, 0.0), (0.3, 0.0), (0.3, -0.1)];
+        for (k, (low, skew)) in (0..).zip(cases) {
+            let matrix = grid(side, f64::from(k), low, skew);
+            changing.refactor(&matrix).unwrap();
+            let new_factor = SparseFactor::with_elimination("grid", &matrix, &elimination).unwrap();
+            let is_definite = changing.factor().unwrap().is_positive_definite();
+            assert_eq!(is_definite, new_factor.is_positive_definite());
+            assert_eq!(is_definite, low > 0.0 && skew == 0.0);
+            let right_sides: Vec<f64> = (0..7 * side * side).map(|i| (i as f64).sin()).collect();
+            let mut computed = right_sides.clone();
+            let mut expected = right_sides.clone();
+            changing.solve_many(&mut computed);
+            new_factor.solve_many(&mut expected);
+            if is_definite {
+                assert_eq!(computed, expected);
+            } else {
+                assert_near(&computed, &expected);
+                assert_eq!(changing.method == Method::BlockLu, side == 40);
+                let mut computed = right_sides[..side * side].to_vec();
+                let mut expected = computed.clone();
+                changing.factor().unwrap().solve_transposed(&mut computed);
+                new_factor.solve_transposed(&mut expected);
+                assert_near(&computed, &expected);
+            }
+            let residual = matrix.times(&computed[..side * side]);
+            let error = residual.iter().enumerate().map(|(i, r)| (r - (i as f64).sin()).abs());
+            assert!(error.fold(0.0, f64::max) < 1e-9);
+        }
+        // On the last rows, with computed dense block or without.
+        let last_rows: Vec<usize> = (0..side).map(|k| k * side + (k * k) % side).collect();
+        let mut ending_factor =
+            ChangingFactor::ending_with("grid", &first, &elimination, &last_rows).unwrap();
+        for (low, skew) in [(0.2, 0.0), (0.2, 0.1), (-0.9, 0.0), (0.4, 0.0)] {
+            let matrix = grid(side, 0.7, low, skew);
+            ending_factor.refactor(&matrix).unwrap();
+            changing.refactor(&matrix).unwrap();
+            let mut last_values: Vec<f64> = (0..3 * side).map(|i| (i as f64).cos()).collect();
+            for (k, column) in last_values.clone().chunks_exact(side).enumerate() {
+                let mut full_solution = vec![0.0; side * side];
+                last_rows.iter().zip(column).for_each(|(row, value)| full_solution[*row] = *value);
+                changing.solve(&mut full_solution);
+                ending_factor.solve_on_last_rows(&mut last_values[k * side..][..side]);
+                for (row, value) in last_rows.iter().zip(&last_values[k * side..]) {
+                    assert!(
+                        (full_solution[*row] - value).abs() < 1e-9,
+                        "{} {value}",
+                        full_solution[*row]
+                    );
+                }
+            }
+        }
+        assert_eq!(ending_factor.last_entries.is_some(), side == 40);
+        let zero = grid(side, 0.0, 0.0, 0.0);
+        let mut singular = zero.clone();
+        singular.values.fill(0.0);
+        assert!(matches!(changing.refactor(&singular), Err(Error::Singular { .. })));
+        changing.refactor(&first).unwrap();
+    }
+}

@@ -1,0 +1,69 @@
+//! A block on a heavy rigid slab, which is bonded to stiff ground, and the same block on the ground.
+
+use basemat::bem::SpringGround;
+use basemat::coupled::{Joint, Theta};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::el_centro_1940;
+use basemat::structure::{RigidBlock, StructureGroup};
+use basemat::{Result, Simulation};
+
+/// Stiffness of the ground per area, Pa/m: no part of a motion in a step.
+const GROUND_STIFFNESS: f64 = 1e19;
+const ELEMENT_COUNT: usize = 8;
+const FRICTION_COEFFICIENT: f64 = 0.45;
+
+/// Mean slip and rotation of the block at every step.
+fn responses(is_on_slab: bool) -> Result<[Vec<f64>; 2]> {
+    let block = RigidBlock::new(2.0, 4.0, 2400.0)?;
+    let bottom = block.contact_nodes(&[[-1.0, 0.0], [1.0, 0.0]])?;
+    let builder = Simulation::builder(0.001)
+        .motion(el_centro_1940().scaled(2.0)?)
+        .scheme(Theta::new(1.0)?);
+    let law = Coulomb::new(FRICTION_COEFFICIENT)?;
+    let mut simulation = if is_on_slab {
+        let slab = RigidBlock::new(6.0, 2.0, 1e5)?;
+        let top = slab.contact_nodes(&[[-1.0, 2.0], [1.0, 2.0]])?;
+        let group = StructureGroup::new().with(slab, 0.0)?.with_above(block, [0.0, 2.0])?;
+        let upper = group.contact_nodes(1, bottom)?;
+        let joint = Joint::between(upper, group.contact_nodes(0, top)?, ELEMENT_COUNT)?;
+        builder
+            .ground(SpringGround::under(&group, 6, GROUND_STIFFNESS, GROUND_STIFFNESS)?)
+            .structure(group)
+            .interface(Bonded)
+            .joint(joint.with_law(law))
+            .build()?
+    } else {
+        builder
+            .ground(SpringGround::under(&block, ELEMENT_COUNT, GROUND_STIFFNESS, GROUND_STIFFNESS)?)
+            .structure(block)
+            .interface(law)
+            .build()?
+    };
+    let mut responses = [Vec::new(), Vec::new()];
+    let run = simulation.run(2800, |state| {
+        let (slip, rotation) = match &state.joints[..] {
+            [joint] => (joint.mean_slip, state.displacement()[5]),
+            _ => (state.mean_slip, state.displacement()[2]),
+        };
+        responses[0].push(slip);
+        responses[1].push(rotation);
+    })?;
+    println!("energy error {:e}", run.energy_error);
+    assert!(run.energy_error < 1e-9, "{}", run.energy_error);
+    Ok(responses)
+}
+
+/// REFERENCE: the block on the ground itself.
+#[test]
+fn a_block_on_a_slab_moves_as_on_the_ground() -> Result<()> {
+    let on_ground = responses(false)?;
+    let on_slab = responses(true)?;
+    for (expected, computed) in on_ground.iter().zip(&on_slab) {
+        let peak = expected.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
+        let difference =
+            expected.iter().zip(computed).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
+        println!("peak {peak:e}, difference {:e}", difference / peak);
+        assert!(peak > 1e-4 && difference < 1e-6 * peak, "{difference:e} of {peak:e}");
+    }
+    Ok(())
+}
