@@ -9,6 +9,9 @@
 /// 2. All **other loads** at t = 0 are applied after it, slowly, and the interface law acts. Their static state is the
 ///    end of a slow ramp of the same loads in time. Where elements slide or yield, the loads grow in ten increments.
 ///
+/// [Soil at rest](crate::fem::Mesh::with_stress_at_rest) in a trench has no weight and no pressures at rest: every stage
+/// applies the other weights with the trench bonded.
+///
 /// A base that never opens ([`Bonded`](crate::interface::Bonded)) is bonded under weight and loads. On elastic ground a
 /// weight that acts as an ordinary load causes friction, unlike a placement without friction. With ν = 0.33 and a
 /// friction of 0.5 a strip settles by up to 1.5 % less, and its shear traction reaches half its pressure.

@@ -32,7 +32,11 @@ pub(crate) struct Parts {
     /// The ground, prepared for time stepping.
     pub(crate) ground: Box<dyn Ground>,
     /// Description of the ground, from before its preparation.
+    ///
+    /// Around soil at rest it has no pressures at rest.
     pub(crate) description: GroundDescription,
+    /// Mass of soil at rest on each degree of freedom, whose weight does not act, kg; `None` without such soil.
+    pub(crate) mass_at_rest: Option<Vec<f64>>,
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) builder: SimulationBuilder,
     pub(crate) elements: Patch,
@@ -102,6 +106,13 @@ impl Parts {
             builder.safety_friction_coefficients,
             element_count,
         )?;
+        // Before the laws of joints: between bodies any law may act.
+        let mass_at_rest = structure.mass_at_rest()?;
+        if let Some(masses) = &mass_at_rest {
+            same_length("mass at rest", masses.len(), structure.dofs())?;
+            all_finite("mass at rest", masses)?;
+            check_soil_at_rest(&builder)?;
+        }
         let joints = lines(&builder.joints);
         let contact_scene = ContactScene { gravity: initial_gravity, time_step };
         let bearing_laws = add_joint_laws(&mut builder, &elements, &contact_scene)?;
@@ -116,7 +127,13 @@ impl Parts {
         let moment_x = finite("moment center", builder.moment_center.unwrap_or(center[0]))?;
         let moment_center = [moment_x, center[1]];
         // These checks precede the preparation of the ground, which can take long.
-        let description = ground.description();
+        let mut description = ground.description();
+        if mass_at_rest.is_some() {
+            // Tractions on soil at rest are changes from the pressures at rest.
+            description.pressure_at_rest.clear();
+            description.depth_of_pressure_at_rest.clear();
+            description.mass_above.clear();
+        }
         let motion = builder.motion.as_ref();
         let initial_free_field =
             free_field_at_start(ground.as_ref(), &description, motion, &elements)?;
@@ -130,6 +147,7 @@ impl Parts {
             structure,
             ground,
             description,
+            mass_at_rest,
             builder,
             elements,
             joints,
@@ -179,6 +197,20 @@ fn add_joint_laws(
     laws.drain(elements.floor().end..elements.len());
     laws.drain(..elements.floor().start);
     Ok(SharedLaw::boxed(&laws))
+}
+
+/// Returns an error for a stage or a law with which the start of soil at rest would be wrong.
+fn check_soil_at_rest(builder: &SimulationBuilder) -> Result<()> {
+    require_part(
+        "gravity stage of soil at rest",
+        !builder.starts_unloaded(),
+        "one with a static state, from which the soil starts",
+    )?;
+    require_part(
+        "interface law of soil at rest",
+        builder.laws.iter().all(|law| law.modes() == [Mode::Stick]),
+        "one that sticks always, such as `Bonded`: tractions are changes from the state at rest",
+    )
 }
 
 /// Free-field displacement at t = 0.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{Result, SoilError, at_least, positive, require, require_part};
+use crate::error::{Error, Result, SoilError, at_least, positive, require, require_part};
+use crate::fem::StressAtRest;
 
 /// Layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]
@@ -180,6 +181,39 @@ impl SoilProfile {
     /// Time that shear waves take through all layers, s; damping is neglected.
     pub fn travel_time(&self) -> f64 {
         self.layers.iter().map(|layer| layer.thickness / layer.soil.shear_wave_speed()).sum()
+    }
+
+    /// Stresses of these soils at rest, for finite elements that begin with them.
+    ///
+    /// `gravity` in m/s². `ratio`: K₀ of all soils, the horizontal over the vertical pressure; `None`: ν/(1 − ν) of each soil,
+    /// as for a trench. The last layer on rigid bedrock extends to any depth.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::soil::SoilProfile;
+    ///
+    /// let profile = SoilProfile::on_half_plane(Soil::new(100.0e6, 0.25, 2000.0)?)
+    ///     .with_layer(Soil::new(50.0e6, 0.4, 1800.0)?, 2.0)?;
+    /// let stress = profile.stress_at_rest(10.0, None)?;
+    /// assert_eq!(stress.at([0.0, -3.0])[1], -56.0e3);
+    /// assert!((stress.at([0.0, -3.0])[0] + 56.0e3 / 3.0).abs() < 1e-9);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless gravity is above zero, the ratio not negative, and both finite;
+    /// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
+    pub fn stress_at_rest(&self, gravity: f64, ratio: Option<f64>) -> Result<StressAtRest> {
+        let ratio_of = |soil: Soil| ratio.unwrap_or(soil.poisson() / (1.0 - soil.poisson()));
+        let quantity = "soil layers on rigid bedrock";
+        let surface = self.surface().ok_or(Error::Size { quantity, found: 0, needed: 1 })?;
+        let mut stress = StressAtRest::new(gravity, surface.density(), ratio_of(surface))?;
+        let mut depth = 0.0;
+        for (layer, (soil, _)) in self.layers.iter().zip(self.soils().skip(1)) {
+            depth += layer.thickness;
+            stress = stress.with_soil_below(depth, soil.density(), ratio_of(soil))?;
+        }
+        Ok(stress)
     }
 
     /// Whether the profile is a half-plane without layers or damping, which has a closed form.

@@ -30,6 +30,8 @@ mod reduced;
 mod runs;
 mod scheme_accuracy;
 mod shear_column;
+mod soil_at_rest;
+mod soil_box;
 mod soil_column;
 mod standing_scenes;
 mod static_loads;

@@ -21,6 +21,9 @@ use crate::interface::{InterfaceLaw, Mode, law_of};
 use crate::linalg::{CompressedMatrix, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
+/// Weight of soil at rest with its support, relative to this weight, that counts as rounding.
+const WEIGHT_ROUNDING: f64 = 1e-12;
+
 /// Static state under the weight and the loads at t = 0; without gravity the state without forces.
 ///
 /// The function commits this state to the structure's internal variables. `shared_compliance` receives the compliance
@@ -57,8 +60,11 @@ pub(crate) fn solve(
             *condensed = None;
             *shared_compliance.borrow_mut() = None;
         }
+        let is_soil_alone =
+            parts.mass_at_rest.is_some() && weight.iter().chain(load).all(|force| *force == 0.0);
         state = match condensed_state {
             Some(state) => state,
+            None if is_soil_alone => state,
             None => state_under_loads(parts, assembled, ground, laws, [weight, load])?,
         };
         state.load = loads.structure_load;
@@ -147,6 +153,16 @@ impl StaticLoads {
         let mut weight = vec![0.0; dofs];
         let up = assembled.influence.whole_vector(UPWARD_DIRECTION, dofs);
         assembled.mass.multiply_add(-builder.gravity, &up, &mut weight);
+        if let Some(masses) = &parts.mass_at_rest {
+            for (sum, mass) in weight.iter_mut().zip(masses) {
+                let soil_weight = builder.gravity * mass;
+                *sum += soil_weight;
+                // Soil that carries nothing has no load at all, so that rounding is no load to be balanced.
+                if sum.abs() <= WEIGHT_ROUNDING * soil_weight.abs() {
+                    *sum = 0.0;
+                }
+            }
+        }
         for external_load in &builder.loads {
             let force = external_load.value(0.0);
             let sum = if external_load.is_weight() { &mut weight } else { &mut load };
@@ -188,7 +204,9 @@ pub(crate) fn state_under_loads(
         shared_compliance: ground.shared_compliance,
     };
     let has_walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
-    if has_walls && builder.gravity_stage != GravityStage::WishedInPlace {
+    let is_backfilled =
+        parts.mass_at_rest.is_none() && builder.gravity_stage != GravityStage::WishedInPlace;
+    if has_walls && is_backfilled {
         return backfilled::state(parts, &problem, laws, [weight, load]);
     }
     let mut jump_offset = gaps.clone();

@@ -3,6 +3,7 @@
 use std::any::Any;
 
 use super::inelastic_force::InelasticForce;
+use super::stress_at_rest::StressAtRest;
 use crate::error::Result;
 use crate::geometry::Direction;
 
@@ -86,6 +87,22 @@ pub trait Element: Any + Send + Sync {
     /// forces of P–Δ use it, but the force of the element in a run is the [`InelasticForce`] alone.
     fn inelastic(&self) -> Option<&dyn InelasticForce> {
         None
+    }
+
+    /// Copy of this element as soil that begins at rest, with these stresses and without weight.
+    ///
+    /// [`Mesh::with_stress_at_rest`](super::Mesh::with_stress_at_rest) calls this method; [`check`](Element::check) of the
+    /// copy returns an error for a stress that the material cannot have. The copy exerts no force at zero displacement, and
+    /// its [`is_at_rest`](Element::is_at_rest) returns `true`. Default: `None`, for an element that is no soil.
+    fn with_stress_at_rest(&self, _stress: &StressAtRest) -> Option<Box<dyn Element>> {
+        None
+    }
+
+    /// Whether the element is soil that begins at rest. Default: no.
+    ///
+    /// Its weight and its stresses at rest are in equilibrium, so that it has inertia, but no weight.
+    fn is_at_rest(&self) -> bool {
+        false
     }
 
     /// Adds the geometric stiffness (P–Δ) of the static axial force, N/m.

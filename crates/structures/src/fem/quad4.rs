@@ -5,6 +5,7 @@ use super::element_matrix::{add_matrix, condense, leading_block};
 use super::inelastic_force::InelasticForce;
 use super::quad_force::QuadSolid;
 use super::solid::SharedMaterial;
+use super::stress_at_rest::StressAtRest;
 use crate::error::{Result, require, require_part, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
@@ -251,6 +252,15 @@ impl Element for Quad4 {
         self.solid.inelastic()
     }
 
+    fn with_stress_at_rest(&self, stress: &StressAtRest) -> Option<Box<dyn Element>> {
+        let solid = self.solid.clone().with_stress_at_rest(stress);
+        Some(Box::new(Self { solid, ..self.clone() }))
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.solid.is_at_rest()
+    }
+
     fn density(&self) -> Option<f64> {
         Some(self.solid.material.law().density())
     }
@@ -293,7 +303,7 @@ impl Element for Quad4 {
                 || self.solid.rule == QuadFormulation::MeanDilatation,
             "its formulation must be QuadFormulation::MeanDilatation",
         )?;
-        self.solid.check_initial_stress()
+        self.solid.check_initial_stress(coordinates)
     }
 }
 

@@ -6,6 +6,7 @@ use super::inelastic_force::InelasticForce;
 use super::quad_force::{IntegrationPoint, IntegrationRule, QuadSolid};
 use super::quad4::{determinant, integrate_stiffness, jacobian_matrix, plane_strains};
 use super::solid::SharedMaterial;
+use super::stress_at_rest::StressAtRest;
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
@@ -209,6 +210,15 @@ impl Element for Quad8 {
         self.solid.inelastic()
     }
 
+    fn with_stress_at_rest(&self, stress: &StressAtRest) -> Option<Box<dyn Element>> {
+        let solid = self.solid.clone().with_stress_at_rest(stress);
+        Some(Box::new(Self { solid, ..self.clone() }))
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.solid.is_at_rest()
+    }
+
     fn density(&self) -> Option<f64> {
         Some(self.solid.material.law().density())
     }
@@ -262,6 +272,6 @@ impl Element for Quad8 {
             let needed = "above zero: nodes counter-clockwise, those of edges near the middle";
             require(quantity, determinant, determinant.is_finite() && determinant > 0.0, needed)?;
         }
-        self.solid.check_initial_stress()
+        self.solid.check_initial_stress(coordinates)
     }
 }

@@ -5,7 +5,11 @@ use std::ops::Range;
 use super::inelastic_force::{InelasticForce, SolidPoint};
 use super::internal_energy::InternalEnergy;
 use super::solid::{SharedMaterial, SolidMaterial, StrainPath};
+use super::stress_at_rest::StressAtRest;
 use crate::error::{Result, all_finite, same_length};
+
+/// Difference of stresses that counts as rounding, relative to the stress at rest.
+const STRESS_ROUNDING: f64 = 1e-14;
 
 /// Integration point of a quadrilateral with N degrees of freedom.
 pub(super) struct IntegrationPoint<const N: usize> {
@@ -55,6 +59,17 @@ impl<const N: usize> IntegrationPoint<N> {
     }
 }
 
+/// Difference of a stress from that at rest, Pa, without rounding.
+///
+/// Soil at rest then has no force at all, which a search for an equilibrium would otherwise balance.
+fn change_from_rest(stress: [f64; 4], stress_at_rest: [f64; 4]) -> [f64; 4] {
+    let rounding = STRESS_ROUNDING * stress_at_rest.iter().fold(0.0_f64, |max, s| max.max(s.abs()));
+    std::array::from_fn(|i| {
+        let change = stress[i] - stress_at_rest[i];
+        if change.abs() <= rounding { 0.0 } else { change }
+    })
+}
+
 fn inner_product(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
 }
@@ -82,18 +97,62 @@ pub(super) trait IntegrationRule<const N: usize>: Copy + Send + Sync {
 pub(super) struct QuadSolid<R, const N: usize> {
     pub(super) material: SharedMaterial,
     pub(super) rule: R,
-    /// Stress `[xx, yy, zz, xy]` of the undeformed element, Pa.
-    initial_stress: [f64; 4],
+    initial_stress: InitialStress,
+}
+
+/// Stress of an undeformed element.
+#[derive(Debug, Clone, PartialEq)]
+enum InitialStress {
+    /// Equal stresses `[xx, yy, zz, xy]` in the element, Pa, whose nodal forces act at zero displacement.
+    Uniform([f64; 4]),
+    /// Stresses of soil at rest, in equilibrium with its weight: no forces at zero displacement.
+    AtRest(StressAtRest),
 }
 
 impl<R: IntegrationRule<N>, const N: usize> QuadSolid<R, N> {
     pub(super) fn new(material: SharedMaterial, rule: R) -> Self {
-        Self { material, rule, initial_stress: [0.0; 4] }
+        Self { material, rule, initial_stress: InitialStress::Uniform([0.0; 4]) }
     }
 
     /// Replaces the stress of the undeformed element, Pa.
     pub(super) fn with_initial_stress(self, initial_stress: [f64; 4]) -> Self {
-        Self { initial_stress, ..self }
+        Self { initial_stress: InitialStress::Uniform(initial_stress), ..self }
+    }
+
+    /// Soil at rest with these stresses.
+    pub(super) fn with_stress_at_rest(self, stress: &StressAtRest) -> Self {
+        Self { initial_stress: InitialStress::AtRest(stress.clone()), ..self }
+    }
+
+    /// Whether this is soil at rest.
+    pub(super) fn is_at_rest(&self) -> bool {
+        matches!(self.initial_stress, InitialStress::AtRest(_))
+    }
+
+    /// Position [x, y] of a point, m.
+    fn position(&self, point: &IntegrationPoint<N>, coordinates: &[[f64; 3]]) -> [f64; 2] {
+        let mut position = [0.0; 2];
+        for (weight, node) in self.rule.node_weights(point.natural).into_iter().zip(coordinates) {
+            position[0] += weight * node[0];
+            position[1] += weight * node[1];
+        }
+        position
+    }
+
+    /// Stress of soil at rest at a point, Pa; zero for other elements.
+    fn stress_at_rest(&self, point: &IntegrationPoint<N>, coordinates: &[[f64; 3]]) -> [f64; 4] {
+        match &self.initial_stress {
+            InitialStress::Uniform(_) => [0.0; 4],
+            InitialStress::AtRest(stress) => stress.at(self.position(point, coordinates)),
+        }
+    }
+
+    /// Stress of the undeformed element at a point, Pa.
+    fn initial_stress(&self, point: &IntegrationPoint<N>, coordinates: &[[f64; 3]]) -> [f64; 4] {
+        match self.initial_stress {
+            InitialStress::Uniform(stress) => stress,
+            InitialStress::AtRest(_) => self.stress_at_rest(point, coordinates),
+        }
     }
 
     pub(super) fn with_rule(self, rule: R) -> Self {
@@ -117,10 +176,24 @@ impl<R: IntegrationRule<N>, const N: usize> QuadSolid<R, N> {
     }
 
     /// Returns an error for an initial stress that the material cannot have.
-    pub(super) fn check_initial_stress(&self) -> Result<()> {
-        all_finite("initial stress of a quadrilateral", &self.initial_stress)?;
+    ///
+    /// Linear elastic soil at rest has no stress.
+    pub(super) fn check_initial_stress(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         let mut variables = vec![0.0; self.law().variable_count()];
-        self.law().initialize(self.initial_stress, &mut variables)
+        match self.initial_stress {
+            InitialStress::Uniform(stress) => {
+                all_finite("initial stress of a quadrilateral", &stress)?;
+                self.law().initialize(stress, &mut variables)
+            }
+            InitialStress::AtRest(_) if self.material.elastic().is_some() => Ok(()),
+            InitialStress::AtRest(_) => self.rule.visit_points(coordinates, |point| {
+                let stress = self.stress_at_rest(point, coordinates);
+                self.law().initialize(stress, &mut variables).map_err(|fault| {
+                    let depth = -self.position(point, coordinates)[1];
+                    fault.within(format!("soil at rest at a depth of {depth:.3} m"))
+                })
+            }),
+        }
     }
 
     fn law(&self) -> &dyn SolidMaterial {
@@ -152,12 +225,14 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         self.rule.point_count() * self.law().variable_count()
     }
 
-    fn initialize(&self, _coordinates: &[[f64; 3]], variables: &mut [f64]) -> Result<()> {
+    fn initialize(&self, coordinates: &[[f64; 3]], variables: &mut [f64]) -> Result<()> {
         let variable_count = self.variable_count();
         same_length("internal variables of a quadrilateral", variables.len(), variable_count)?;
-        (0..self.rule.point_count()).try_for_each(|index| {
-            let range = self.variable_range(index);
-            self.law().initialize(self.initial_stress, &mut variables[range])
+        same_length("coordinates of a quadrilateral", coordinates.len(), N / 2)?;
+        self.rule.visit_points(coordinates, |point| {
+            let range = self.variable_range(point.index);
+            let stress = self.initial_stress(point, coordinates);
+            self.law().initialize(stress, &mut variables[range])
         })
     }
 
@@ -171,7 +246,11 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         self.check_lengths(coordinates, displacement, variables)?;
         self.rule.visit_points(coordinates, |point| {
             let point_variables = &variables[self.variable_range(point.index)];
-            let stress = self.law().stress(point.strain(displacement), point_variables)?;
+            let mut stress = self.law().stress(point.strain(displacement), point_variables)?;
+            if self.is_at_rest() {
+                let stress_at_rest = self.stress_at_rest(point, coordinates);
+                stress = change_from_rest(stress, stress_at_rest);
+            }
             point.add_force(stress, force);
             Ok(())
         })
@@ -207,8 +286,14 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         let mut sum = InternalEnergy::default();
         self.rule.visit_points(coordinates, |point| {
             let point_variables = &variables[self.variable_range(point.index)];
-            let energy_density = self.law().energy(point.strain(displacement), point_variables)?;
+            let strain = point.strain(displacement);
+            let energy_density = self.law().energy(strain, point_variables)?;
             sum.stored += point.area * energy_density.stored;
+            if self.is_at_rest() {
+                // The weight of the soil and the pressures at rest around it do the work −σ₀ : ε.
+                let stress_at_rest = self.stress_at_rest(point, coordinates);
+                sum.stored -= point.area * inner_product(&stress_at_rest, &strain);
+            }
             sum.dissipated += point.area * energy_density.dissipated;
             Ok(())
         })?;
@@ -263,14 +348,8 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         self.rule.visit_points(coordinates, |point| {
             let point_variables = &variables[self.variable_range(point.index)];
             let strain = point.strain(displacement);
-            let mut position = [0.0; 2];
-            for (weight, node) in self.rule.node_weights(point.natural).into_iter().zip(coordinates)
-            {
-                position[0] += weight * node[0];
-                position[1] += weight * node[1];
-            }
             points.push(SolidPoint {
-                position,
+                position: self.position(point, coordinates),
                 area: point.area,
                 strain,
                 stress: self.law().stress(strain, point_variables)?,

@@ -10,6 +10,7 @@ macro_rules! forward_structure {
             fn dofs(&$wrapper) -> usize;
             fn base(&$wrapper) -> $crate::structure::Base;
             fn mass(&$wrapper, matrix: &mut $crate::structure::Triplets) -> $crate::Result<()>;
+            fn mass_at_rest(&$wrapper) -> $crate::Result<Option<Vec<f64>>>;
             fn geometric_stiffness(&$wrapper, matrix: &mut $crate::structure::Triplets) -> $crate::Result<()>;
             fn has_active_damping(&$wrapper) -> bool;
             fn has_active_stiffness(&$wrapper) -> bool;
@@ -158,6 +159,21 @@ pub trait Structure: Any + Send {
     /// # Errors
     /// Any: `build` returns it.
     fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+
+    /// Mass of soil at rest, which has inertia but no weight, on each of the n degrees of freedom, kg. Default: `None`.
+    ///
+    /// It is the product of the soil's part of the [`mass`](Structure::mass) and an upward translation by 1 m. The weight of
+    /// this soil is in equilibrium with its stresses and pressures at rest ([`Mesh::with_stress_at_rest`]), and does not
+    /// act in a run. With `Some`, the structure is bonded to a trench from the start, and the ground's pressures at rest do
+    /// not act on it.
+    ///
+    /// [`Mesh::with_stress_at_rest`]: crate::fem::Mesh::with_stress_at_rest
+    ///
+    /// # Errors
+    /// Any: `build` returns it.
+    fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        Ok(None)
+    }
 
     /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
     ///

@@ -343,6 +343,10 @@ impl Structure for FemModel {
         Ok(())
     }
 
+    fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        self.mass_of_soil_at_rest()
+    }
+
     /// Stiffness of the linear elements; the forces of the other elements are the nonlinear force.
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_matrices(

@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 use std::ops::Range;
 
-use crate::error::{Error, Result, finite, in_bounds, require, require_part};
+use crate::error::{Error, Result, finite, in_bounds, require, require_part, same_length};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::dof_list_text;
 use crate::structure::nonlinear::check_nonlinear_force;
@@ -316,6 +316,10 @@ impl Structure for StructureGroup {
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_matrices(matrix, Structure::mass)
+    }
+
+    fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        self.mass_of_soil_at_rest()
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {

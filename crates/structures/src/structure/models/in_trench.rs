@@ -1,6 +1,7 @@
 //! Embedded finite-element models.
 
 use super::feet::Foot;
+use super::soil_at_rest;
 use crate::error::{Result, at_least, in_bounds, require_part};
 use crate::fem::Mesh;
 use crate::structure::FemModel;
@@ -34,10 +35,44 @@ impl FemModel {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for fewer than two nodes, [`Error::Index`](crate::Error::Index) for a node
     /// that does not exist, [`Error::Scene`](crate::Error::Scene) for a mesh in space, for nodes in another order, or
-    /// for a node without horizontal and vertical degrees of freedom.
+    /// for a node without horizontal and vertical degrees of freedom. [`Error::Part`](crate::Error::Part) for
+    /// [soil at rest](Mesh::with_stress_at_rest) with a side that touches neither the outline, nor the surface, nor other
+    /// soil at rest, and for an outline with nodes of other elements alone.
     pub fn in_trench(mesh: Mesh, outline: &[usize]) -> Result<Self> {
-        let feet = outline_feet(&mesh, outline)?;
-        Self::on_feet(mesh, vec![feet])
+        let feet = vec![outline_feet(&mesh, outline)?];
+        soil_at_rest::check(&mesh, &feet)?;
+        Self::on_feet(mesh, feet)
+    }
+}
+
+impl FemModel {
+    /// Structure on [soil at rest](Mesh::with_stress_at_rest) that fills a trench.
+    ///
+    /// The leftmost, lowest and rightmost nodes of the soil at rest are the outline of the trench. As for
+    /// [`in_trench`](FemModel::in_trench), y = 0 is the surface.
+    ///
+    /// ```
+    /// use basemat::fem::{Material, Mesh, StressAtRest};
+    /// use basemat::structure::{FemModel, Structure};
+    ///
+    /// let soil = Material::new(80.0e6, 0.3, 1900.0)?;
+    /// let mesh = Mesh::quad8_block(&[-4.0, 0.0, 4.0], &[-3.0, 0.0], |_, _| soil)?
+    ///     .with_stress_at_rest(&StressAtRest::new(9.81, 1900.0, 0.5)?)?;
+    /// let model = FemModel::on_soil_at_rest(mesh)?;
+    /// let places: Vec<_> = model.base().nodes().map(|node| [node.x, node.z]).collect();
+    /// assert_eq!(places[..4], [[-4.0, 0.0], [-4.0, -1.5], [-4.0, -3.0], [-2.0, -3.0]]);
+    /// // The mass of all soil weighs nothing.
+    /// let masses = model.mass_at_rest()?.expect("soil at rest");
+    /// assert!((masses.iter().sum::<f64>() - 1900.0 * 24.0).abs() < 1e-9);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) without soil at rest, and as for [`in_trench`](FemModel::in_trench).
+    pub fn on_soil_at_rest(mesh: Mesh) -> Result<Self> {
+        let outline = soil_at_rest::outline(&mesh);
+        at_least("nodes of soil at rest", outline.len(), 2)?;
+        Self::in_trench(mesh, &outline)
     }
 }
 

@@ -25,6 +25,7 @@ mod section;
 mod shear_building;
 mod shear_damping;
 mod shell_rows;
+mod soil_at_rest;
 mod storey_building;
 mod storey_laws;
 mod storey_section;

@@ -2,7 +2,7 @@
 
 use super::inelastic_elements::InelasticElements;
 use crate::error::{Error, Result, StructureError, not_negative, require_part};
-use crate::fem::{MatrixKind, set_static_state};
+use crate::fem::{Element, MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::submatrix;
 use crate::structure::{FemModel, Structure, Triplets};
@@ -70,13 +70,18 @@ impl FemModel {
     /// # Errors
     /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the structure is a
     /// mechanism on fixed contact nodes, [`StructureError::Buckling`] when it buckles there, also under prescribed
-    /// forces; [`Error::Scene`] for elements with an initial stress; and errors of its matrices.
+    /// forces; [`Error::Scene`] for elements with an initial stress or at rest; and errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
         require_part(
             "model with P–Δ",
             !self.inelastic.as_ref().is_some_and(InelasticElements::has_initial_stress),
             "its elements must have no initial stress: their static forces do not follow from the weight",
+        )?;
+        require_part(
+            "model with P–Δ",
+            !self.mesh.elements().any(Element::is_at_rest),
+            "it must have no soil at rest: put the structure and the soil into two models of a group",
         )?;
         // The present entries belong to the links of an earlier call.
         self.link_and_base_stiffness = Vec::new();

@@ -77,6 +77,7 @@ impl Structure for WithWalls {
         self.structure;
         fn dofs(&self) -> usize;
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn mass_at_rest(&self) -> Result<Option<Vec<f64>>>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;

@@ -254,6 +254,12 @@ impl Structure for ReducedModel {
         Ok(())
     }
 
+    fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let full_masses = full.structure.mass_at_rest()?;
+        Ok(full_masses.map(|masses| self.basis.rows().map(|row| dot(row, &masses)).collect()))
+    }
+
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         add_dense(&self.stiffness, self.dofs(), matrix);
         Ok(())
