@@ -7,7 +7,7 @@ use basemat::fem::{Mesh, SharedMaterial, StressAtRest};
 use basemat::structure::FemModel;
 
 /// Ends of `count` equal parts of a range.
-pub fn even_lines(range: Range<f64>, count: usize) -> Vec<f64> {
+pub(crate) fn even_lines(range: Range<f64>, count: usize) -> Vec<f64> {
     let part = (range.end - range.start) / count as f64;
     let mut lines: Vec<f64> = (0..count).map(|i| range.start + part * i as f64).collect();
     lines.push(range.end);
@@ -15,13 +15,13 @@ pub fn even_lines(range: Range<f64>, count: usize) -> Vec<f64> {
 }
 
 /// Mesh of soil at rest in a trench, to which structures can be added.
-pub struct SoilBox {
-    pub mesh: Mesh,
+pub(crate) struct SoilBox {
+    pub(crate) mesh: Mesh,
 }
 
 impl SoilBox {
     /// Eight-node quadrilaterals between lines.
-    pub fn new(
+    pub(crate) fn new(
         x: &[f64],
         y: &[f64],
         material: SharedMaterial,
@@ -31,12 +31,12 @@ impl SoilBox {
         Ok(Self { mesh })
     }
 
-    pub fn model(&self) -> FemModel {
+    pub(crate) fn model(&self) -> FemModel {
         FemModel::on_soil_at_rest(self.mesh.clone()).unwrap()
     }
 
     /// Adds a block of quadrilaterals on the surface, welded to the soil.
-    pub fn with_block(self, x: &[f64], y: &[f64], material: SharedMaterial) -> Result<Self> {
+    pub(crate) fn with_block(self, x: &[f64], y: &[f64], material: SharedMaterial) -> Result<Self> {
         let block = Mesh::quad8_block(x, y, |_, _| material.clone())?;
         let mut mesh = self.mesh;
         let mut nodes = Vec::new();

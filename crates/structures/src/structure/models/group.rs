@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 use std::ops::Range;
 
-use crate::error::{Error, Result, finite, in_bounds, require, require_part, same_length};
+use crate::error::{Error, Result, finite, in_bounds, require, require_part};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::dof_list_text;
 use crate::structure::nonlinear::check_nonlinear_force;
