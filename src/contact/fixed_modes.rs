@@ -35,6 +35,8 @@ struct ReducedRow {
     element: usize,
     /// Index of the condition within the element, 0 or 1.
     condition: usize,
+    /// Columns of the element's tractions in the matrix, normal and tangential, if they are unknown.
+    columns: [Option<usize>; COMPONENTS_IN_PLANE],
     /// Factor that makes the largest entry of the row 1.
     scale: f64,
 }
@@ -145,14 +147,16 @@ impl ContactModeSolver {
         self.dofs.clear();
         for (element, element_conditions) in self.conditions.iter().enumerate() {
             let fixed_components = element_conditions.map(|condition| condition.fixed_component());
-            for component in 0..COMPONENTS_IN_PLANE {
+            let mut columns = [None; COMPONENTS_IN_PLANE];
+            for (component, column) in columns.iter_mut().enumerate() {
                 if !fixed_components.contains(&Some(component)) {
+                    *column = Some(self.dofs.len());
                     self.dofs.push(self.response.layout.place(component, element));
                 }
             }
             for (condition, fixed_component) in fixed_components.iter().enumerate() {
                 if fixed_component.is_none() {
-                    self.rows.push(ReducedRow { element, condition, scale: 1.0 });
+                    self.rows.push(ReducedRow { element, condition, columns, scale: 1.0 });
                 }
             }
         }
@@ -160,24 +164,33 @@ impl ContactModeSolver {
 
     /// Computes the matrix of the reduced system with scaled rows; `false` if a row is zero or not finite.
     fn fill_matrix(&mut self, input: &ContactInput<'_>) -> bool {
-        let layout = self.response.layout;
+        let Self { response, conditions, rows, dofs, matrix, .. } = self;
+        let layout = response.layout;
         let size = layout.len();
-        self.matrix.clear();
-        for row in &mut self.rows {
-            let condition = self.conditions[row.element][row.condition];
-            let [normal, tangential] = layout.places(row.element);
-            let row_start = self.matrix.len();
-            for &j in &self.dofs {
-                let mut value = condition.gap * input.delassus[normal * size + j]
-                    - condition.slip * input.delassus[tangential * size + j];
-                if j == normal {
-                    value += condition.pressure;
-                } else if j == tangential {
-                    value += condition.shear;
-                }
-                self.matrix.push(value);
+        matrix.clear();
+        for row in rows {
+            let condition = &conditions[row.element][row.condition];
+            let [gaps, slips] =
+                layout.places(row.element).map(|place| &input.delassus[place * size..][..size]);
+            let row_start = matrix.len();
+            // Most conditions contain a gap or a slip alone.
+            let gap = condition.gap;
+            let slip = condition.slip;
+            if slip == 0.0 {
+                matrix.extend(dofs.iter().map(|&j| gap * gaps[j]));
+            } else if gap == 0.0 {
+                matrix.extend(dofs.iter().map(|&j| -(slip * slips[j])));
+            } else {
+                matrix.extend(dofs.iter().map(|&j| gap * gaps[j] - slip * slips[j]));
             }
-            let values = &mut self.matrix[row_start..];
+            let values = &mut matrix[row_start..];
+            for (column, coefficient) in
+                row.columns.into_iter().zip([condition.pressure, condition.shear])
+            {
+                if let Some(column) = column {
+                    values[column] += coefficient;
+                }
+            }
             let max_entry = largest(values);
             if !(max_entry > 0.0 && max_entry.is_finite()) {
                 return false;
@@ -257,18 +270,15 @@ impl ContactModeSolver {
 
     /// Tolerance of comparisons, from the rounding of the last solution.
     pub(super) fn tolerance(&self, input: &ContactInput<'_>) -> Tolerance {
-        let max_traction = self
-            .response
-            .states
-            .iter()
-            .map(|state| state.pressure.abs().max(state.shear.abs()))
-            .chain(input.static_traction.iter().map(|traction| traction.abs()))
-            .fold(0.0, f64::max);
-        let max_jump = self
-            .response
-            .jump
-            .iter()
-            .fold(input.length_scale, |max_jump, jump| max_jump.max(jump.abs()));
+        let response = &self.response;
+        let mut max_pressure = 0.0_f64;
+        let mut max_shear = largest(input.static_traction);
+        for state in &response.states {
+            max_pressure = max_pressure.max(state.pressure.abs());
+            max_shear = max_shear.max(state.shear.abs());
+        }
+        let max_traction = max_pressure.max(max_shear);
+        let max_jump = input.length_scale.max(largest(&response.jump));
         Tolerance {
             length: JUMP_ROUNDING_FACTOR * max_jump,
             traction: TRACTION_ROUNDING_FACTOR * max_traction,

@@ -84,11 +84,14 @@ impl ContactInput<'_> {
         let mut start = self.start.element(element);
         start.trial_settlement = settlement;
         let mode = start.mode.word();
-        let limits = self
-            .law(element)
-            .limits(&start)
-            .and_then(Limits::checked)
-            .map_err(|reason| LawError { element, mode, reason: Box::new(reason) })?;
+        let limits = match self.law(element).limits(&start) {
+            Ok(limits) if limits.are_valid() => limits,
+            result => result.and_then(Limits::checked).map_err(|reason| LawError {
+                element,
+                mode,
+                reason: Box::new(reason),
+            })?,
+        };
         Ok(if self.frictionless { limits.frictionless() } else { limits })
     }
 

@@ -1,6 +1,8 @@
 //! Contact on soil that yields again in every cycle of a rocking base.
 
-use super::{ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact};
+use super::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+};
 use crate::error::{Result, not_negative, positive, require};
 
 /// Smallest difference of bearing pressure and pressure on the backbone, relative to the bearing pressure.
@@ -178,6 +180,15 @@ impl Backbone {
         self.reference_settlement * ratio / (1.0 - ratio)
     }
 
+    /// Pressure up to which soil with this `threshold` bears without yielding: F(h₀) as [`Backbone::point_after`] has it.
+    fn pressure_without_settlement(&self, threshold: f64) -> f64 {
+        if self.reference_settlement == 0.0 {
+            self.bearing_pressure
+        } else {
+            threshold.clamp(0.0, (1.0 - MIN_RESERVE_FRACTION) * self.bearing_pressure)
+        }
+    }
+
     /// Pressure F(h₀ + v) and its slope after a further settlement v (m), with F(h₀) = `threshold`.
     ///
     /// With x = F(h₀)/q, F(h₀ + v) = q (x w_r + (1 − x) v)/(w_r + (1 − x) v).
@@ -214,6 +225,18 @@ impl SettledSoil {
             [settlement, threshold, ..] => Self { settlement, threshold },
             _ => Self { settlement: 0.0, threshold: 0.0 },
         }
+    }
+}
+
+impl CyclicYielding {
+    /// Limits of soil that does not yield in the step.
+    fn limits_without_yield(&self, start: &PreviousContact) -> Result<Limits> {
+        let SettledSoil { settlement, threshold } = SettledSoil::of(start);
+        Ok(Limits {
+            pressure_cap: self.backbone(settlement).pressure_without_settlement(threshold),
+            gap_offset: -settlement,
+            ..self.contact.limits(start)?
+        })
     }
 }
 
@@ -258,6 +281,33 @@ impl InterfaceLaw for CyclicYielding {
 
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction())
+    }
+
+    /// As by default; the curve is computed only where the soil yields.
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
+        let limits =
+            if mode.is_yield() { self.limits(start) } else { self.limits_without_yield(start) };
+        limits.map_or_else(
+            |_| [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)],
+            |limits| limits.conditions(mode, start, [0.0; 2]),
+        )
+    }
+
+    /// As by default; yielding soil goes on to yield by its settlement, whatever its pressure is.
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &PreviousContact,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        let needs_curve = !mode.is_yield() && start.trial_settlement != 0.0;
+        let limits =
+            if needs_curve { self.limits(start) } else { self.limits_without_yield(start) };
+        let closing_mode = self.modes().first().copied().unwrap_or(Mode::Stick);
+        limits.map_or(mode, |limits| {
+            limits.next_mode(mode, closing_mode, start, trial, tolerance, [0.0; 2])
+        })
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {

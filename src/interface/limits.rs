@@ -94,8 +94,25 @@ impl Limits {
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
+    /// Whether all limits are valid, as [`Limits::checked`] needs them.
+    #[inline]
+    pub(crate) fn are_valid(&self) -> bool {
+        let strengths = [self.attraction, self.shear_strength, self.tension, self.hardening];
+        let has_valid_gap = self.gap_offset.is_finite() || self.gap_offset == f64::NEG_INFINITY;
+        // Comparisons with NaN are false.
+        let are_not_negative = strengths.iter().all(|value| (0.0..f64::INFINITY).contains(value));
+        self.friction >= 0.0 && self.pressure_cap >= 0.0 && are_not_negative && has_valid_gap
+    }
+
     /// Returns these limits, or an error that names an invalid one.
+    #[inline]
     pub(crate) fn checked(self) -> Result<Self> {
+        if self.are_valid() { Ok(self) } else { self.with_invalid_named() }
+    }
+
+    /// The error that names an invalid limit.
+    #[cold]
+    fn with_invalid_named(self) -> Result<Self> {
         for (quantity, value) in
             [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]
         {
@@ -121,7 +138,7 @@ impl Limits {
         start: &PreviousContact,
         compliance: [f64; 2],
     ) -> [Condition; 2] {
-        if self.checked().is_err() {
+        if !self.are_valid() {
             return [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)];
         }
         let open_conditions = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];

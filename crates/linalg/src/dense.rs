@@ -44,7 +44,7 @@ impl<T: MatrixScalar> DenseFactor<T> {
     /// Factors the row-major `matrix` of `order`; false if it is singular or not finite.
     pub fn factor(&mut self, matrix: &[T], order: usize) -> bool {
         self.factor_columns(order, |column, values| {
-            values.extend((0..order).map(|row| matrix[row * order + column]));
+            values.extend(matrix.chunks_exact(order).map(|row| row[column]));
         })
     }
 

@@ -262,10 +262,21 @@ pub fn add_combined_rows(
     );
 }
 
+/// Number of maxima that [`largest`] computes at once.
+const MAXIMA_AT_ONCE: usize = 8;
+
 /// Largest magnitude of `values`; 0 for an empty slice.
 #[inline]
 pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |maximum, x| maximum.max(x.abs()))
+    // Several maxima at once: comparisons with a single one would wait for each other.
+    let mut maxima = [0.0_f64; MAXIMA_AT_ONCE];
+    for block in values.chunks(MAXIMA_AT_ONCE) {
+        for (maximum, x) in maxima.iter_mut().zip(block) {
+            // NaN is not larger than anything.
+            *maximum = if x.abs() > *maximum { x.abs() } else { *maximum };
+        }
+    }
+    maxima.into_iter().fold(0.0, f64::max)
 }
 
 /// Weight of the value `k` in [`mixing_sum`].

@@ -8,7 +8,6 @@ use std::borrow::Cow;
 
 use crate::error::Result;
 use crate::geometry::{ContactElement, ContactLayout, check_count};
-use crate::structure::BaseNode;
 
 impl PlacedBase {
     /// Adds joints: their nodes to the contact nodes, and their elements after those of the ground.
@@ -151,14 +150,15 @@ impl PlacedBase {
 
 /// Rows of B of a joint's elements: mean displacement of the upper side minus that of the lower side, by components.
 fn element_rows(line: &JointLine) -> Vec<Vec<SparseVector>> {
-    let [upper, lower] = line.sides();
-    let nodes: Vec<BaseNode> = line.sides().concat();
+    let sides = line.sides();
+    let nodes = sides.concat();
     let mut rows = Vec::with_capacity(line.elements().len());
     for element in line.elements() {
-        let mut weights = NodesOnElement::along(upper, element).mean_weights();
-        let lower_weights = NodesOnElement::along(lower, element).mean_weights();
-        weights
-            .extend(lower_weights.into_iter().map(|(node, weight)| (upper.len() + node, -weight)));
+        let mut weights = NodesOnElement::along(&sides[0], element).mean_weights();
+        let lower_weights = NodesOnElement::along(&sides[1], element).mean_weights();
+        weights.extend(
+            lower_weights.into_iter().map(|(node, weight)| (sides[0].len() + node, -weight)),
+        );
         rows.push(element_components(&nodes, &weights, element));
     }
     rows

@@ -183,13 +183,12 @@ impl Iwan {
     fn read<'a>(&self, variables: &'a [f64]) -> Result<IwanVariables<'a>> {
         let quantity = "internal variables of Iwan's model";
         same_length(quantity, variables.len(), self.variable_count())?;
-        let (common_variables, component_variables) = variables.split_at(COMMON_VARIABLE_COUNT);
         Ok(IwanVariables {
-            rest_deviator: [common_variables[0], common_variables[1], common_variables[2]],
-            rest_mean_stress: common_variables[3],
-            rest_energy: common_variables[4],
-            dissipated: common_variables[5],
-            stress_free_strains: component_variables.as_chunks().0,
+            rest_deviator: [variables[0], variables[1], variables[2]],
+            rest_mean_stress: variables[3],
+            rest_energy: variables[4],
+            dissipated: variables[5],
+            stress_free_strains: variables[COMMON_VARIABLE_COUNT..].as_chunks().0,
         })
     }
 

@@ -104,7 +104,8 @@ pub(super) fn backbone_components(points: &[[f64; 2]]) -> Result<Vec<Component>>
 
 /// Slope of the backbone from one point to the next.
 fn checked_slope(previous_point: [f64; 2], point: [f64; 2], previous_slope: f64) -> Result<f64> {
-    let [strain, stress] = point;
+    let strain = point[0];
+    let stress = point[1];
     let strain_ascends = strain.is_finite() && strain > previous_point[0];
     let needed = "finite, and above zero and the strain of the point before";
     require("shear strain", strain, strain_ascends, needed)?;
