@@ -24,7 +24,7 @@ const QUAD_NODES: [[f64; 3]; 8] = [
 ];
 /// Random histories of each element.
 const HISTORY_COUNT: usize = 40;
-/// Displacements of a history, m.
+/// Largest displacement of a history, m, before the mean compression.
 const DISPLACEMENT_SIZE: f64 = 4e-3;
 /// Mean compressive strain of a history in each direction.
 const MEAN_COMPRESSIVE_STRAIN: f64 = 2e-3;

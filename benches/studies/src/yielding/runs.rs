@@ -77,7 +77,7 @@ fn column_checks() -> Result<Vec<Check>> {
     ])
 }
 
-/// What random scenes did.
+/// Counts and largest errors of random scenes.
 #[derive(Debug, Default)]
 struct RandomBlockCounts {
     refused: usize,
