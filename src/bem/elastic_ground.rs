@@ -130,6 +130,7 @@ impl ElasticGround {
         let elements = plan.elements();
         check_count(elements.len(), COMPONENTS_IN_SPACE)?;
         let source = ElasticSource::new(profile.into(), Some(plan))?;
+        // Contact elements of several cells or of a part of a cell; `None` if each element is one whole cell.
         let unions = match &source.plan {
             Some(plan) => plan.unions(&source.profile, source.tolerance)?,
             None => None,
@@ -145,13 +146,14 @@ impl ElasticGround {
     /// the result is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces
     /// together: [`Plan::on_faces`].
     ///
-    /// Cells under a flexible base in plan extend beyond its outline by a fraction of the overhang under a rigid base.
+    /// Cells under a flexible base in plan extend beyond its outline by a fraction of the overhang under a rigid base
+    /// (see [`Plan`]).
     /// The fraction is one under a stiff base, and zero under a soft base, which settles with the soil beyond its edge. It
     /// is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h. D is the bending stiffness (N·m) in the structure's
     /// stiffness matrix, G the shear modulus at the surface, and h the side of a cell. The fraction is zero below x = 0.28
-    /// and half at x = 1. At edges oblique to the cells the overhang is twice as large, at most 0.12 of a cell, and at most
-    /// 0.03 + 0.15/√n + 0.06/(1 + d/0.15) of a cell with n cells along the shorter side and d = D/(G R³) on a base of the
-    /// area π R².
+    /// and half at x = 1. At edges oblique to the cells the overhang is the smallest of three: twice the overhang of the
+    /// other edges, 0.12 of a cell, and 0.03 + 0.15/√n + 0.06/(1 + d/0.15) of a cell. Here n is the number of cells along
+    /// the shorter side, and d = D/(G R³) on a base of the area π R².
     ///
     /// Under loads on the edge, moments of round bases need more cells than moments of square bases. In a circular plate
     /// with D/(G R³) = 0.02 their errors are 38, 16 and 7 % of the largest moment with 8, 13 and 21 cells along the
@@ -192,8 +194,8 @@ impl ElasticGround {
 
     /// Sets the relative `tolerance` (1e-13 to 1e-4) of element compliances in the Laplace domain.
     ///
-    /// The default is 1e-10. The relative error of a weight is about the tolerance to the power 2/3 at the last lag of a
-    /// block, and smaller at earlier lags. The closed form is exact.
+    /// The default is 1e-10. Weights are computed in blocks of lags. The relative error of a weight is about the tolerance
+    /// to the power 2/3 at the last lag of its block, and smaller at earlier lags. The closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
@@ -235,7 +237,7 @@ impl ElasticGround {
 
     /// Sets the options of the ground's history, or its method alone.
     ///
-    /// Only the closed form has exponentials.
+    /// A history by [exponentials](crate::history::HistoryMethod::Exponentials) exists only for the closed form.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
@@ -287,8 +289,8 @@ impl ElasticGround {
     /// [`Error::Input`](crate::Error::Input) for a time step that is not positive,
     /// [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for damping that exists in the frequency domain
     /// only. `prepare` and [`coefficients`](ConvolutionWeights::coefficients) return
-    /// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed;
-    /// [`Error::NotPassive`](crate::Error::NotPassive),
+    /// [`Error::Memory`](crate::Error::Memory) beyond the [limit](crate::memory_limit), before anything is computed,
+    /// and [`Error::NotPassive`](crate::Error::NotPassive) or
     /// [`SoilError::Modulus`](crate::soil::SoilError::Modulus) for a damping law that is not passive.
     pub fn weights(&self, time_step: f64) -> Result<Arc<dyn ConvolutionWeights>> {
         self.source.kernel(self.elements(), time_step)
@@ -320,13 +322,14 @@ impl Ground for ElasticGround {
             return self.ground.finer_compliance();
         };
         let ElasticSource { profile, tolerance, .. } = &self.source;
-        let quarter_plan = plan.quartered();
+        let quartered_plan = plan.quartered();
         let mut matrix = vec![0.0; (4 * COMPONENTS_IN_SPACE * self.elements().len()).pow(2)];
-        match quarter_plan.unions(profile, *tolerance)? {
+        match quartered_plan.unions(profile, *tolerance)? {
+            // The factor 1.0: springs of cut cells have their static compliance.
             Some(unions) => unions.reduce(&mut matrix, 1.0, |cells| {
-                static_compliance(profile, &quarter_plan, *tolerance, cells)
+                static_compliance(profile, &quartered_plan, *tolerance, cells)
             })?,
-            None => static_compliance(profile, &quarter_plan, *tolerance, &mut matrix)?,
+            None => static_compliance(profile, &quartered_plan, *tolerance, &mut matrix)?,
         }
         Ok(Some(matrix))
     }

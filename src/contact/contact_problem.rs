@@ -12,9 +12,9 @@ use crate::linalg::largest;
 
 /// The contact problem of successive steps, condensed to the tractions of Q elements.
 ///
-/// The jump is soil minus structure at the end of a step: 2Q numbers as in [`crate::bem`], Q normal
-/// components (down), then Q tangential components. Its response to changes of traction τ from the static
-/// state is
+/// The jump is the displacement of the soil minus that of the structure at the end of a step: 2Q numbers as in
+/// [`crate::bem`], Q normal components (down), then Q tangential components. Due to changes of traction τ from the
+/// static state it is
 ///
 /// ```text
 /// jump = j_free + W τ,        W = G¹ + B K_eff⁻¹ Bᵀ A
@@ -22,7 +22,9 @@ use crate::linalg::largest;
 ///
 /// with W the Delassus operator, the sum of the ground's step compliance
 /// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and the displacement of the structure's
-/// base due to unit tractions, within a step of the host's scheme. `j_free` is the free field, plus the
+/// base due to unit tractions, within a step of the host's scheme: A τ are the forces of the tractions on the
+/// elements, Bᵀ distributes them to the structure's degrees of freedom, K_eff is the effective stiffness of the
+/// scheme, and B returns the displacements of the base. `j_free` is the free field, plus the
 /// convolution history of the ground, minus the base displacement without changes of traction.
 ///
 /// The example `host_integrator` uses it with a structure integrated by central differences.
@@ -52,7 +54,7 @@ pub struct ContactProblem {
     static_traction: Vec<f64>,
     search: ModeSearch,
     modes: Vec<Mode>,
-    /// End of each element's state variables in the list; empty if no law has any.
+    /// End of each element's state variables in `state_variables`; empty if no law has any.
     state_variable_ends: Vec<usize>,
     /// State variables at the end of a step that has not been committed.
     state_variables: Vec<f64>,
@@ -68,7 +70,7 @@ short_debug! {
 pub struct ContactSolution<'a> {
     /// Change of traction from the static state, 2Q, Pa: the input of the ground.
     pub traction: &'a [f64],
-    /// Opening and total traction of each element.
+    /// Gap, slip and total traction of each element.
     pub states: &'a [ContactState],
     /// Mode of each element.
     pub modes: &'a [Mode],
@@ -178,28 +180,28 @@ impl ContactProblem {
     /// returned these numbers.
     pub fn start(&self, elements: &[PreviousContact<'_>]) -> Result<PreviousContacts> {
         same_length("starts of the step", elements.len(), self.modes.len())?;
-        for start in elements {
-            let value = positive("time step", start.time_step)?;
+        for element_start in elements {
+            let value = positive("time step", element_start.time_step)?;
             if value != elements[0].time_step {
                 let needed = "the same for all elements";
                 return Err(Error::Input { quantity: "time step", value, needed });
             }
-            finite("static pressure", start.static_pressure)?;
-            check_element(start)?;
+            finite("static pressure", element_start.static_pressure)?;
+            check_element(element_start)?;
         }
         PreviousContacts::new(&self.laws, elements)
     }
 
     /// Solves the step with the jump `free_jump` without changes of traction (2Q, m).
     ///
-    /// The laws use `start`. Nothing is allocated. [`ContactSolution::commit`] advances the start; until then
+    /// The laws read `start`. Nothing is allocated. [`ContactSolution::commit`] advances the start; until then
     /// the same step can be solved again.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Scene`] and [`Error::Input`] for a jump or a start that does not fit or is
     /// not finite; [`Error::Step`] if no modes satisfy the laws, or if a law returns a number that is not
-    /// finite. Its step number is the number of problems solved so far, and its time is the time of as many
-    /// steps.
+    /// finite. Its step number is one more than the number of problems solved before, and its time is the time of as
+    /// many steps.
     pub fn solve(
         &mut self,
         free_jump: &[f64],
@@ -208,9 +210,9 @@ impl ContactProblem {
         same_length("free jump", free_jump.len(), self.static_traction.len())?;
         check_start(start, self.modes.len(), &self.state_variable_ends)?;
         check_finite("free jump", free_jump)?;
-        for (mode, start) in self.modes.iter_mut().zip(start.iter()) {
-            check_element(&start)?;
-            *mode = start.mode;
+        for (mode, element_start) in self.modes.iter_mut().zip(start.iter()) {
+            check_element(&element_start)?;
+            *mode = element_start.mode;
         }
         let input = ContactInput {
             delassus: &self.delassus,

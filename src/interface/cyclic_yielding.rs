@@ -5,15 +5,16 @@ use super::{
 };
 use crate::error::{Result, not_negative, positive, require};
 
-/// Smallest difference of bearing pressure and pressure on the backbone, relative to the bearing pressure.
+/// Smallest difference between bearing pressure and pressure on the backbone, relative to the bearing pressure.
 ///
 /// Below it, rounding errors determine the settlement that the backbone returns for the pressure.
 const MIN_RESERVE_FRACTION: f64 = 1e-12;
 
 /// Coulomb friction and uplift on soil that settles in every cycle of load.
 ///
-/// Under virgin load the pressure follows a hyperbola over the settlement h of an element, the backbone, with the bearing
-/// pressure q and the reference settlement w_r at which half of q acts:
+/// Under virgin load the pressure follows a hyperbola over the settlement h of an element, the backbone. The reference
+/// settlement w_r is the one at which half of the bearing pressure q acts. q grows from its initial value q_u with the
+/// settlement w of the soil, by q_d per metre:
 ///
 /// ```text
 /// F(h) = q h/(h + w_r),        q = q_u + q_d w
@@ -21,8 +22,8 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 ///
 /// After the pressure has fallen by more than the elastic range η q, the soil yields again before the pressure reaches
 /// its former value. The state variables of each element are its settlement w (m) and the threshold c (Pa) up to which
-/// it bears without yielding. The normal conditions of an element are combined with stick and slip. With v the
-/// settlement in the step and F(h₀) = c, they are:
+/// it bears without yielding. The normal conditions of an element are combined with stick and slip. With pressure p, gap
+/// g, the settlement v in the step and F(h₀) = c, they are:
 ///
 /// | | |
 /// |---|---|
@@ -37,9 +38,10 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 /// The law stores no elastic energy. The energy balance counts p v ≥ 0 in `contact`, for all parameters, so that the
 /// dissipated energy never decreases. Sliding does not lower q.
 ///
-/// The law is a bed of springs in series with an elastic ground. For a footing of 2.8 m × 0.65 m, w_r = 5 mm, η = 0.1
-/// and q_d = 1.4 MPa/m were fitted to one slow centrifuge test of a rocking wall on dense dry sand (Gajan & Kutter 2008,
-/// doi:10.1061/(ASCE)1090-0241(2008)134:8(1129)). Settlement grows linearly with the number of equal cycles.
+/// Each element yields independently of its neighbours, in series with the elastic ground. For a footing of
+/// 2.8 m × 0.65 m, w_r = 5 mm, η = 0.1 and q_d = 1.4 MPa/m were fitted to one slow centrifuge test of a rocking wall on
+/// dense dry sand (Gajan & Kutter 2008, doi:10.1061/(ASCE)1090-0241(2008)134:8(1129)). With q_d = 0 the settlement grows
+/// linearly with the number of cycles of equal pressure.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -125,7 +127,7 @@ impl CyclicYielding {
 
     /// Sets the growth q_d of the bearing pressure with the settlement, Pa/m.
     ///
-    /// For a base on sand about γ N_q: settled soil beside the base is a surcharge.
+    /// For a base on sand it is about γ N_q, since the soil beside a base that has settled is a surcharge.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and not below zero.
@@ -180,8 +182,8 @@ impl Backbone {
         self.reference_settlement * ratio / (1.0 - ratio)
     }
 
-    /// Pressure up to which soil with this `threshold` bears without yielding: F(h₀) as [`Backbone::point_after`] has it.
-    fn pressure_without_settlement(&self, threshold: f64) -> f64 {
+    /// Pressure above which soil with this `threshold` yields: the pressure of [`Backbone::point_after`] at v = 0.
+    fn yield_pressure(&self, threshold: f64) -> f64 {
         if self.reference_settlement == 0.0 {
             self.bearing_pressure
         } else {
@@ -191,7 +193,8 @@ impl Backbone {
 
     /// Pressure F(h₀ + v) and its slope after a further settlement v (m), with F(h₀) = `threshold`.
     ///
-    /// With x = F(h₀)/q, F(h₀ + v) = q (x w_r + (1 − x) v)/(w_r + (1 − x) v).
+    /// With x = F(h₀)/q, F(h₀ + v) = q (x w_r + (1 − x) v)/(w_r + (1 − x) v). The slope is
+    /// q w_r (1 − x)²/(w_r + (1 − x) v)².
     fn point_after(&self, threshold: f64, settlement_in_step: f64) -> BackbonePoint {
         let Self { bearing_pressure, reference_settlement } = *self;
         if reference_settlement == 0.0 {
@@ -199,14 +202,14 @@ impl Backbone {
         }
         let ratio = self.load_ratio(threshold);
         let reserve_ratio = 1.0 - ratio;
-        let reduced_settlement = reserve_ratio * settlement_in_step;
-        // The denominator w_r + (1 − x) v.
-        let denominator = reference_settlement + reduced_settlement;
-        let reserve_quotient = reserve_ratio / denominator;
-        let ratio_after = (ratio * reference_settlement + reduced_settlement) / denominator;
+        // The term (1 − x) v.
+        let scaled_settlement = reserve_ratio * settlement_in_step;
+        let denominator = reference_settlement + scaled_settlement;
+        let slope_root = reserve_ratio / denominator;
+        let ratio_after = (ratio * reference_settlement + scaled_settlement) / denominator;
         BackbonePoint {
             pressure: bearing_pressure * ratio_after,
-            slope: bearing_pressure * reference_settlement * reserve_quotient * reserve_quotient,
+            slope: bearing_pressure * reference_settlement * slope_root * slope_root,
         }
     }
 }
@@ -220,6 +223,7 @@ struct SettledSoil {
 }
 
 impl SettledSoil {
+    /// State variables at the start of a step; zero before the laws have set them.
     fn of(start: &PreviousContact) -> Self {
         match *start.state_variables {
             [settlement, threshold, ..] => Self { settlement, threshold },
@@ -233,7 +237,7 @@ impl CyclicYielding {
     fn limits_without_yield(&self, start: &PreviousContact) -> Result<Limits> {
         let SettledSoil { settlement, threshold } = SettledSoil::of(start);
         Ok(Limits {
-            pressure_cap: self.backbone(settlement).pressure_without_settlement(threshold),
+            pressure_cap: self.backbone(settlement).yield_pressure(threshold),
             gap_offset: -settlement,
             ..self.contact.limits(start)?
         })
@@ -249,7 +253,7 @@ impl InterfaceLaw for CyclicYielding {
         2
     }
 
-    /// Sets the threshold to the present pressure: soil above it is virgin.
+    /// Sets the threshold to the present pressure: a higher pressure is virgin load.
     fn initial_state_variables(&self, start: &PreviousContact, state_variables: &mut [f64]) {
         let ContactState { gap, pressure, .. } = start.state;
         let is_closed = start.mode.is_closed();
@@ -283,7 +287,7 @@ impl InterfaceLaw for CyclicYielding {
         Some(self.friction())
     }
 
-    /// As by default; the curve is computed only where the soil yields.
+    /// As by default; the backbone is evaluated only where the soil yields.
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let limits =
             if mode.is_yield() { self.limits(start) } else { self.limits_without_yield(start) };
@@ -293,7 +297,8 @@ impl InterfaceLaw for CyclicYielding {
         )
     }
 
-    /// As by default; yielding soil goes on to yield by its settlement, whatever its pressure is.
+    /// As by default. Whether yielding soil continues to yield depends on its settlement alone, not on its pressure, so
+    /// that the backbone is evaluated only for soil that does not yield.
     fn next_mode(
         &self,
         mode: Mode,
@@ -301,9 +306,9 @@ impl InterfaceLaw for CyclicYielding {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        let needs_curve = !mode.is_yield() && start.trial_settlement != 0.0;
+        let needs_backbone = !mode.is_yield() && start.trial_settlement != 0.0;
         let limits =
-            if needs_curve { self.limits(start) } else { self.limits_without_yield(start) };
+            if needs_backbone { self.limits(start) } else { self.limits_without_yield(start) };
         let closing_mode = self.modes().first().copied().unwrap_or(Mode::Stick);
         limits.map_or(mode, |limits| {
             limits.next_mode(mode, closing_mode, start, trial, tolerance, [0.0; 2])

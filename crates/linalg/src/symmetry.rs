@@ -26,7 +26,8 @@ impl SparseMatrix {
 
     /// The pair of mirrored entries whose difference exceeds the allowed difference most; `None` if none does.
     ///
-    /// `allowed_difference(row, column)` belongs to one pair. Returns row, column, and [a_ij, a_ji].
+    /// `allowed_difference(i, j)` is the largest |a_ij − a_ji| that counts as symmetric. Returns row, column, and
+    /// [a_ij, a_ji].
     pub fn unsymmetric_pair(
         &self,
         allowed_difference: impl Fn(usize, usize) -> f64,
@@ -79,7 +80,7 @@ fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     if max_value > 0.0 { max_difference / max_value } else { 0.0 }
 }
 
-/// Places of mirrored entries in the pattern of a matrix, for its asymmetry with other values.
+/// Indices of mirrored entries in the pattern of a matrix, for its asymmetry whenever its values have changed.
 pub(super) struct MirroredPairs {
     /// Indices of an entry above the diagonal and of its mirrored entry.
     pairs: Vec<[usize; 2]>,
@@ -118,7 +119,7 @@ impl MirroredPairs {
     }
 }
 
-/// Largest of numbers above zero.
+/// Largest of the numbers, at least zero; NaN is ignored.
 fn largest_of(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.fold(0.0, |max, number| if number > max { number } else { max })
 }

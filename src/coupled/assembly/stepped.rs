@@ -181,8 +181,7 @@ fn singularity_cause(
     let Assembled { mass, damping, stiffness, .. } = assembled;
     let terms = [(1.0, &**stiffness), (1.0, tangent)];
     let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
-    let mechanism =
-        sum.and_then(|sum| unresisted_mechanism(structure, &sum, [&**damping, &**mass]));
+    let mechanism = sum.and_then(|sum| unresisted_mechanism(structure, &sum, damping, mass));
     mechanism.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 

@@ -6,12 +6,13 @@ use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
 use crate::structure::{SpringSupportedBase, Structure, Triplets, dof_list_text};
 
 /// Largest regularising term on the diagonal, relative to the largest stiffness.
-const REGULARISING_MASS_RATIO: f64 = 1e-12;
+const REGULARISATION_RATIO: f64 = 1e-12;
 /// Largest work of a mechanism on the stiffness, relative to the sum of the magnitudes of its terms.
 const MAX_MECHANISM_WORK_RATIO: f64 = 1e-12;
 /// Largest relative work of a mechanism where no factorization has failed.
 ///
-/// The sum of elements has a rounding of 3e-17. A column of a thousand beams, although not a mechanism, has 1e-12.
+/// For a mechanism, rounding in the sum over the elements gives a relative work of 3e-17. The softest displacement of a
+/// column of a thousand beams, which is not a mechanism, has 1e-12.
 const MAX_CERTAIN_MECHANISM_WORK_RATIO: f64 = f64::EPSILON;
 /// Relative work of the softest displacement above which the structure has no mechanism.
 const FIRM_WORK_RATIO: f64 = 1e-6;
@@ -55,7 +56,7 @@ impl StructureAtRest<'_> {
         self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
     }
 
-    /// The mechanism whose relative work on the stiffness is at most `max_work_ratio`, with a fixed base.
+    /// The mechanism, with a base on firm springs, whose relative work on the stiffness is at most `max_work_ratio`.
     fn mechanism_up_to(&self, max_work_ratio: f64) -> Option<StabilityError> {
         if self.base.dofs().is_empty() {
             return None;
@@ -70,9 +71,10 @@ impl StructureAtRest<'_> {
 pub(crate) fn unresisted_mechanism(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
-    mass_and_damping: [&SparseMatrix; 2],
+    damping: &SparseMatrix,
+    mass: &SparseMatrix,
 ) -> Option<StabilityError> {
-    let terms = [stiffness, mass_and_damping[0], mass_and_damping[1]].map(|matrix| {
+    let terms = [stiffness, damping, mass].map(|matrix| {
         let max_entry = largest(&matrix.diagonal());
         let factor = if max_entry > 0.0 { max_entry.recip() } else { 0.0 };
         (factor, matrix)
@@ -88,12 +90,12 @@ fn names_of_dofs(structure: &dyn Structure, dofs: &[usize]) -> String {
     structure.describe(dofs).unwrap_or_else(|| dof_list_text(dofs))
 }
 
-/// A stiffness that is regular also for mechanisms, by small terms on its diagonal.
+/// A stiffness that is regular even if the structure has mechanisms, due to small terms on its diagonal.
 pub(crate) struct RegularisedStiffness {
     matrix: Triplets,
     /// Reference stiffness, about as large as the largest entry, N/m.
-    spring: f64,
-    /// Terms on the diagonal that make mechanisms regular.
+    reference_stiffness: f64,
+    /// Terms on the diagonal that make the matrix regular.
     regularisation: Vec<f64>,
     /// Degrees of freedom without any entry.
     empty_dofs: Vec<usize>,
@@ -107,24 +109,24 @@ impl RegularisedStiffness {
         Self::on_springs(at_rest, 1.0)
     }
 
-    /// The stiffness at rest with springs under the contact nodes, `factor` times as stiff as its largest entry.
+    /// The stiffness at rest with springs under the contact nodes, `stiffness_ratio` times as stiff as its largest entry.
     pub(crate) fn on_springs<'a>(
         at_rest: &StructureAtRest<'a>,
-        factor: f64,
+        stiffness_ratio: f64,
     ) -> (SpringSupportedBase<'a>, Self) {
         let StructureAtRest { stiffness, mass, base, .. } = *at_rest;
         let max_entry = stiffness.entries().fold(0.0_f64, |max, (_, _, k)| max.max(k.abs()));
-        let spring = factor * if max_entry > 0.0 { max_entry } else { 1.0 };
-        let springs = SpringSupportedBase::new(base.nodes(), stiffness, spring);
-        let regularised = Self::new(springs.matrix.clone(), spring, &mass.diagonal());
+        let spring_stiffness = stiffness_ratio * if max_entry > 0.0 { max_entry } else { 1.0 };
+        let springs = SpringSupportedBase::new(base.nodes(), stiffness, spring_stiffness);
+        let regularised = Self::new(springs.matrix.clone(), spring_stiffness, &mass.diagonal());
         (springs, regularised)
     }
 
-    /// Regularises a matrix with a largest entry of about `spring` by a diagonal `mass`.
+    /// Regularises a matrix with a largest entry of about `reference_stiffness` by a diagonal `mass`.
     ///
     /// A degree of freedom without mass is regularised by its diagonal entry. Lagrange multipliers have neither mass nor
     /// diagonal entry and stay unchanged.
-    fn new(matrix: Triplets, spring: f64, mass: &[f64]) -> Self {
+    fn new(matrix: Triplets, reference_stiffness: f64, mass: &[f64]) -> Self {
         let max_mass = largest(mass);
         let mut diagonal = vec![0.0; matrix.order()];
         for &(row, _, value) in matrix.entries().iter().filter(|entry| entry.0 == entry.1) {
@@ -141,14 +143,16 @@ impl RegularisedStiffness {
             .into_iter()
             .enumerate()
             .map(|(i, entry)| match mass.get(i) {
-                Some(mass) if *mass > 0.0 => REGULARISING_MASS_RATIO * spring * mass / max_mass,
-                _ if entry > 0.0 => REGULARISING_MASS_RATIO * entry,
-                _ if is_empty_dof[i] => REGULARISING_MASS_RATIO * spring,
+                Some(mass) if *mass > 0.0 => {
+                    REGULARISATION_RATIO * reference_stiffness * mass / max_mass
+                }
+                _ if entry > 0.0 => REGULARISATION_RATIO * entry,
+                _ if is_empty_dof[i] => REGULARISATION_RATIO * reference_stiffness,
                 _ => 0.0,
             })
             .collect();
         let empty_dofs = (0..is_empty_dof.len()).filter(|&i| is_empty_dof[i]).collect();
-        Self { matrix, spring, regularisation, empty_dofs }
+        Self { matrix, reference_stiffness, regularisation, empty_dofs }
     }
 
     /// Factors the regularised matrix; `None` if the factorization fails.
@@ -160,26 +164,27 @@ impl RegularisedStiffness {
 
     /// Degrees of freedom of all mechanisms with a relative work of at most `max_work_ratio`, ascending.
     ///
-    /// They are those with long rows in a basis of the mechanisms. The basis is orthonormal with respect to the
-    /// regularisation, so that neither its choice nor the numbering of degrees of freedom matters.
+    /// They are those whose rows have the largest Euclidean norms in a matrix whose columns are a basis of the
+    /// mechanisms. The basis is orthonormal with respect to the regularisation, so that neither its choice nor the
+    /// numbering of degrees of freedom matters.
     fn mechanism_dofs(&self, max_work_ratio: f64) -> Option<Vec<usize>> {
-        let dofs = self.regularisation.len();
+        let dof_count = self.regularisation.len();
         let mut factor = self.factor()?;
         let mut basis: Vec<Vec<f64>> = Vec::new();
-        while basis.len() < MAX_REPORTED_MECHANISMS.min(dofs) {
+        while basis.len() < MAX_REPORTED_MECHANISMS.min(dof_count) {
             match self.softest_displacement(&mut factor, &basis) {
                 Some(shape) if self.relative_work(&shape) <= max_work_ratio => basis.push(shape),
                 _ => break,
             }
         }
-        let mut row_lengths = vec![0.0; dofs];
-        for (i, length) in
-            row_lengths.iter_mut().enumerate().filter(|(i, _)| self.regularisation[*i] > 0.0)
+        let mut row_norms = vec![0.0; dof_count];
+        for (i, norm) in
+            row_norms.iter_mut().enumerate().filter(|(i, _)| self.regularisation[*i] > 0.0)
         {
-            *length = basis.iter().map(|shape| shape[i] * shape[i]).sum::<f64>().sqrt();
+            *norm = basis.iter().map(|shape| shape[i] * shape[i]).sum::<f64>().sqrt();
         }
-        let limit = MIN_MECHANISM_DISPLACEMENT_RATIO * largest(&row_lengths);
-        (!basis.is_empty()).then(|| (0..dofs).filter(|&i| row_lengths[i] > limit).collect())
+        let min_norm = MIN_MECHANISM_DISPLACEMENT_RATIO * largest(&row_norms);
+        (!basis.is_empty()).then(|| (0..dof_count).filter(|&i| row_norms[i] > min_norm).collect())
     }
 
     /// The softest displacement independent of `basis`, by inverse iteration with a factored stiffness.
@@ -214,10 +219,11 @@ impl RegularisedStiffness {
 
     /// Work of a displacement on the matrix, relative to the sum of the magnitudes of its terms.
     ///
-    /// A degree of freedom without entries contributes the work of a spring to the sum. If it moves, all other
-    /// displacements are only rounding.
+    /// A degree of freedom without entries contributes the work of the reference stiffness to the sum. If it moves, the
+    /// other displacements are rounding errors, and their work must not count as resistance.
     fn relative_work(&self, shape: &[f64]) -> f64 {
-        let mut scale: f64 = self.empty_dofs.iter().map(|&i| self.spring * shape[i].powi(2)).sum();
+        let mut scale: f64 =
+            self.empty_dofs.iter().map(|&i| self.reference_stiffness * shape[i].powi(2)).sum();
         let mut work = 0.0_f64;
         for &(row, column, value) in self.matrix.entries() {
             let product = shape[row] * value * shape[column];

@@ -32,12 +32,16 @@ pub(crate) fn cause(
     let grounded = GroundedStructure { assembled, structure, ground_compliance, laws };
     let at_rest = assembled.structure_at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
-    let mass_and_damping = [&*assembled.damping, &assembled.mass];
     at_rest
         .mechanism()
         .or_else(|| {
             if is_singular {
-                unresisted_mechanism(structure, at_rest.stiffness, mass_and_damping)
+                unresisted_mechanism(
+                    structure,
+                    at_rest.stiffness,
+                    &assembled.damping,
+                    &assembled.mass,
+                )
             } else {
                 None
             }

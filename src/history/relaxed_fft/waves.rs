@@ -1,4 +1,4 @@
-//! Blocks over the wavenumbers of a lattice: a convolution in time for each wavenumber and kind.
+//! Blocks over the wavenumbers of a lattice: a convolution in time for each wavenumber and kind of coefficient.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,13 +22,16 @@ use crate::linalg::vectorized;
 /// Unused numbers at the end of each row, without which equal columns of all rows would map to one cache set.
 const ROW_PADDING: usize = 4;
 
-/// Blocks over wavenumbers: the current leaf, all levels, inputs and outputs so far.
+/// Blocks over wavenumbers: the present leaf, all levels, inputs and outputs so far.
+///
+/// A leaf is a block of [`LEAF_STEPS`] steps; effects within it are summed directly. A level computes the effect of
+/// blocks of one size on the steps after them.
 ///
 /// Within a leaf, a step's contact vector over B wavenumbers is stored as two slices of B for each component: real
 /// and imaginary parts.
 pub(super) struct WaveBlocks {
     grid: ElementGrid,
-    /// Last d at which any coupling is not zero; `usize::MAX` if it never ends.
+    /// Last delay d (lag d + 1) at which any coupling is not zero; `usize::MAX` if it never ends.
     coupling_reach: usize,
     leaf: Arc<LeafCoefficients>,
     levels: Vec<Arc<WaveLevel>>,
@@ -37,12 +40,13 @@ pub(super) struct WaveBlocks {
     rows: Vec<Complex<f64>>,
     stride: usize,
     ring: Ring,
+    /// Number of steps for which rows and levels suffice.
     capacity: usize,
     /// Last lag that is not neglected; `None` to neglect no lag.
     last_lag: Option<usize>,
-    /// Inputs of this leaf.
+    /// Inputs of the present leaf.
     inputs: Vec<f64>,
-    /// Effect of all earlier leaves on the outputs of this leaf.
+    /// Effect of all earlier leaves on the outputs of the present leaf.
     earlier_effects: Vec<f64>,
     /// Scratch: the output of a step over the wavenumbers.
     sum: Vec<f64>,
@@ -116,15 +120,16 @@ impl WaveBlocks {
         let kind_count = self.grid.kinds();
         let leaf_steps = if with_leaf { LEAF_STEPS } else { 0 };
         // The coefficients of a kind are stored in the memory of its largest spectra until these are computed.
-        let largest_levels: Vec<_> = (0..kind_count)
+        let largest_level_indices: Vec<_> = (0..kind_count)
             .map(|kind| levels.iter().rposition(|level| level.has_spectra(kind)))
             .collect();
-        let kind_lags = |kind: usize| {
-            let level = largest_levels[kind].and_then(|level_index| levels.get(level_index));
+        // Number of lags whose coefficients of a kind are needed.
+        let needed_lags = |kind: usize| {
+            let level = largest_level_indices[kind].and_then(|level_index| levels.get(level_index));
             level.map_or(leaf_steps, |level| 2 * level.block_size)
         };
-        let lag_count = kind_lags(0);
-        let coupled_lags = kind_lags(COUPLING_KIND).min(self.coupling_reach.saturating_add(1));
+        let lag_count = needed_lags(0);
+        let coupled_lags = needed_lags(COUPLING_KIND).min(self.coupling_reach.saturating_add(1));
         let mut leaf_tables = vec![vec![0.0; leaf_steps * wave_count]; kind_count];
         let computed_lags = lag_count.min(self.last_lag.unwrap_or(lag_count));
         self.grid.coefficients(weights, computed_lags, coupled_lags, |kind, d, values| {
@@ -135,7 +140,7 @@ impl WaveBlocks {
                 leaf_tables[kind][d * wave_count..(d + 1) * wave_count].copy_from_slice(values);
             }
             if let Some(level) =
-                largest_levels[kind].and_then(|level_index| levels.get_mut(level_index))
+                largest_level_indices[kind].and_then(|level_index| levels.get_mut(level_index))
             {
                 level.store_coefficients(kind, d, values);
             }
@@ -145,14 +150,14 @@ impl WaveBlocks {
         let half_parts = SPECTRA_PROGRESS_PARTS / 2;
         let mut samples = vec![0.0; lag_count];
         let mut buffer = vec![0.0; lag_count];
-        for (kind, largest_level) in largest_levels.into_iter().enumerate() {
-            let Some(largest_level) = largest_level else { continue };
+        for (kind, largest_level_index) in largest_level_indices.into_iter().enumerate() {
+            let Some(largest_level_index) = largest_level_index else { continue };
             for wave in 0..wave_count {
                 reporter.reach(
                     half_parts
                         + half_parts * (kind * wave_count + wave) / (kind_count * wave_count),
                 )?;
-                levels[largest_level].stored_coefficients(kind, wave, &mut samples);
+                levels[largest_level_index].stored_coefficients(kind, wave, &mut samples);
                 for level in levels.iter_mut().filter(|level| level.has_spectra(kind)) {
                     let buffer = &mut buffer[..2 * level.block_size];
                     buffer.copy_from_slice(&samples[..2 * level.block_size]);
@@ -174,10 +179,10 @@ impl WaveBlocks {
             if let Some(stale_range) = &stale_range {
                 values[stale_range.clone()].fill(Complex::default());
             }
-            let re = 2 * wave_count * (row / wave_count) + row % wave_count;
+            let real_index = 2 * wave_count * (row / wave_count) + row % wave_count;
             let inputs = self.inputs.chunks_exact(input_width);
             for (value, input) in values[input_range.clone()].iter_mut().zip(inputs) {
-                *value = Complex::new(input[re], input[re + wave_count]);
+                *value = Complex::new(input[real_index], input[real_index + wave_count]);
             }
         }
         let level_index = ring.level_index(now, self.levels.len());
@@ -195,11 +200,11 @@ impl WaveBlocks {
         }
         let begin = ring.column(now);
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
-            let re = 2 * wave_count * (row / wave_count) + row % wave_count;
+            let real_index = 2 * wave_count * (row / wave_count) + row % wave_count;
             let outputs = self.earlier_effects.chunks_exact_mut(input_width);
             for (value, output) in values[begin..begin + LEAF_STEPS].iter().zip(outputs) {
-                output[re] = value.re;
-                output[re + wave_count] = value.im;
+                output[real_index] = value.re;
+                output[real_index + wave_count] = value.im;
             }
         }
     }
@@ -224,17 +229,17 @@ impl WaveBlocks {
         weights.prepare(lags.min(self.last_lag.unwrap_or(lags)), &mut unobserved)?;
         // If late lags are neglected, the spectra do not include all lags, and the store is not used.
         let spectra = weights.spectra().filter(|_| self.last_lag.is_none());
-        let spectra = spectra.filter(|s| s.belong_to(weights.classes().elements()));
+        let spectra = spectra.filter(|spectra| spectra.belong_to(weights.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<WaveLevel, LeafCoefficients>>);
         let mut shared = shared.as_deref().map(lock);
         let leaf = (self.capacity > 0).then(|| Arc::clone(&self.leaf));
         let mut private_store = Levels { levels: self.levels.clone(), leaf };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
-        let levels = store.smallest(level_count, |level_indices, leaf| {
+        let smallest_levels = store.smallest(level_count, |level_indices, leaf| {
             self.compute_levels(weights, level_indices, leaf, reporter)
         })?;
-        self.levels = levels.levels;
-        self.leaf = levels.leaf.unwrap_or_default();
+        self.levels = smallest_levels.levels;
+        self.leaf = smallest_levels.leaf.unwrap_or_default();
         let zero = Complex::default();
         if let Some(level) = self.levels.last() {
             // Components with coupling are all transformed before they are multiplied.
@@ -292,6 +297,7 @@ impl HistoryBlocks for WaveBlocks {
         last_delay: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
+        // The coefficients of the lags after `last_delay` are neglected.
         self.last_lag = Some(last_delay);
         self.set_levels(weights, (last_delay / LEAF_STEPS).ilog2() as usize + 1, reporter)?;
         self.widen(2 * last_delay + ROW_PADDING);
@@ -307,14 +313,14 @@ impl HistoryBlocks for WaveBlocks {
     }
 
     fn write_traction(&mut self, step: usize, traction: &[f64]) {
-        let waves = self.grid.waves().count;
+        let wave_count = self.grid.waves().count;
         let input_width = values_per_step(&self.grid);
         let input = &mut self.inputs[step % LEAF_STEPS * input_width..][..input_width];
         let components = traction.chunks_exact(traction.len() / self.grid.components());
         for (component, (values, complex_values)) in
-            components.zip(input.chunks_exact_mut(2 * waves)).enumerate()
+            components.zip(input.chunks_exact_mut(2 * wave_count)).enumerate()
         {
-            let (re, im) = complex_values.split_at_mut(waves);
+            let (re, im) = complex_values.split_at_mut(wave_count);
             self.grid.forward(component, values, re, im);
         }
     }
@@ -324,7 +330,7 @@ impl HistoryBlocks for WaveBlocks {
     }
 
     fn input(&self, step: usize, effects_end: usize, values: &mut Vec<f64>) {
-        let waves = self.grid.waves().count;
+        let wave_count = self.grid.waves().count;
         let input_width = self.values_per_step();
         if step >= effects_end - effects_end % LEAF_STEPS {
             let begin = step % LEAF_STEPS * input_width;
@@ -332,7 +338,7 @@ impl HistoryBlocks for WaveBlocks {
         } else {
             let column = self.ring.column(step);
             for component in 0..self.grid.components() {
-                let rows = component * waves..(component + 1) * waves;
+                let rows = component * wave_count..(component + 1) * wave_count;
                 values.extend(rows.clone().map(|row| self.rows[row * self.stride + column].re));
                 values.extend(rows.map(|row| self.rows[row * self.stride + column].im));
             }
@@ -367,10 +373,10 @@ impl HistoryBlocks for WaveBlocks {
             vectorized(PlanLeaf { sum, inputs, coefficients: &self.leaf, waves });
         }
         let values = displacement.chunks_exact_mut(displacement.len() / components);
-        for (component, (values, sum)) in
+        for (component, (values, component_sum)) in
             values.zip(self.sum.chunks_exact(2 * waves.count)).enumerate()
         {
-            let (re, im) = sum.split_at(waves.count);
+            let (re, im) = component_sum.split_at(waves.count);
             self.grid.inverse(component, re, im, values);
         }
     }

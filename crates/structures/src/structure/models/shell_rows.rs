@@ -84,10 +84,10 @@ impl FemModel {
     /// let rows = model.shell_rows(&mat, |_| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
     /// let middle = model.mesh().node_at_point([2.0, 1.0, 0.0])?;
     /// let node_rows = rows.iter().find(|rows| rows.node == middle).unwrap();
-    /// // Tension below is positive.
+    /// // The moment is positive with tension on the lower side.
     /// let probe = Probe::section("moment along x", &node_rows.moments[0]);
     /// assert_eq!(probe.unit, "N·m/m");
-    /// // The largest moment in the mat in any direction, for any displacement.
+    /// // The largest moment in the mat in any direction: a rigid motion causes none.
     /// let rigid_motion = model.rigid_motion(Direction::Z, [0.0; 3]);
     /// let moments = rows.iter().flat_map(|rows| rows.value(&rigid_motion).principal_moments());
     /// assert!(moments.fold(0.0, |largest: f64, moment| largest.max(moment.abs())) < 1e-3);
@@ -117,7 +117,7 @@ impl FemModel {
                     let [tangent, outward_direction] = axes(point);
                     let common_resultants = resultants
                         .in_axes(tangent, outward_direction)
-                        .map_err(|fault| fault.within(element_name(element)))?;
+                        .map_err(|error| error.within(element_name(element)))?;
                     let sum = node_sums.entry(node).or_default();
                     if k == 0 {
                         sum.add_shell(&common_resultants.axes);
@@ -129,7 +129,7 @@ impl FemModel {
         Ok(node_sums.into_iter().map(|(node, sum)| self.mean_rows(node, sum)).collect())
     }
 
-    /// Means of the resultants at a node, as sums of the remaining degrees of freedom.
+    /// Means of the resultants at a node, as sums of the degrees of freedom that the model's links do not eliminate.
     fn mean_rows(&self, node: usize, sum: NodeSum) -> ShellRows {
         let shell_count = sum.shell_count;
         let mut means = sum.rows.into_iter().map(|row| {
@@ -137,6 +137,7 @@ impl FemModel {
                 row.into_iter().map(|(dof, weight)| (dof, weight / shell_count)).collect(),
             )
         });
+        // The means are in the order of `ShellResultants::values`: membrane forces, moments, shear forces.
         let mut next_rows = |unit| SectionRows {
             unit,
             displacement: means.next().unwrap_or_default(),
@@ -159,7 +160,8 @@ struct NodeSum {
     shell_count: f64,
     /// Sums of the unit vectors e1, e2, n.
     axes: [[f64; 3]; 3],
-    /// Sums of each resultant due to a unit value of each degree of freedom of the mesh.
+    /// Sums of each resultant due to a unit value of each degree of freedom of the mesh, in the order of
+    /// [`ShellResultants::values`].
     rows: [BTreeMap<usize, f64>; 8],
 }
 
