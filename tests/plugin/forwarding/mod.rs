@@ -12,7 +12,7 @@ mod structure;
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField};
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Midpoint, TimeScheme};
-use basemat::fem::{Element, ElementFace, MassKind};
+use basemat::fem::{Element, ElementFace, MassKind, StressAtRest};
 use basemat::history::ConvolutionHistory;
 use basemat::interface::{ContactState, Coulomb, InPlane, InterfaceLaw, Mode};
 use basemat::motion::{AtRest, FreeField, RecordFormat, RickerDisplacement};
@@ -195,6 +195,8 @@ fn boxed_elements_forward_all_methods() {
         assert_eq!(matrix, [10.0 * MARKER_VALUE]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
         assert!(part.inelastic().is_none());
+        let stress = StressAtRest::new(9.81, 1900.0, 0.5).unwrap();
+        assert!(part.with_stress_at_rest(&stress).is_some() && part.is_at_rest());
         assert_eq!(part.compression(), Some(MARKER_VALUE));
         assert_eq!(part.density(), Some(MARKER_VALUE));
         assert!(part.with_nodes(&[6]).is_some() && part.with_nodes(&[5]).is_none());

@@ -4,7 +4,7 @@ use basemat::Result;
 use basemat::bem::ContactElement;
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
-use basemat::fem::{Direction, Element, ElementFace, InelasticForce, MassKind};
+use basemat::fem::{Direction, Element, ElementFace, InelasticForce, MassKind, StressAtRest};
 use basemat::motion::{FreeField, Record, RecordFormat};
 
 use super::recording_part::{MARKER_VALUE, RecordingPart, refusal};
@@ -102,6 +102,16 @@ impl Element for RecordingPart {
     fn inelastic(&self) -> Option<&dyn InelasticForce> {
         self.0.add("inelastic");
         None
+    }
+
+    fn with_stress_at_rest(&self, _: &StressAtRest) -> Option<Box<dyn Element>> {
+        self.0.add("with_stress_at_rest");
+        Some(Box::new(RecordingPart(self.0.clone())))
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.0.add("is_at_rest");
+        true
     }
 
     fn compression(&self) -> Option<f64> {

@@ -71,6 +71,11 @@ impl Structure for RecordingStructure {
         Ok(())
     }
 
+    fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
+        self.log.add("mass_at_rest");
+        Ok(Some(vec![MARKER_VALUE; 4]))
+    }
+
     fn has_active_damping(&self) -> bool {
         self.log.add("has_active_damping");
         true
@@ -176,6 +181,7 @@ fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
     assert!((damping_entry - damping).abs() < 1e-12);
     let geometric_entry = diagonal_entry(dof, |matrix| structure.geometric_stiffness(matrix));
     assert_eq!(geometric_entry, -MARKER_VALUE);
+    assert!(structure.mass_at_rest().unwrap().is_some_and(|masses| masses.len() == 4));
     assert!(structure.has_active_damping());
     assert!(structure.has_active_stiffness());
     let description = structure.description();
