@@ -9,13 +9,15 @@ use super::parts::{BodyPart, CoordinatePart, GroundPart, LawPart, MotionPart, Sc
 use super::records::FORMAT_NAMES;
 
 /// Parts without a row, and the reason.
-const WITHOUT_ROWS: [(&str, &str); 4] = [
+const WITHOUT_ROWS: [(&str, &str); 6] = [
     (
         "FullPlaneGround",
         "the paper's scheme, which grows by itself: full_plane.rs, and tests/full_plane",
     ),
     ("FixedGround", "private: the ground of a fixed base"),
     ("StructureOnRigidFoundations", "private: the structure of a fixed base"),
+    ("NoStructure", "private: takes the place of a structure that a fixed base has returned"),
+    ("SharedLaw", "private: one law in the places of several elements"),
     ("OutOfPhase", "private: part of a travelling wave beyond the critical angle"),
 ];
 

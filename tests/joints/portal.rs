@@ -108,7 +108,7 @@ fn bonded_joints_do_not_change_a_portal_under_a_travelling_wave() -> Result<()> 
     let wave = || TravellingWave::new(el_centro_1940(), 300.0, -6.0);
     let whole = responses(false, wave()?, Coordinates::Physical)?;
     let cut = responses(true, wave()?, Coordinates::Physical)?;
-    check(&whole, &cut, 1e-5);
+    check(&whole, &cut, 1e-7);
     Ok(())
 }
 

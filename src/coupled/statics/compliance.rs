@@ -8,7 +8,9 @@ use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
-use crate::coupled::model::joint_compliance::{JOINT_COMPLIANCE_RATIO, with_joint_compliance};
+use crate::coupled::model::joint_compliance::{
+    STATIC_JOINT_COMPLIANCE_RATIO, with_joint_compliance,
+};
 use crate::coupled::model::operators::condense;
 use crate::error::{Error, Result};
 use crate::linalg::{CompressedMatrix, SparseFactor, SparseMatrix, sparse_condition};
@@ -79,7 +81,7 @@ impl Compliance {
             ground_compliance
         } else {
             let solve = |rhs: &mut [f64]| factor.factor.solve_many(rhs);
-            let ratio = JOINT_COMPLIANCE_RATIO;
+            let ratio = STATIC_JOINT_COMPLIANCE_RATIO;
             ground_with_joints =
                 with_joint_compliance(solve, base, ground_compliance, order, ratio);
             &ground_with_joints

@@ -64,7 +64,7 @@ pub fn write_solid_state(path: impl AsRef<Path>, model: &FemModel, dofs: &[f64])
 /// let block = Mesh::quad8_block(&[-2.0, 0.0, 2.0], &[0.0, 2.0], |_, _| clay.clone())?;
 /// let model = FemModel::on_base(block)?;
 /// let mut simulation = Simulation::builder(0.01)
-///     .ground(SpringGround::under(&model, 4, 1.0e8, 1.0e8)?)
+///     .ground(SpringGround::under(&model, 8, 1.0e8, 1.0e8)?)
 ///     .structure(model)
 ///     .interface(Bonded)
 ///     .motion(el_centro_1940())
