@@ -54,7 +54,7 @@ fn soil_box(material: impl Into<SharedMaterial>) -> SoilBox {
     let material = material.into();
     let x = even_lines(-HALF_WIDTH..HALF_WIDTH, 4);
     let y = even_lines(-BOX_DEPTH..0.0, 3);
-    SoilBox::new(&x, &y, material, &stress(PRESSURE_RATIO)).unwrap()
+    SoilBox::new(&x, &y, &material, &stress(PRESSURE_RATIO)).unwrap()
 }
 
 /// Box of four-node quadrilaterals of clay.
@@ -148,7 +148,7 @@ const BLOCK_DENSITY: f64 = 2000.0;
 /// A block on the soil, welded to it.
 fn with_block(soil: SoilBox) -> SoilBox {
     let concrete = Material::new(20.0e9, 0.2, BLOCK_DENSITY).unwrap();
-    soil.with_block(&[-2.0, 0.0, 2.0], &[0.0, 1.0, 2.0], concrete.into()).unwrap()
+    soil.with_block(&[-2.0, 0.0, 2.0], &[0.0, 1.0, 2.0], &concrete.into()).unwrap()
 }
 
 /// GOAL: the trench carries the block alone; strong clay and reduced soil settle as elastic soil, in every gravity stage.

@@ -24,7 +24,7 @@ impl SoilBox {
     pub(crate) fn new(
         x: &[f64],
         y: &[f64],
-        material: SharedMaterial,
+        material: &SharedMaterial,
         stress: &StressAtRest,
     ) -> Result<Self> {
         let mesh = Mesh::quad8_block(x, y, |_, _| material.clone())?.with_stress_at_rest(stress)?;
@@ -36,7 +36,12 @@ impl SoilBox {
     }
 
     /// Adds a block of quadrilaterals on the surface, welded to the soil.
-    pub(crate) fn with_block(self, x: &[f64], y: &[f64], material: SharedMaterial) -> Result<Self> {
+    pub(crate) fn with_block(
+        self,
+        x: &[f64],
+        y: &[f64],
+        material: &SharedMaterial,
+    ) -> Result<Self> {
         let block = Mesh::quad8_block(x, y, |_, _| material.clone())?;
         let mut mesh = self.mesh;
         let mut nodes = Vec::new();

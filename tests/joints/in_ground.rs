@@ -14,7 +14,9 @@ fn a_block_stands_on_a_basement() -> Result<()> {
     let basement = RigidBlock::new(8.0, 5.0, 2000.0)?;
     let block = RigidBlock::new(6.0, 6.0, 1500.0)?;
     let mut top = basement.contact_nodes(&[[-3.0, 5.0], [3.0, 5.0]])?;
-    top.iter_mut().for_each(|node| node.z -= 3.0);
+    for node in &mut top {
+        node.z -= 3.0;
+    }
     let bottom = block.contact_nodes(&[[-3.0, 0.0], [3.0, 0.0]])?;
     let group = StructureGroup::new()
         .with(WithWalls::new(basement, 3.0)?, 0.0)?

@@ -160,7 +160,7 @@ fn rocking_in_space_equals_rocking_in_the_plane() {
             .structure(RigidBody::cuboid([BASE_WIDTH, BODY_DEPTH, 5.0], 2000.0).unwrap())
             .ground(SpringGround::in_plan(plan, [BEDDING_MODULUS; 3]).unwrap())
             .interface(law())
-            .motion(Pulse { is_across: is_across })
+            .motion(Pulse { is_across })
             .build()
             .unwrap();
         let RecordedRun { time_series: series, run, .. } = recorded(&mut simulation, 200);
