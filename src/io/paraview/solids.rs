@@ -14,7 +14,7 @@ use crate::text::file::write_file;
 ///
 /// Cells have `plastic_strain`, `mobilised_strength` (from 0 to 1) and `mean_stress` (Pa; tension is positive), means
 /// over the integration points of each element. Points have the vectors `displacement` by `dofs`, as for
-/// [`write_state`]. During a run, `model` is [`Simulation::structure`](crate::Simulation::structure) after a downcast.
+/// [`write_state`](super::write_state). During a run, `model` is [`Simulation::structure`](crate::Simulation::structure) after a downcast.
 /// The folder is made if it does not exist.
 ///
 /// # Errors

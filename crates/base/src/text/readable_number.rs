@@ -31,7 +31,7 @@ const ROUNDING_LIMIT: f64 = 1e-9;
 /// Magnitudes that are printed without an exponent.
 const PLAIN_MAGNITUDES: std::ops::Range<f64> = 1e-3..1e6;
 
-/// Number with at least three significant figures; an exponent only outside [`PLAIN_MAGNITUDES`], and no negative zero.
+/// Number with at least three significant figures; an exponent only below 1e-3 and from 1e6 on, and no negative zero.
 pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude < ROUNDING_LIMIT {
