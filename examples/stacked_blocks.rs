@@ -1,7 +1,7 @@
 //! Two stacked blocks: a heavy machine on its concrete foundation, which both may slide.
 //!
 //! The block of concrete stands on firm ground, the machine on the block. A joint between them has the same laws and
-//! results as the base. The table compares frictions of the joint: a joint that slides early spares the ground below.
+//! results as the base. The table compares frictions of the joint: below a joint that slides early, the base slides less.
 //!
 //! ```text
 //! cargo run --release --example stacked_blocks
@@ -57,7 +57,9 @@ fn main() -> Result<()> {
         );
         base_slips.push(base_slip);
     }
-    println!("\nA joint that slides early limits the force on the base, which then slides less.");
+    println!(
+        "\nThe base reaches its own friction limit in each run. Below a joint that slides early it slides less."
+    );
     assert!(base_slips[0] < base_slips[2]);
     Ok(())
 }
