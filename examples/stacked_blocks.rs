@@ -58,7 +58,7 @@ fn main() -> Result<()> {
         base_slips.push(base_slip);
     }
     println!(
-        "\nThe base reaches its own friction limit in each run. Below a joint that slides early it slides less."
+        "\nThe base reaches its friction limit in each run. Below a joint that slides early it slides less."
     );
     assert!(base_slips[0] < base_slips[2]);
     Ok(())

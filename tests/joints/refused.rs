@@ -64,8 +64,11 @@ fn scenes_without_support_or_in_plan() -> Result<()> {
     // Nothing holds the third block.
     assert!(scene(vec![first()?]).is_err());
     // The third block stands on itself.
-    let own = Joint::between(nodes(2, &bottom)?, nodes(2, &bottom)?, 2)?;
-    assert!(matches!(scene(vec![first()?, own]), Err(Error::Scene { quantity: "joints", .. })));
+    let self_joint = Joint::between(nodes(2, &bottom)?, nodes(2, &bottom)?, 2)?;
+    assert!(matches!(
+        scene(vec![first()?, self_joint]),
+        Err(Error::Scene { quantity: "joints", .. })
+    ));
     // A side with nodes of two blocks.
     let mixed = vec![nodes(1, &bottom)?[0].clone(), nodes(2, &bottom)?[1].clone()];
     let mixed = mixed.into_iter().map(|node| BaseNode { z: 2.0, ..node }).collect();

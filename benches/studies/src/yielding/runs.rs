@@ -140,7 +140,7 @@ fn scene_checks(scene_count: u64) -> Vec<Check> {
     vec![
         Check::new(
             format!("{name}: residual of the energy balance"),
-            "remainder from its own formula",
+            "remainder from its formula",
             counts.residual,
             Limit::AtMost(BALANCE_LIMIT),
         )
@@ -180,7 +180,7 @@ fn slope_check() -> Result<Check> {
     let errors: Vec<String> = result.errors.iter().map(|error| format!("{error:.1e}")).collect();
     let check = Check::new(
         "halving Δt four times from 5 ms, chain of yielding springs: slope of the fit",
-        "own run with Δt 0.04 ms",
+        "run with Δt 0.04 ms",
         result.slope,
         Limit::AtLeast(SLOPE_LIMIT),
     );
