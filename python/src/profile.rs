@@ -74,12 +74,12 @@ impl PyDampingLaw {
 /// Soil of a layer: linear elastic.
 struct FarFieldSoil(Soil);
 
-extracts!(FarFieldSoil, object => match object.cast::<PySoil>() {
-    Ok(soil) => Ok(Self(soil.get().0)),
-    Err(_) => {
-        let requirement = "a Soil: the far field is linear, and soil that yields is a material of a Mesh";
-        Err(type_error(&object, requirement))
+extracts!(FarFieldSoil, object => {
+    if let Ok(soil) = object.cast::<PySoil>() {
+        return Ok(Self(soil.get().0));
     }
+    let requirement = "a Soil: the far field is linear, and soil that yields is a material of a Mesh";
+    Err(type_error(&object, requirement))
 });
 
 /// A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none

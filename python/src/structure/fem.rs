@@ -12,7 +12,7 @@ use pyo3::types::PyTuple;
 
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
-use super::layer::formulation;
+use super::layer::{formulation, stabilisation_percent};
 use super::mesh::{PyMesh, direction};
 use super::solid_material::SolidLike;
 use crate::array::{Array, Count, whole_numbers};
@@ -238,8 +238,9 @@ impl PyGmshMesh {
             .iter()
             .map(|(name, material)| (name.as_str(), material.0.clone()))
             .collect();
+        let percent = stabilisation_percent(hourglass_percent)?;
         let mesh = match formulation {
-            Some(name) => self.0.mesh_of(&materials, self::formulation(name, hourglass_percent)?),
+            Some(name) => self.0.mesh_of(&materials, self::formulation(name, percent)?),
             None => self.0.mesh(&materials),
         };
         mesh.or_raise().map(PyMesh)

@@ -14,20 +14,25 @@ pub(super) fn formulation_of(
     name: Option<&str>,
     hourglass_percent: usize,
 ) -> PyResult<QuadFormulation> {
+    let percent = stabilisation_percent(hourglass_percent)?;
     match name {
-        Some(name) => formulation(name, hourglass_percent),
+        Some(name) => formulation(name, percent),
         None => Ok(QuadFormulation::for_material(material)),
     }
 }
 
-/// Formulation of four-node quadrilaterals by its name.
-pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<QuadFormulation> {
-    let percent = u8::try_from(hourglass_percent).map_err(|_| {
+/// Percentage of the stabilisation against hourglass modes.
+pub(super) fn stabilisation_percent(hourglass_percent: usize) -> PyResult<u8> {
+    u8::try_from(hourglass_percent).map_err(|_| {
         input_error(format!(
             "hourglass_percent is {hourglass_percent}, but must be {} or less",
             u8::MAX
         ))
-    })?;
+    })
+}
+
+/// Formulation of four-node quadrilaterals by its name.
+pub(super) fn formulation(name: &str, percent: u8) -> PyResult<QuadFormulation> {
     let choices = [
         ("full", QuadFormulation::Full),
         ("incompatible_modes", QuadFormulation::IncompatibleModes),
