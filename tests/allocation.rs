@@ -21,6 +21,7 @@ use basemat::{Simulation, unobserved};
 
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, tower};
+use basemat_problems::yielding_blocks::grid_lines;
 use basemat_problems::yielding_springs::spring_column;
 use basemat_problems::{needed_from, own_force};
 
@@ -177,13 +178,11 @@ fn cyclic_yielding() -> CyclicYielding {
 }
 
 /// Block of clay that yields, of columns × rows elements.
-fn yielding_block(columns: u32, rows: u32) -> FemModel {
+fn yielding_block(columns: usize, rows: usize) -> FemModel {
     let clay: SharedMaterial = Iwan::hyperbolic(40e6, 90e3, 0.45, 0.45, 1900.0).unwrap().into();
-    let lines = |count: u32, start: f64, length: f64| -> Vec<f64> {
-        (0..=count).map(|i| start + length * f64::from(i) / f64::from(count)).collect()
-    };
-    let [x, y] = [lines(columns, -2.0, 4.0), lines(rows, 0.0, 5.0)];
-    FemModel::on_base(Mesh::quad8_block(&x, &y, |_, _| clay.clone()).unwrap()).unwrap()
+    let x_lines = grid_lines(-2.0, 4.0, columns);
+    let y_lines = grid_lines(0.0, 5.0, rows);
+    FemModel::on_base(Mesh::quad8_block(&x_lines, &y_lines, |_, _| clay.clone()).unwrap()).unwrap()
 }
 
 /// Scenes in the plane.

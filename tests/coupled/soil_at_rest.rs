@@ -15,7 +15,9 @@ use basemat::soil::SoilProfile;
 use basemat::structure::{CraigBampton, FemModel, RayleighDamping, Structure};
 use basemat::{Simulation, Soil, unobserved};
 
-use super::soil_box::{SoilBox, even_lines};
+use basemat_problems::yielding_blocks::grid_lines;
+
+use super::soil_box::SoilBox;
 
 /// Half width and depth of the box, m.
 const HALF_WIDTH: f64 = 4.0;
@@ -52,16 +54,16 @@ fn stress(ratio: f64) -> StressAtRest {
 
 fn soil_box(material: impl Into<SharedMaterial>) -> SoilBox {
     let material = material.into();
-    let x = even_lines(-HALF_WIDTH..HALF_WIDTH, 4);
-    let y = even_lines(-BOX_DEPTH..0.0, 3);
+    let x = grid_lines(-HALF_WIDTH, 2.0 * HALF_WIDTH, 4);
+    let y = grid_lines(-BOX_DEPTH, BOX_DEPTH, 3);
     SoilBox::new(&x, &y, &material, &stress(PRESSURE_RATIO)).unwrap()
 }
 
 /// Box of four-node quadrilaterals of clay.
 fn quad4_box() -> SoilBox {
     let mut mesh = Mesh::new();
-    for y in even_lines(-BOX_DEPTH..0.0, 3) {
-        for x in even_lines(-HALF_WIDTH..HALF_WIDTH, 8) {
+    for y in grid_lines(-BOX_DEPTH, BOX_DEPTH, 3) {
+        for x in grid_lines(-HALF_WIDTH, 2.0 * HALF_WIDTH, 8) {
             mesh.add_node(x, y).unwrap();
         }
     }

@@ -1,18 +1,8 @@
 //! Boxes of soil at rest that fill a trench.
 
-use std::ops::Range;
-
 use basemat::Result;
 use basemat::fem::{Mesh, SharedMaterial, StressAtRest};
 use basemat::structure::FemModel;
-
-/// Ends of `count` equal parts of a range.
-pub(crate) fn even_lines(range: Range<f64>, count: usize) -> Vec<f64> {
-    let part = (range.end - range.start) / count as f64;
-    let mut lines: Vec<f64> = (0..count).map(|i| range.start + part * i as f64).collect();
-    lines.push(range.end);
-    lines
-}
 
 /// Mesh of soil at rest in a trench, to which structures can be added.
 pub(crate) struct SoilBox {

@@ -10,6 +10,7 @@ use basemat::results::Run;
 use basemat::structure::{Bilinear, FemModel, WithSprings};
 
 use basemat_problems::scenes::{SI_UNITS, friction, scene};
+use basemat_problems::yielding_blocks::grid_lines;
 
 /// Block of `columns` × `rows` elements under two pulses, and the balance after each step.
 ///
@@ -20,11 +21,9 @@ fn shaken_block(
     has_weight: bool,
 ) -> (Run, Vec<EnergyBalance>) {
     let material = material.into();
-    let lines = |count: usize, start: f64, length: f64| -> Vec<f64> {
-        (0..=count).map(|i| start + length * i as f64 / count as f64).collect()
-    };
-    let [x, y] = [lines(columns, -2.0, 4.0), lines(rows, 0.0, 5.0)];
-    let mesh = Mesh::quad8_block(&x, &y, |_, _| material.clone()).unwrap();
+    let x_lines = grid_lines(-2.0, 4.0, columns);
+    let y_lines = grid_lines(0.0, 5.0, rows);
+    let mesh = Mesh::quad8_block(&x_lines, &y_lines, |_, _| material.clone()).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     let mut builder = scene(SI_UNITS, 0.6).structure(model);
     builder = if has_weight {

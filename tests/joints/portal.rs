@@ -8,6 +8,8 @@ use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
 use basemat::structure::{FemModel, RayleighDamping};
 use basemat::{Result, Simulation, Soil};
 
+use super::assert_same_responses;
+
 const COLUMN_HEIGHT: f64 = 6.0;
 
 /// The portal, the middle of its beam, and the joints if it is cut.
@@ -89,17 +91,6 @@ fn responses(
     Ok(responses)
 }
 
-/// Error unless responses differ by at most this fraction of the peaks.
-fn check(expected: &[Vec<f64>; 3], computed: &[Vec<f64>; 3], tolerance: f64) {
-    for (expected, computed) in expected.iter().zip(computed) {
-        let peak = expected.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
-        let difference =
-            expected.iter().zip(computed).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
-        println!("peak {peak:e}, difference {:e}", difference / peak);
-        assert!(difference < tolerance * peak, "{difference:e} of {peak:e}");
-    }
-}
-
 /// The beam touches no ground: it moves with the mean of both foundations' grounds, which differ under the wave.
 ///
 /// REFERENCE: the portal without joints.
@@ -108,7 +99,7 @@ fn bonded_joints_do_not_change_a_portal_under_a_travelling_wave() -> Result<()> 
     let wave = || TravellingWave::new(el_centro_1940(), 300.0, -6.0);
     let whole = responses(false, wave()?, Coordinates::Physical)?;
     let cut = responses(true, wave()?, Coordinates::Physical)?;
-    check(&whole, &cut, 1e-7);
+    assert_same_responses(&whole, &cut, 1e-7);
     Ok(())
 }
 
@@ -116,8 +107,8 @@ fn bonded_joints_do_not_change_a_portal_under_a_travelling_wave() -> Result<()> 
 #[test]
 fn a_portal_with_joints_moves_the_same_in_modes() -> Result<()> {
     let physical = responses(true, el_centro_1940(), Coordinates::Physical)?;
-    check(&physical, &responses(true, el_centro_1940(), Coordinates::Modes)?, 1e-7);
+    assert_same_responses(&physical, &responses(true, el_centro_1940(), Coordinates::Modes)?, 1e-7);
     let reduced = Coordinates::Reduced { tolerance: 1e-5 };
-    check(&physical, &responses(true, el_centro_1940(), reduced)?, 1e-3);
+    assert_same_responses(&physical, &responses(true, el_centro_1940(), reduced)?, 1e-3);
     Ok(())
 }

@@ -245,18 +245,19 @@ impl SparseFactor {
         buffer: &mut MemBuffer,
     ) {
         let stack = MemStack::new(buffer);
-        if let Factors::BlockLu(blocks) = factors {
-            let columns = rhs.chunks_exact_mut(order.max(1));
-            return columns.for_each(|column| blocks.solve(column, is_transposed, stack));
-        }
-        let rhs = MatMut::from_column_major_slice_mut(rhs, order, column_count);
         match factors {
-            Factors::BlockLu(_) => {}
+            Factors::BlockLu(blocks) => {
+                for column in rhs.chunks_exact_mut(order.max(1)) {
+                    blocks.solve(column, is_transposed, stack);
+                }
+            }
             Factors::Cholesky { symbolic, values } => {
+                let rhs = MatMut::from_column_major_slice_mut(rhs, order, column_count);
                 let factor = LltRef::new(symbolic, values);
                 factor.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
             }
             Factors::Lu { symbolic, numeric } => {
+                let rhs = MatMut::from_column_major_slice_mut(rhs, order, column_count);
                 let lu = LuRef::new_unchecked(symbolic, numeric);
                 if is_transposed {
                     lu.solve_transpose_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);

@@ -53,5 +53,6 @@ pub mod yielding_springs;
 pub mod yielding_strip;
 
 pub use basemat_testkit::{
-    ReferenceTable, assert_close, check_sum, csv, data_path, heavy, random, series, table,
+    DISTORTED_QUAD_NODES, ReferenceTable, assert_close, check_sum, csv, data_path, heavy, random,
+    series, table,
 };

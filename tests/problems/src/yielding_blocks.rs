@@ -55,8 +55,8 @@ fn random_material(random: &mut Random, pressure: f64) -> RandomMaterial {
     RandomMaterial { material: sand.into(), is_associated, text }
 }
 
-/// Grid lines of `count` intervals over a length from a start.
-fn grid_lines(start: f64, length: f64, count: usize) -> Vec<f64> {
+/// Grid lines of `count` equal intervals over a length from a start.
+pub fn grid_lines(start: f64, length: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|k| start + length * k as f64 / count as f64).collect()
 }
 

@@ -15,6 +15,18 @@ pub fn heavy() -> bool {
     std::env::var_os("HEAVY_TESTS").is_some()
 }
 
+/// Nodes of a distorted quadrilateral: corners, then nodes between them.
+pub const DISTORTED_QUAD_NODES: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [2.1, 0.2, 0.0],
+    [1.9, 1.6, 0.0],
+    [-0.2, 1.3, 0.0],
+    [1.0, 0.05, 0.0],
+    [2.1, 0.8, 0.0],
+    [0.9, 1.5, 0.0],
+    [-0.05, 0.7, 0.0],
+];
+
 pub mod check_sum;
 pub mod dense;
 mod maxwell;

@@ -4,6 +4,7 @@ use basemat::Result;
 use basemat::fem::{
     Element, InelasticForce, Quad4, Quad8, Quad8Integration, QuadFormulation, SharedMaterial,
 };
+use basemat_problems::DISTORTED_QUAD_NODES;
 use basemat_problems::random::Random;
 use basemat_problems::yielding_column::clay as column_clay;
 use basemat_problems::yielding_paths::{table_clays, table_sands};
@@ -11,17 +12,6 @@ use basemat_problems::yielding_paths::{table_clays, table_sands};
 use super::check::{Check, Limit};
 use super::laws::TANGENT_LIMIT;
 
-/// Nodes of a distorted quadrilateral: corners, then nodes between them.
-const QUAD_NODES: [[f64; 3]; 8] = [
-    [0.0, 0.0, 0.0],
-    [2.1, 0.2, 0.0],
-    [1.9, 1.6, 0.0],
-    [-0.2, 1.3, 0.0],
-    [1.0, 0.05, 0.0],
-    [2.1, 0.8, 0.0],
-    [0.9, 1.5, 0.0],
-    [-0.05, 0.7, 0.0],
-];
 /// Random histories of each element.
 const HISTORY_COUNT: usize = 40;
 /// Largest displacement of a history, m, before the mean compression.
@@ -83,7 +73,7 @@ fn compare_tangent(
     random: &mut Random,
     comparison: &mut ColumnComparison,
 ) -> Result<()> {
-    let coordinates = &QUAD_NODES[..quad.node_count];
+    let coordinates = &DISTORTED_QUAD_NODES[..quad.node_count];
     let order = quad.element.order();
     let Some(law) = quad.element.inelastic() else { return Ok(()) };
     let mut variables = vec![0.0; law.variable_count()];

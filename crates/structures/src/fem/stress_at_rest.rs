@@ -8,8 +8,8 @@ use crate::error::{Result, finite, not_negative, positive, require};
 ///
 /// The vertical pressure at a depth is the weight of all soil above, σ_v = g ∫ρ dz; the horizontal pressure is K₀ σ_v in both
 /// horizontal directions, without shear. The surface is at y = 0, and y points up.
-/// [`Mesh::with_stress_at_rest`](super::Mesh::with_stress_at_rest) makes elements begin with these stresses. For sand with drainage below the water table, take
-/// the density under buoyancy: the stresses are those of the grains.
+/// [`Mesh::with_stress_at_rest`](super::Mesh::with_stress_at_rest) makes elements begin with these stresses. For sand with
+/// drainage below the water table, take the density under buoyancy: the stresses are those of the grains.
 ///
 /// ```
 /// use basemat::fem::StressAtRest;

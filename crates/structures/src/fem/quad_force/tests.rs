@@ -1,20 +1,11 @@
+use basemat_testkit::DISTORTED_QUAD_NODES;
+
 use crate::error::Error;
 use crate::fem::hardening::{Hardening, HiddenElastic};
 use crate::fem::{
     DruckerPrager, Element, InelasticForce, Material, Mesh, Quad4, Quad8, Quad8Integration,
     QuadFormulation, SharedMaterial,
 };
-
-const QUAD8_POINTS: [[f64; 3]; 8] = [
-    [0.0, 0.0, 0.0],
-    [2.1, 0.2, 0.0],
-    [1.9, 1.6, 0.0],
-    [-0.2, 1.3, 0.0],
-    [1.0, 0.05, 0.0],
-    [2.1, 0.8, 0.0],
-    [0.9, 1.5, 0.0],
-    [-0.05, 0.7, 0.0],
-];
 
 /// An element, and its nodes' coordinates.
 type PlacedElement = (Box<dyn Element>, Vec<[f64; 3]>);
@@ -26,9 +17,9 @@ fn elements(material: &SharedMaterial) -> Vec<PlacedElement> {
     let full = reduced.clone().with_integration(Quad8Integration::Full);
     let four = Quad4::new([0, 1, 2, 3], material.clone(), QuadFormulation::MeanDilatation);
     vec![
-        (Box::new(reduced), QUAD8_POINTS.to_vec()),
-        (Box::new(full), QUAD8_POINTS.to_vec()),
-        (Box::new(four), QUAD8_POINTS[..4].to_vec()),
+        (Box::new(reduced), DISTORTED_QUAD_NODES.to_vec()),
+        (Box::new(full), DISTORTED_QUAD_NODES.to_vec()),
+        (Box::new(four), DISTORTED_QUAD_NODES[..4].to_vec()),
     ]
 }
 
@@ -299,7 +290,7 @@ fn initial_stress_acts_at_zero_displacement() {
     let quad4 =
         Quad4::new([0, 1, 2, 3], soil, QuadFormulation::MeanDilatation).with_initial_stress(stress);
     let laws: [(&dyn Element, &[[f64; 3]]); 2] =
-        [(&quad8, &QUAD8_POINTS), (&quad4, &QUAD8_POINTS[..4])];
+        [(&quad8, &DISTORTED_QUAD_NODES), (&quad4, &DISTORTED_QUAD_NODES[..4])];
     for (element, points) in laws {
         let law = element.inelastic().unwrap();
         let mut variables = vec![0.0; law.variable_count()];
@@ -327,7 +318,7 @@ fn initial_stress_acts_at_zero_displacement() {
 #[test]
 fn refused_elements_are_named() {
     let mut mesh = Mesh::new();
-    for [x, y, _] in QUAD8_POINTS {
+    for [x, y, _] in DISTORTED_QUAD_NODES {
         mesh.add_node(x, y).unwrap();
     }
     let soil = SharedMaterial::from(Hardening::FIRM_SOIL);
