@@ -14,6 +14,7 @@ use crate::coupled::statics::convergence::{
 };
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
+use crate::geometry::resultant;
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
 use crate::linalg::{CompressedMatrix, SparseMatrix, dot, largest, transposed_multiply_add};
 use crate::structure::{Structure, Tangent, nonlinear_state};
@@ -117,6 +118,7 @@ impl StaticProblem<'_> {
                     return Ok((state, states.clone()));
                 }
                 change = residual.max(inner_residual);
+                last_step = step;
                 break;
             }
             if !change.is_finite() {
@@ -135,7 +137,9 @@ impl StaticProblem<'_> {
             }
             last_step = step;
         }
-        Err(self.failure(&tangent.matrix, initial_shift, iterations, change))
+        let joint_element = self.joint_element_that_moves_most(&last_step);
+        let error = Error::Preload { iterations, residual: change, joint_element };
+        Err(self.ill_conditioned(&tangent.matrix, initial_shift).unwrap_or(error))
     }
 
     /// Unbalanced force of a nonlinear structure, relative to the load; zero for a linear one.
@@ -163,29 +167,42 @@ impl StaticProblem<'_> {
         self.shared_compliance.replace(compliance.filter(can_share));
     }
 
-    /// Error for a search without an equilibrium.
+    /// Error for a search without an equilibrium whose matrix is ill-conditioned; `None` for another matrix.
     ///
     /// It has the condition number of the matrix with the initial springs. With soft springs the matrix contains only
     /// rounding in rigid motions.
-    fn failure(
-        &self,
-        tangent: &SparseMatrix,
-        initial_shift: f64,
-        iterations: usize,
-        change: f64,
-    ) -> Error {
+    fn ill_conditioned(&self, tangent: &SparseMatrix, initial_shift: f64) -> Option<Error> {
         let initial_factor = ShiftedStiffnessFactor::new(self.assembled, tangent, initial_shift);
         let condition = initial_factor.map_or(1.0, |factor| factor.condition());
-        if condition <= MAX_ACCEPTED_CONDITION {
-            return Error::Preload { iterations, residual: change };
-        }
-        Error::IllConditioned {
+        (condition > MAX_ACCEPTED_CONDITION).then(|| Error::IllConditioned {
             matrix: STATIC_STIFFNESS_NAME,
             condition,
             limit: MAX_ACCEPTED_CONDITION,
             quantity: "stiffness of the structure over that of the ground",
             ratio: PROXIMAL_SPRING_FRACTION * condition,
+        })
+    }
+
+    /// Joint and its element whose sides move most against each other in a step of the displacement.
+    ///
+    /// `None` without joints or step, and if an element of the ground moves more.
+    fn joint_element_that_moves_most(&self, step: &[f64]) -> Option<[usize; 2]> {
+        let base = &self.assembled.base;
+        if base.joints().is_empty() || step.is_empty() {
+            return None;
         }
+        let layout = base.layout();
+        let mut means = vec![0.0; layout.len()];
+        base.means(step, &mut means);
+        let movement = |element: usize| {
+            let components = 0..layout.components();
+            components.fold(0.0, |sum, k| resultant(sum, means[layout.place(k, element)]))
+        };
+        let elements = 0..layout.elements();
+        let element = elements.max_by(|a, b| movement(*a).total_cmp(&movement(*b)))?;
+        let mut joints = base.joints().iter().enumerate();
+        let (joint, placed) = joints.find(|(_, joint)| joint.elements.contains(&element))?;
+        Some([joint, element - placed.elements.start])
     }
 
     /// Displacement of the next iterate; `None` if its contact problem has no solution.
