@@ -119,6 +119,11 @@ impl Scene {
             pressure_depths: std::mem::take(&mut parts.description.depth_of_pressure_at_rest),
             friction: std::mem::take(&mut builder.safety_friction_coefficients),
             footings,
+            joint_elements: base
+                .joints()
+                .iter()
+                .map(|joint| joint.line.elements().to_vec())
+                .collect(),
         };
         Self {
             time_step,

@@ -20,7 +20,7 @@ use crate::coupled::state::foundation::{Foundation, FoundationChecks};
 use crate::coupled::state::joint_state::JointState;
 use crate::error::Result;
 use crate::geometry::resultant;
-use crate::geometry::{Footing, Patch};
+use crate::geometry::{ContactElement, Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
 use crate::structure::Probe;
 use crate::structure::probe_index;
@@ -48,6 +48,8 @@ pub(crate) struct ResultContext {
     pub(crate) friction: Vec<f64>,
     /// Shape of each foundation.
     pub(crate) footings: Vec<Footing>,
+    /// Contact elements of each joint.
+    pub(crate) joint_elements: Vec<Vec<ContactElement>>,
 }
 
 /// Results of a simulation at the end of an accepted step.
