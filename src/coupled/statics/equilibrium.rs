@@ -174,7 +174,7 @@ impl StaticProblem<'_> {
     fn ill_conditioned(&self, tangent: &SparseMatrix, initial_shift: f64) -> Option<Error> {
         let initial_factor = ShiftedStiffnessFactor::new(self.assembled, tangent, initial_shift);
         let condition = initial_factor.map_or(1.0, |factor| factor.condition());
-        (condition > MAX_ACCEPTED_CONDITION).then(|| Error::IllConditioned {
+        (condition > MAX_ACCEPTED_CONDITION).then_some(Error::IllConditioned {
             matrix: STATIC_STIFFNESS_NAME,
             condition,
             limit: MAX_ACCEPTED_CONDITION,
