@@ -17,7 +17,7 @@ pub(super) const TRACTION_ROUNDING_FACTOR: f64 = 1e-12;
 pub(super) struct ContactModeSolver {
     /// Tractions, jumps and states of the last solution.
     pub(super) response: ContactResponse,
-    /// Conditions of the last solution, two per element.
+    /// Conditions of the present modes, two per element.
     conditions: Vec<[Condition; 2]>,
     /// Conditions of the stored factors. The factors are independent of [`Condition::value`].
     factored_conditions: Vec<[Condition; 2]>,
@@ -64,7 +64,9 @@ impl ContactModeSolver {
         self.has_valid_factor = false;
     }
 
-    /// Condition number of the system with all elements in their modes of rest; infinite if it is singular.
+    /// Condition number of the system with all elements in their modes of rest.
+    ///
+    /// It is infinite if the system is singular. The mode of rest is the first in the list of a law.
     pub(super) fn condition_number_at_rest(
         &mut self,
         delassus: &Delassus,
@@ -162,7 +164,9 @@ impl ContactModeSolver {
         }
     }
 
-    /// Computes the matrix of the reduced system with scaled rows; `false` if a row is zero or not finite.
+    /// Computes the matrix of the reduced system with scaled rows.
+    ///
+    /// Returns `false` if a row is zero or not finite.
     fn fill_matrix(&mut self, input: &ContactInput<'_>) -> bool {
         let Self { response, conditions, rows, dofs, matrix, .. } = self;
         let layout = response.layout;

@@ -1,4 +1,6 @@
-//! W of a lattice whose elements move most others: influence tables over the offset, and the structure's modes.
+//! W of a lattice whose elements move most others.
+//!
+//! The soil's part is a table over the offset between two elements; the structure's part consists of its few modes.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
@@ -21,8 +23,9 @@ pub(super) struct DenseLattice {
     /// L of each element, mode by mode.
     modes: Vec<[f64; 3]>,
     mode_count: usize,
-    /// Displacements of all cells due to the soil in each direction, row by row; modal amplitudes Lᵀ r.
+    /// Displacements G r of all cells in each direction, row by row.
     displacements: [Vec<f64>; 3],
+    /// Modal amplitudes Lᵀ r.
     amplitudes: Vec<f64>,
 }
 

@@ -1,4 +1,6 @@
-//! The linear system of prescribed statuses for W = D + L Lᵀ: three conditions per element, and one per mode.
+//! The linear system of prescribed statuses for W = D + L Lᵀ.
+//!
+//! It has three conditions per element, and one per mode.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -29,9 +31,9 @@ struct PressureCorrection {
 }
 
 impl PressureCorrection {
-    /// Correction of the force `p` with this `gap` and entry `diagonal` of D; `None` if the conditions contradict each other.
+    /// Correction of the force `p`; `None` if the conditions contradict each other.
     ///
-    /// `is_pressureless`: whether the element slides with infinite friction.
+    /// `gap`: present y. `diagonal`: normal entry of D. `is_pressureless`: whether the element slides with infinite friction.
     fn new(
         status: &Status,
         bounds: &Bounds,

@@ -122,7 +122,7 @@ fn near_field_blocks_multiply_as_the_entries_of_w() {
     }
     // The structure's part of W is not positive.
     assert!(blocks(&problem, |i, j| 1.1 * soil(i, j)).is_none());
-    // Every block is another one, or the structure's part has many modes.
+    // Blocks of equal offset differ, or the structure's part has too many modes.
     assert!(blocks(&problem, |i, j| soil(i, j) * (1 + i + j) as f64).is_none());
     assert!(blocks(&problem, |_, _| 0.0).is_none());
 }
@@ -132,7 +132,7 @@ fn influence_tables_multiply_as_the_entries_of_w() {
     let mut random = Random(7);
     let mut problem = rocking_body(&mut random, 0.5);
     problem.force_change.iter_mut().for_each(|change| *change = random.within(-1.0, 1.0));
-    // Another layer under each element.
+    // A different layer under each element.
     let layers: Vec<f64> = (0..3 * ELEMENT_COUNT).map(|_| random.within(0.0, 0.3)).collect();
     for (i, layer) in layers.iter().enumerate() {
         problem.w[i * (3 * ELEMENT_COUNT + 1)] += layer;
