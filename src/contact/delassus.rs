@@ -95,7 +95,8 @@ impl Delassus {
 
     /// Computes the operator again for other columns C, without allocating.
     ///
-    /// `add_structure` adds B C to the entries of `soil`. If the number of `columns` has changed, products use all entries.
+    /// `add_structure` adds B C to the entries of `soil`. If the number of `columns` has changed, products use all
+    /// entries.
     pub(crate) fn refill(
         &mut self,
         soil: &CompressedMatrix,

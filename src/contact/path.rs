@@ -270,8 +270,8 @@ impl Path {
 
     /// Largest step of λ until a law rejects a mode, and its element.
     ///
-    /// `direction`: sign of the change of λ.     /// The states that a law admits in one mode form a convex set (an intersection of half-spaces), so bisection finds its
-    /// boundary.
+    /// `direction`: sign of the change of λ. The states that a law admits in one mode form a convex set (an
+    /// intersection of half-spaces), so bisection finds its boundary.
     fn reach(
         &self,
         input: &ContactInput<'_>,

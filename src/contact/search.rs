@@ -2,7 +2,8 @@
 //!
 //! 1. Active set: solve for the modes, determine the next mode of every law, repeat (the flow chart in the Appendix of
 //!    Patel & Spyrakos; a primal–dual active set method, Hüeber, Stadler & Wohlmuth 2008).
-//! 2. If a set of modes occurs again: Gauss–Seidel over the elements. Each element is solved exactly by trying its modes
+//! 2. If a set of modes occurs again: Gauss–Seidel over the elements. Each element is solved exactly by trying its
+//!    modes
 //!    with the other tractions fixed. Then all elements are solved together in the resulting modes.
 //! 3. If Gauss–Seidel does not converge: follow the solution from a load under which every element is open, or every
 //!    element is closed, one change of mode at a time (see [`super::path`]).

@@ -24,9 +24,9 @@ use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 /// elements follow. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the
 /// corners of the trench and depends on the contact elements only.
 ///
-/// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights follow
-/// by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh. The
-/// number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
+/// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights
+/// follow by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh.
+/// The number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
 /// translations.
 ///
 /// The mesh is as fine as the contact elements, and resolves waves of their length. Short steps on long elements excite
@@ -146,10 +146,12 @@ impl TrenchGround {
 
     /// Interface laws of all elements, with earth pressure limits on the walls.
     ///
-    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each
-    /// element of a wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]). These
-    /// limits are means over the element; the limits of the thrust are exact. `base`: law of the base. `strengths`: one for all soils, or one for each from the surface
-    /// down, the half-plane last; with backfill, of the backfill only. `gravity`: as in the builder, m/s².
+    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on
+    /// each element of a wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]).
+    /// These limits are means over the element; the limits of the thrust are exact.
+    ///
+    /// `base`: law of the base. `strengths`: one for all soils, or one for each soil from the surface down, the
+    /// half-plane last. With backfill there is one strength, that of the backfill. `gravity`: as in the builder, m/s².
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -167,8 +169,8 @@ impl TrenchGround {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Item`](crate::Error::Item) for an element whose pressure at rest is below the active pressure or above the
-    /// passive one; [`Error::Size`](crate::Error::Size) for another number of strengths;
+    /// [`Error::Item`](crate::Error::Item) for an element whose pressure at rest is below the active pressure or above
+    /// the passive one; [`Error::Size`](crate::Error::Size) for another number of strengths;
     /// [`Error::Input`](crate::Error::Input) for a gravity that is not finite and above zero.
     pub fn interfaces(
         &self,
@@ -219,7 +221,7 @@ impl TrenchGround {
 
     /// Whether backfill replaces the soil beside the walls.
     pub(crate) fn has_backfill(&self) -> bool {
-        self.soil().fill().is_some()
+        self.soil().backfill_soil().is_some()
     }
 
     pub(super) fn soil(&self) -> &TrenchSoil {

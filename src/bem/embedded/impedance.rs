@@ -1,9 +1,9 @@
 //! Dynamic stiffness and kinematic motion of a rigid body in a trench.
 //!
-//! F(s) are the compliances of the faces. The columns of A are the resultants of unit tractions, which also describe the
-//! rigid motions. Then K = Aᵀ F⁻¹ A. With the displacements u and the tractions t of the free field at the faces (t on
-//! the soil), soil that moves by w has the tractions t + F⁻¹(w − u). A body without mass exerts no resultant:
-//! K U = Aᵀ (F⁻¹ u − t).
+//! F(s) are the compliances of the faces. The columns of A are the resultants of unit tractions, which also describe
+//! the rigid motions. Then K = Aᵀ F⁻¹ A. With the displacements u and the tractions t of the free field at the faces (t
+//! on the soil), soil that moves by w has the tractions t + F⁻¹(w − u). A body without mass exerts no resultant: K U =
+//! Aᵀ (F⁻¹ u − t).
 
 use basemat_fourier::num_complex::Complex64;
 
@@ -20,7 +20,8 @@ use crate::soil::Bedrock;
 /// Motion of a rigid body without mass in a trench, e^(iωt).
 ///
 /// The motion is per unit motion of the surface of the free field, and is the input of the structure (kinematic
-/// interaction). Waves travel vertically. x to the right, y down; a positive rotation lowers the right end. Translations refer to the middle of the base.
+/// interaction). Waves travel vertically. x points to the right, y down; a positive rotation lowers the right end.
+/// Translations refer to the middle of the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -68,10 +69,10 @@ const RIGID_MOTION_COUNT: usize = 3;
 impl TrenchGround {
     /// Dynamic stiffness of a bonded rigid body at each of `frequencies` (Hz).
     ///
-    /// The body is bonded to walls and base. The reference point is the middle of the base. The observer counts points of
-    /// the Laplace plane, eight per frequency. At frequency 0 the result is the static stiffness on rigid bedrock. Layers
-    /// may have any damping, including hysteretic damping; the computation takes up to eight times as long for layers
-    /// without damping.
+    /// The body is bonded to walls and base. The reference point is the middle of the base. The observer counts points
+    /// of the Laplace plane, eight per frequency. At frequency 0 the result is the static stiffness on rigid bedrock.
+    /// Layers may have any damping, including hysteretic damping; the computation takes up to eight times as long for
+    /// layers without damping.
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -140,7 +141,7 @@ impl TrenchGround {
     ) -> Result<Vec<KinematicMotion>> {
         let needed =
             "a trench without it: beside backfill waves of the free field do not travel vertically";
-        require_part("backfill", self.soil().fill().is_none(), needed)?;
+        require_part("backfill", self.soil().backfill_soil().is_none(), needed)?;
         let responses = self.soil().responses(frequencies, observer)?;
         let mut motions = Vec::with_capacity(frequencies.len());
         for (&frequency, response) in frequencies.iter().zip(responses) {
@@ -303,11 +304,11 @@ impl<'a> TrenchFaces<'a> {
     }
 }
 
-/// Equations of a rigid body.
+/// Equations K U = f of a rigid body.
 struct ReducedSystem {
-    /// Aᵀ F⁻¹ A.
+    /// K = Aᵀ F⁻¹ A.
     stiffness: [[Complex64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
-    /// Aᵀ (F⁻¹ u − t).
+    /// f = Aᵀ (F⁻¹ u − t).
     forces: [Complex64; RIGID_MOTION_COUNT],
 }
 

@@ -1,4 +1,6 @@
-//! Polynomials of an interval [0, 1]: Lagrange functions of Lobatto's nodes, and their even and odd combinations.
+//! Polynomials on the interval [0, 1].
+//!
+//! Lagrange functions of Lobatto's nodes, and their even and odd combinations.
 
 use crate::linalg::gauss::{largest, next_legendre};
 
@@ -95,7 +97,9 @@ impl IntervalFunctions {
     }
 }
 
-/// Number of Newton iterations for a node: rounding is reached in fewer from Chebyshev's nodes.
+/// Number of Newton iterations for a node.
+///
+/// From Chebyshev's nodes, fewer iterations reach rounding.
 const NEWTON_ITERATIONS: usize = 20;
 
 /// Lobatto's nodes on [0, 1]: the ends, and the extrema of Legendre's polynomial of `degree`.

@@ -42,8 +42,8 @@ pub(super) struct Group {
 impl Group {
     /// Projects the trial forces of all elements once, p first.
     ///
-    /// `displacement`: W (r − r₀) of the elements, without q. `added_diagonal`: number added to W's diagonal. Writes the
-    /// changes of force to `increments`. Returns the largest sum of an element's changes, N, or NaN.
+    /// `displacement`: W (r − r₀) of the elements, without q. `added_diagonal`: number added to W's diagonal. Writes
+    /// the changes of force to `increments`. Returns the largest sum of an element's changes, N, or NaN.
     #[inline(always)]
     pub(super) fn project<S: Simd>(
         &mut self,

@@ -226,7 +226,8 @@ impl ConeProblem {
 
     /// Contact status of an element with infinite friction.
     ///
-    /// Pressure excludes slip, and a gap excludes a shear against the slip. Of each such pair, the larger quantity decides.
+    /// Pressure excludes slip, and a gap excludes a shear against the slip. Of each such pair, the larger quantity
+    /// decides.
     pub(super) fn infinite_friction_status(&self, e: usize) -> InfiniteFriction {
         let bounds = &self.bounds[e];
         let trial = self.trial_force(e);

@@ -1,6 +1,7 @@
 //! The proximal point method: a sequence of better conditioned problems.
 //!
-//! Each problem has W + α d and q − α d (r − r₀), with d the mean of W's diagonal and r the last iterate. The added terms vanish as the iterates converge.
+//! Each problem has W + α d and q − α d (r − r₀), with d the mean of W's diagonal and r the last iterate. The added
+//! terms vanish as the iterates converge.
 
 use super::problem::ConeProblem;
 

@@ -162,7 +162,8 @@ impl ConeProblem {
 
     /// Relaxes one element with all other forces fixed; returns the change of its force (N).
     ///
-    /// It uses the entries of W. It ends when the force changes by less than `tolerance` or a tenth of the first change.
+    /// It uses the entries of W. It ends when the force changes by less than `tolerance` or a tenth of the first
+    /// change.
     fn relax(&mut self, e: usize, tolerance: f64) -> f64 {
         let indices = self.component_indices(e);
         let start = indices.map(|i| self.force(i));
@@ -191,7 +192,8 @@ fn magnitude_sum(force: [f64; 3]) -> f64 {
 
 /// Force of an element with the forces of others fixed.
 ///
-/// It begins with the force `start` and the displacement `y`. The force is projected until it changes by at most `tolerance`, or by little compared with the first projection.
+/// It begins with the force `start` and the displacement `y`. The force is projected until it changes by at most
+/// `tolerance`, or by little compared with the first projection.
 #[inline(always)]
 fn relaxed_force(
     bounds: &Bounds,
