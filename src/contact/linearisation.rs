@@ -135,7 +135,7 @@ impl Linearisation {
 /// Point of the law's curve for an element that is solved alone.
 ///
 /// There the line p + ρ v = constant through the solution meets the curve. The settlement is not below zero.
-/// /// `limits`: a tangent of the curve.
+/// `limits`: a tangent of the curve.
 pub(super) fn point_on_curve(
     input: &ContactInput<'_>,
     solution: &TangentSolution,

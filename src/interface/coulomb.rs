@@ -15,7 +15,8 @@ pub enum UnilateralCondition {
     /// Change of the gap (Moreau 1988; Jean 1999).
     ///
     /// An element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg = 0; any
-    /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that step.
+    /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that
+    /// step.
     Velocity {
         /// Largest gap at which an element is regarded as closed, m.
         closed_below: f64,
@@ -57,7 +58,7 @@ validated! {
     => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_unilateral_condition(condition)
 }
 
-/// Error unless `friction` is a valid coefficient.
+/// Returns an error unless `friction` is a valid coefficient.
 pub(super) fn check_friction(friction: f64) -> Result<()> {
     let needed = "zero or more (infinite: no sliding)";
     require("friction coefficient", friction, friction >= 0.0, needed).map(drop)
@@ -66,8 +67,9 @@ pub(super) fn check_friction(friction: f64) -> Result<()> {
 impl Coulomb {
     /// Law with a friction coefficient of zero or more; if it is infinite, nothing ever slides.
     ///
-    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare the run with a run of the scene's
-    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports such a coefficient.
+    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare the run with a run of the
+    /// scene's mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports such a
+    /// coefficient.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.

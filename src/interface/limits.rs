@@ -15,13 +15,12 @@ use crate::error::{Error, Result, finite, not_negative, require};
 /// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
-/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens. In the plane an
-/// element that slides under more tension than its attraction opens.
-/// Elastic layers are in addition to these limits: see
-/// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. Hardening is linear in a step; a law
-/// whose pressure is a curve returns the tangent at
-/// [`PreviousContact::trial_settlement`](super::PreviousContact::trial_settlement). The default is frictionless and hard
-/// contact.
+/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens. In the plane
+/// an element that slides under more tension than its attraction opens. Elastic layers are in addition to these limits:
+/// see [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. Hardening is linear in a step;
+/// a law whose pressure is a curve returns the tangent at
+/// [`PreviousContact::trial_settlement`](super::PreviousContact::trial_settlement). The default is frictionless and
+/// hard contact.
 ///
 /// ```
 /// use basemat::interface::{Coulomb, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
@@ -88,7 +87,7 @@ impl Limits {
         Self::missing(std::any::type_name::<Law>())
     }
 
-    /// Error for a law without limits; `type_name`: its path.
+    /// Returns an error for a law without limits; `type_name`: its path.
     pub(super) fn missing(type_name: &'static str) -> Result<Self> {
         let quantity = type_name.rsplit("::").next().unwrap_or(type_name);
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })

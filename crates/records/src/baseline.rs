@@ -145,7 +145,7 @@ impl Baseline {
     }
 }
 
-/// Error unless `min_degree` ≤ `degree` ≤ [`MAX_POLYNOMIAL_DEGREE`].
+/// Returns an error unless `min_degree` ≤ `degree` ≤ [`MAX_POLYNOMIAL_DEGREE`].
 fn check_degree(degree: usize, min_degree: usize, needed: &'static str) -> Result<()> {
     let is_in_range = (min_degree..=MAX_POLYNOMIAL_DEGREE).contains(&degree);
     require("degree of the baseline polynomial", degree as f64, is_in_range, needed).map(drop)

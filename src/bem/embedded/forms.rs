@@ -19,7 +19,7 @@ pub(super) struct Moduli {
 
 /// Functions along x of symmetric, or of antisymmetric motions.
 ///
-/// The motions are symmetric or antisymmetric about the middle of a column. /// Lists of two: of u_x and of u_z.
+/// The motions are symmetric or antisymmetric about the middle of a column. Lists of two: of u_x and of u_z.
 #[derive(Debug)]
 pub(super) struct Parity {
     function_counts: [usize; 2],

@@ -74,7 +74,7 @@ impl Newton {
 
     /// Discards the factors; call this when W has changed.
     ///
-    /// Factors for W of low rank are never stored.     /// `is_constant`: whether W will stay constant.
+    /// Factors for W of low rank are never stored. `is_constant`: whether W will stay constant.
     pub(super) fn invalidate(&mut self, is_constant: bool) {
         if let StatusSystem::Dense(system) = &mut self.system {
             system.invalidate(is_constant);

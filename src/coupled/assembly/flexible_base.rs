@@ -1,7 +1,7 @@
 //! Check of flexible bases: whether contact elements are short enough for the base's static shape.
 //!
-//! The ground receives only the mean displacement of the base over each element. In the model the structure alone resists a
-//! shape with zero means. In reality the soil resists such a shape too.
+//! The ground receives only the mean displacement of the base over each element. In the model the structure alone
+//! resists a shape with zero means. In reality the soil resists such a shape too.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -10,7 +10,8 @@
 //!
 //! Measured errors of the settlement of columns relative to the middle of the base:
 //!
-//! * mat 20 m wide with two columns on the half-plane: a factor of 12 to 21 at ρ = 0.06, 136 to 500 % at 0.5, 2 to 51 % at
+//! * mat 20 m wide with two columns on the half-plane: a factor of 12 to 21 at ρ = 0.06, 136 to 500 % at 0.5, 2 to 51 %
+//!   at
 //!   3, and 0.3 to 0.5 % at 29, depending on the positions of the columns;
 //! * slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2, 0.9, 2.4 and 11;
 //! * walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times as many elements.
@@ -38,11 +39,11 @@ use crate::structure::{BaseNode, Tangent};
 const MIN_SHAPE_STIFFNESS_RATIO: f64 = 6.0;
 /// ρ of the recommended number of elements of a wall.
 const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
-/// Relative difference of static shapes on n and on 2n elements above which a solid has a warning.
+/// Relative difference of shapes on n and 2n elements that gives a warning.
 const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
-/// Relative difference of static shapes on n and on 2n elements above which the base is an error.
+/// Relative difference of shapes on n and 2n elements that is an error.
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
-/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have p = 0.
+/// Smallest p in ρ ~ nᵖ at which more elements n help; solids: 0.
 const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
 /// Largest exponent p in ρ ~ nᵖ, for beams and plates.
 const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
@@ -50,15 +51,16 @@ const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
 const MIN_REFINEMENT_FACTOR: f64 = 1.25;
 /// Norm of a remainder that counts as rounding, relative to the norm before the projection.
 const PROJECTION_ROUNDING_TOLERANCE: f64 = 1e-12;
-/// Distance of a node from the line of its face that counts as rounding, relative to an element.
+/// Distance from a face's plane that counts as rounding, relative to an element.
 const ON_FACE_TOLERANCE: f64 = 1e-9;
 /// Relative asymmetry of K that counts as rounding.
 const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
-/// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
+/// Warning of a flexible base with too few elements, if there are too few.
 ///
-/// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the condensed
-/// structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no computation.
+/// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the
+/// condensed structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no
+/// computation.
 pub(super) fn check(
     parts: &Parts,
     (assembled, condensed): (&Assembled, Option<&Condensed>),
@@ -154,7 +156,7 @@ fn check_structure(
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
 }
 
-/// Face with the largest difference of its static shape between a base and the refined base, and the difference.
+/// Face whose static shape differs most on the refined base, and the difference.
 ///
 /// With a law for each element, both states have the first law. `None` if one of them has no equilibrium.
 fn shape_difference(
@@ -219,8 +221,8 @@ fn shared_factor(
 
 /// Face with the largest difference of its shape between two static states, and the difference.
 ///
-/// Shapes are displacements into the soil minus their best linear fit, with the root of the mean square over the nodes as
-/// norm. The difference is relative to the largest norm of all faces of the foundation in the second state.
+/// Shapes are displacements into the soil minus their best linear fit, with the root of the mean square over the nodes
+/// as norm. The difference is relative to the largest norm of all faces of the foundation in the second state.
 fn largest_difference(
     base: &PlacedBase,
     first_state: &StaticState,
@@ -304,7 +306,7 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
 struct FaceElements {
     /// Number of the foundation.
     foundation: usize,
-    /// Axis along which the elements are counted: z for a wall, in plan the axis of the shorter side.
+    /// Axis of the count: z for a wall, in plan that of the shorter side.
     axis: Option<char>,
     /// Number of elements along the axis.
     count: usize,
@@ -343,7 +345,7 @@ mod tests {
     use crate::structure::FemModel;
     use crate::{Simulation, Soil};
 
-    /// A solid of 16 × 16 × 12 hexahedra, stiff in a column on one side, on 3 × 3 contact elements.
+    /// A solid of 16 × 16 × 12 hexahedra with a stiff column, on 3 × 3 elements.
     fn parts() -> Result<Parts> {
         let mut mesh = Mesh::in_space();
         let coordinates: Vec<f64> = (0..17).map(|k| 10.0 * (f64::from(k) / 16.0 - 0.5)).collect();

@@ -7,10 +7,10 @@
 //! | σ | shifts; the first is the shift √(a/d) of the time scheme, 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for the others |
 //!
-//! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe 1984;
-//! Grimme 1997). Each power of K_eff makes the response exact for two more steps after a change of traction. Lower shifts
-//! represent the few modes at lower frequencies, which are complete after a few rounds. One higher shift represents motion
-//! that the time step does not resolve. With many forces: `many_forces.rs`.
+//! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe
+//! 1984; Grimme 1997). Each power of K_eff makes the response exact for two more steps after a change of traction.
+//! Lower shifts represent the few modes at lower frequencies, which are complete after a few rounds. One higher shift
+//! represents motion that the time step does not resolve. With many forces: `many_forces.rs`.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -43,16 +43,20 @@ const NEW_FRACTION_PER_ROOT_TOLERANCE: f64 = 10.0;
 pub(super) const FINAL_MIN_NEW_FRACTION: f64 = 1e-7;
 /// Factor of the smallest fraction for a repetition that finds no new direction.
 const NEW_FRACTION_REDUCTION: f64 = 1e-2;
-/// Largest number of rounds; the reduction ends after half of them if it will not reach the tolerance.
+/// Largest number of rounds.
+///
+/// The reduction ends after half of them if it will not reach the tolerance.
 const MAX_KRYLOV_ROUNDS: usize = 16;
-/// Smallest ratio of the lowest shift to the scheme's shift; it bounds the number of shifts to about ten.
+/// Smallest ratio of the lowest shift to the scheme's shift.
+///
+/// It limits the number of shifts to about ten.
 const MIN_SHIFT_RATIO: f64 = 1e-6;
 /// Largest number of steps over which responses are compared; it bounds the time of a comparison.
 const MAX_COMPARED_STEPS: usize = 10_000;
 /// Name of K + σ²M in errors.
 const DYNAMIC_STIFFNESS_NAME: &str = "dynamic stiffness matrix";
 
-/// Factors an effective stiffness.
+/// Function that factors K_eff.
 pub(crate) type FactorEffective<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
 
 /// Input of a reduction to Ritz modes.
@@ -76,7 +80,8 @@ pub(crate) struct Reduction<'a> {
 impl<'a> Reduction<'a> {
     /// Collects the forces, initial motions and probes of a structure for a run of `step_count` steps.
     ///
-    /// The tuple has the responses on a fixed base, the factored K + εM if it exists, and a function that factors K_eff.
+    /// The tuple has the responses on a fixed base, the factored K + εM if it exists, and a function that factors
+    /// K_eff.
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
@@ -205,7 +210,7 @@ impl<'a> Reduction<'a> {
         Err(inaccurate(changes.next(), tolerance, remedy))
     }
 
-    /// Factors K_eff, with proportional damping in place of a damping that differs from it by P–Δ alone.
+    /// Factors K_eff; a damping that is proportional but for P–Δ is made proportional.
     pub(super) fn effective_factor(&self) -> Result<Box<SparseFactor>> {
         let Some([beta, alpha]) = self.damping_without_p_delta else {
             return (self.factor_effective)();
@@ -276,7 +281,7 @@ impl<'a> Reduction<'a> {
     }
 }
 
-/// Adds the next power of each shift to the space; returns whether there is a new direction.
+/// Adds the next power of each shift; returns whether there is a new direction.
 fn add_powers(
     space: &mut Subspace<'_>,
     factors: &[&SparseFactor],

@@ -7,8 +7,9 @@
 //! | Φ, ω | Ritz modes of M and K, and their circular frequencies |
 //! | Z | K_eff, or K + σ²M |
 //!
-//! Only −βG in C couples the modes. The space is built, and its tolerance checked, with the damping βK + αM. The damping
-//! forces −βG of the modes' velocities act on all degrees of freedom. The responses Z⁻¹βGΦω to them are added to the space.
+//! Only −βG in C couples the modes. The space is built, and its tolerance checked, with the damping βK + αM. The
+//! damping forces −βG of the modes' velocities act on all degrees of freedom. The responses Z⁻¹βGΦω to them are added
+//! to the space.
 
 use crate::coupled::assembly::krylov::Reduction;
 use crate::coupled::assembly::subspace::{RitzModes, Subspace};
@@ -16,9 +17,10 @@ use crate::coupled::base::transformation::ModalBasis;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, symmetric_products};
 
-/// Smallest length of a response to the coupling that is added, relative to the mode and to the root of the tolerance.
+/// Smallest length of a response to the coupling that is added to the space.
 ///
-/// Errors of forces and probes depend on the square of this length.
+/// It is relative to the mode and to the root of the tolerance. Errors of forces and probes depend on the square of
+/// this length.
 const MIN_COUPLING_LENGTH_RATIO: f64 = 0.1;
 
 impl Reduction<'_> {

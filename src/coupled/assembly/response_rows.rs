@@ -11,8 +11,9 @@ const LOAD_INTERVAL_COUNT: u32 = 16;
 /// Rows of forces and of probes, with a weight for each degree of freedom.
 #[derive(Default)]
 pub(crate) struct ResponseRows {
-    /// All rows, one after the other: loads, other forces, displacements and velocities of probes, accelerations of
-    /// probes.
+    /// All rows, one after the other.
+    ///
+    /// Loads, other forces, displacements and velocities of probes, accelerations of probes.
     pub(crate) all: Vec<f64>,
     /// Number of loads, which are the first rows.
     pub(crate) load_count: usize,
@@ -20,7 +21,9 @@ pub(crate) struct ResponseRows {
     pub(crate) force_count: usize,
     /// Index of the first row of an acceleration.
     pub(crate) first_acceleration: usize,
-    /// Indices of the rows of displacement, velocity and acceleration of each probe; `None` for a row of zeros.
+    /// Rows of displacement, velocity and acceleration of each probe.
+    ///
+    /// `None` for a row of zeros.
     pub(crate) probes: Vec<[Option<usize>; 3]>,
 }
 

@@ -13,7 +13,9 @@ use crate::geometry::ContactElement;
 use crate::linalg::{CompressedMatrix, DenseFactor, SparseMatrix, dot, transposed_multiply_add};
 use crate::structure::{BaseNode, Triplets};
 
-/// Largest order of the compliance of a refined base; it bounds time and memory of the check.
+/// Largest order of the compliance of a base that is refined.
+///
+/// It limits time and memory of the check.
 const MAX_REFINED_ORDER: usize = 3600;
 /// Name in errors of the stiffness with springs for deviations from element means.
 const FIXED_MEANS_STIFFNESS_NAME: &str = "stiffness matrix with fixed contact elements";
@@ -32,7 +34,9 @@ pub(super) struct ZeroMeanShape {
     pub(super) face: usize,
 }
 
-/// Faces of the foundations: the number and the nodes of the foundation, and the elements of the face.
+/// Faces of the foundations.
+///
+/// Each has the number and the nodes of its foundation, and the elements of the face.
 ///
 /// A foundation without walls is one face.
 pub(super) fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
@@ -52,7 +56,9 @@ pub(super) struct RefinedBase {
 }
 
 impl RefinedBase {
-    /// Refines the elements of a base; `None` if the compliance is unknown, or too large for a check.
+    /// Refines the elements of a base.
+    ///
+    /// `None` if the compliance is unknown, or too large for a check.
     pub(super) fn new(parts: &Parts, base: &PlacedBase) -> Option<Self> {
         let patch = base.elements();
         if patch[0].parts().count() * patch.layout().len() > MAX_REFINED_ORDER {
@@ -133,7 +139,7 @@ impl ZeroMeanShape {
     }
 }
 
-/// Number of the face with the largest energy of deviations from element means in a shape.
+/// Number of the face with the largest energy of deviations from element means.
 fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize {
     let mut energies = vec![0.0; faces(base).count()];
     for (point, rows) in base.deviations() {
@@ -148,7 +154,9 @@ fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize
     largest.map_or(0, |(face, _)| face)
 }
 
-/// Factored matrix 1 + MEAN_SPRING_FACTOR · modulus · D, with the structure's part D of the Delassus operator.
+/// Factored matrix of springs that fix the element means.
+///
+/// It is 1 + MEAN_SPRING_FACTOR · modulus · D, with the structure's part D of the Delassus operator.
 ///
 /// The right-hand sides are the element means without springs, times MEAN_SPRING_FACTOR · modulus. The solutions are
 /// the tractions of springs that fix the element means.
@@ -228,7 +236,9 @@ mod tests {
     use crate::linalg::magnitude;
     use basemat_testkit::random::Random;
 
-    /// REFERENCE: the matrix with the springs that fix the means, (K + Σ MEAN_SPRING_FACTOR · modulus · area · b bᵀ) x = f.
+    /// REFERENCE: the matrix with the springs that fix the means.
+    ///
+    /// (K + Σ MEAN_SPRING_FACTOR · modulus · area · b bᵀ) x = f.
     #[test]
     fn spring_tractions_are_those_of_the_matrix_with_springs() {
         let mut random = Random(7);

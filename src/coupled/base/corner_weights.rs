@@ -15,8 +15,8 @@ pub(crate) type Point = [f64; 2];
 ///
 /// The displacement is linear over a triangle, bilinear over a quadrilateral, and continued beyond the face. A bilinear
 /// displacement may have no continuation. The displacement and the slopes at the nearest point of the face are then
-/// continued linearly. At a corner of 180° the displacement of the largest triangle is continued. On a rigid base all of
-/// these displacements are equal.
+/// continued linearly. At a corner of 180° the displacement of the largest triangle is continued. On a rigid base all
+/// of these displacements are equal.
 pub(crate) fn corner_weights(corners: &[Point], p: Point) -> Vec<f64> {
     let [a, b, c, d] = *corners else {
         return triangle_weights([corners[0], corners[1], corners[2]], p).into();
@@ -52,7 +52,9 @@ fn triangle_weights([a, b, c]: [Point; 3], p: Point) -> [f64; 3] {
     [weight_a, weight_b, 1.0 - weight_a - weight_b]
 }
 
-/// Weights of the corners of a quadrilateral at coordinates s, t, which are from 0 to 1 inside.
+/// Weights of the corners of a quadrilateral at coordinates s, t.
+///
+/// Inside, both coordinates are from 0 to 1.
 pub(crate) fn bilinear_weights([s, t]: [f64; 2]) -> [f64; 4] {
     [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]
 }
@@ -189,8 +191,8 @@ mod tests {
 
     /// Linear displacements are exact on convex quadrilaterals of all shapes, inside and outside.
     ///
-    /// Outside, bilinear displacements often have no continuation. The faces are near the origin and at coordinates of a
-    /// site.
+    /// Outside, bilinear displacements often have no continuation. The faces are near the origin and at coordinates of
+    /// a site.
     #[test]
     fn linear_displacements_are_exact_on_all_convex_faces() {
         let mut state = 1_u64;

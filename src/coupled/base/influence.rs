@@ -51,8 +51,9 @@ struct Support {
 impl Influence {
     /// Splits the rigid translations of the whole structure into translations of its parts.
     ///
-    /// `part_labels` has a number for each degree of freedom; degrees of freedom of one part have equal numbers. Returns an
-    /// error for a side of a joint with nodes of several parts, and for a part that no joints connect to the ground.
+    /// `part_labels` has a number for each degree of freedom; degrees of freedom of one part have equal numbers.
+    /// Returns an error for a side of a joint with nodes of several parts, and for a part that no joints connect to the
+    /// ground.
     pub(crate) fn split(
         base: &PlacedBase,
         translations: &[Vec<f64>],
@@ -107,8 +108,8 @@ impl Influence {
 
     /// Mean translation of the base of one part.
     ///
-    /// Of a part without foundations it is the translation of the part on which it stands, and the relative displacement
-    /// at one element of the joint between them.
+    /// For a part without foundations it is the sum of two terms: the translation of the part on which it stands, and
+    /// the relative displacement at one element of the joint between both parts.
     pub(crate) fn base_translation(
         &self,
         part: &ConnectedPart,
@@ -123,9 +124,9 @@ impl Influence {
         [0, 1, 2].map(|k| translation[k] + sign * relative[k])
     }
 
-    /// Sets the entries of the joints in soil displacements from which the translation of each part is subtracted.
+    /// Sets the joints' entries of soil displacements relative to translating parts.
     ///
-    /// They are the translation y of the ground under the lower side minus that under the upper side.
+    /// The entries are the translation y of the ground under the lower side minus that under the upper side.
     pub(crate) fn set_joint_distortion(
         &self,
         base: &PlacedBase,
@@ -213,7 +214,9 @@ impl ConnectedPart {
         if self.support.is_some() { &[] } else { &self.elements }
     }
 
-    /// The contact nodes of its foundations; of a part without foundations, of its side of the joint below it.
+    /// The contact nodes of the part's foundations.
+    ///
+    /// For a part without foundations they are the nodes on its side of the joint that supports it.
     pub(crate) fn nodes<'a>(&self, base: &'a PlacedBase) -> Vec<&'a BaseNode> {
         if let Some(Support { element, sign, .. }) = self.support {
             let joint = base.joints().iter().find(|joint| joint.elements.contains(&element));
@@ -233,8 +236,8 @@ impl ConnectedPart {
 
     /// Mean translation `[right, up, along_y]` of contact displacements over this part's elements.
     ///
-    /// Normal components of contact displacements are positive downwards. The mean is zero in directions in which the part
-    /// cannot move. It is exact if all displacements are equal.
+    /// Normal components of contact displacements are positive downwards. The mean is zero in directions in which the
+    /// part cannot move. It is exact if all displacements are equal.
     pub(crate) fn mean_translation(&self, base: &PlacedBase, displacement: &[f64]) -> [f64; 3] {
         let Some(&first_element) = self.elements.first() else { return [0.0; 3] };
         let areas = base.areas();
@@ -302,15 +305,15 @@ struct NextPart {
     support: Support,
 }
 
-/// Finds a part that stands on, or else hangs from, a part that is connected to the ground.
+/// Finds a part that stands on, or hangs from, a part connected to the ground.
 fn next_supported(
     base: &PlacedBase,
     joint_labels: &[[usize; 2]],
     parts: &[(usize, ConnectedPart)],
 ) -> Option<NextPart> {
     let index = |label: usize| parts.iter().position(|(other, _)| *other == label);
-    // Sides of the part, and whether all parts below it must be connected: a part that stands on others comes before one
-    // that hangs from others.
+    // Sides of the part, and whether all parts below it must be connected: a part that stands on others comes before
+    // one that hangs from others.
     [(0, true), (0, false), (1, false)].into_iter().find_map(|(side, needs_all)| {
         let is_complete = |label: usize| {
             let mut below = joint_labels.iter().filter(|labels| labels[side] == label);

@@ -10,7 +10,9 @@ use crate::error::Result;
 use crate::geometry::{ContactElement, ContactLayout, check_count};
 
 impl PlacedBase {
-    /// Adds joints: their nodes to the contact nodes, and their elements after those of the ground.
+    /// Adds joints, with their nodes and contact elements.
+    ///
+    /// The elements of joints follow those of the ground.
     pub(crate) fn with_joints(mut self, lines: &[JointLine]) -> Result<Self> {
         if lines.is_empty() {
             return Ok(self);
@@ -148,7 +150,9 @@ impl PlacedBase {
     }
 }
 
-/// Rows of B of a joint's elements: mean displacement of the upper side minus that of the lower side, by components.
+/// Rows of B of a joint's elements, by elements and components.
+///
+/// A row is the mean displacement of the upper side minus that of the lower side.
 fn element_rows(line: &JointLine) -> Vec<Vec<SparseVector>> {
     let sides = line.sides();
     let nodes = sides.concat();

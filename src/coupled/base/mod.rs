@@ -1,4 +1,4 @@
-//! Base of a structure on contact elements: mean displacements of the elements, and forces of tractions.
+//! Base of a structure on contact elements: means of displacement, and forces.
 
 mod corner_weights;
 pub(crate) mod faces;
@@ -24,14 +24,18 @@ use crate::geometry::{ContactElement, ContactLayout, Patch};
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
-/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the pass before.
+/// Number of passes that correct the translations of the contact nodes.
+///
+/// Each pass removes the rounding of the pass before.
 const TRANSLATION_CORRECTION_COUNT: usize = 4;
 
-/// Base on contact elements: B from coordinates to element means of displacement, and BᵀA from tractions to forces.
+/// Base on contact elements.
+///
+/// B maps coordinates to element means of displacement, and BᵀA maps tractions to forces.
 ///
 /// Normal components are positive downwards. The coordinates are the structure's degrees of freedom or its stepping
-/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes B is the matrix T of halves of
-/// Patel & Spyrakos, eq. 14, and Bᵀ their eq. 15. `faces.rs` computes the means in plan.
+/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes B is the matrix T of halves
+/// of Patel & Spyrakos, eq. 14, and Bᵀ their eq. 15. `faces.rs` computes the means in plan.
 #[derive(Debug, Clone)]
 pub(crate) struct PlacedBase {
     /// Rows of B, component by component.
@@ -69,7 +73,9 @@ pub(crate) struct PlacedFoundation {
     pub(crate) elements: Range<usize>,
     /// Settlement, downwards.
     pub(crate) settlement: Weights,
-    /// Rotation of the chord in the plane; in plan the rotations about y, about x and about the vertical.
+    /// Rotation of the chord in the plane; in plan three rotations.
+    ///
+    /// These are about y, about x and about the vertical.
     pub(crate) rotations: Vec<Weights>,
     /// Corners of the convex outline in plan, counter-clockwise; empty in the plane.
     pub(crate) corners: Vec<[f64; 2]>,
@@ -381,7 +387,7 @@ fn element_components(
     components
 }
 
-/// Error for a foundation without elements.
+/// Returns an error for a foundation without elements.
 pub(crate) fn check_covered(foundations: &[PlacedFoundation]) -> Result<()> {
     let quantity = "list of contact elements under a foundation";
     foundations

@@ -13,8 +13,8 @@ const TEAR_ROUNDING_TOLERANCE: f64 = 1e-6;
 
 /// Number of tears of a base, and the first torn point; `None` without tears.
 ///
-/// Two corners at one point are torn if some degree of freedom raises them by different amounts. A corner on the edge of
-/// another face is torn if it does not stay on the line between the ends of the edge.
+/// Two corners at one point are torn if some degree of freedom raises them by different amounts. A corner on the edge
+/// of another face is torn if it does not stay on the line between the ends of the edge.
 pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
     let Base::Faces(faces) = base else { return Ok(None) };
     let mut mat_faces = Vec::with_capacity(faces.len());
@@ -57,7 +57,9 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
     Ok(torn_points.first().map(|point| (torn_points.len(), points.point(*point))))
 }
 
-/// Whether some degree of freedom raises a node and a weighted mean of other nodes by different amounts.
+/// Whether a degree of freedom can part a node from a weighted mean of nodes.
+///
+/// It then raises both by different amounts.
 ///
 /// Only vertical displacements count. Shells of different thickness have undersides at different heights. Where the
 /// shells rotate, the undersides move horizontally by different amounts, but rise together.

@@ -21,9 +21,9 @@
 //! | the same on a wall 200 times as high as wide | 7e-10 | 0.09 |
 //!
 //! The total force on the reduced walls is 2e-10 of the largest stiffness, that on the springs 1e-9. A support exceeds
-//! all of the limits below, and its squared frequency r·K r / r·M r is not negligible. This ratio does not depend on the
-//! scaling of coordinates. It distinguishes a support from rounding in the stiffness of a rigid base, which has no other
-//! stiffness for a comparison.
+//! all of the limits below, and its squared frequency r·K r / r·M r is not negligible. This ratio does not depend on
+//! the scaling of coordinates. It distinguishes a support from rounding in the stiffness of a rigid base, which has no
+//! other stiffness for a comparison.
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
@@ -60,7 +60,7 @@ const TRIAL_TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 /// Names of the directions of translation in errors.
 const TRANSLATION_NAMES: [&str; 3] = ["to the right", "upwards", "along y"];
 
-/// Error unless a structure translates freely; rounds its translations to whole numbers.
+/// Returns an error unless a structure translates freely; rounds its translations to whole numbers.
 ///
 /// `translations` are those to the right, upwards, and in plan along y. Entries close to whole numbers are rounded, and
 /// the displacements of the contact nodes become exact. `stiffness` does not contain the springs at the contact nodes.
@@ -107,7 +107,7 @@ pub(crate) fn check(
     Ok(())
 }
 
-/// Error for a part whose base does not translate as a whole: B R must be 1 in its directions of motion.
+/// Returns an error for a part whose base does not translate as a whole: B R must be 1 in its directions of motion.
 pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes of an element, and each term may be rounded.

@@ -57,7 +57,7 @@ impl StepSolver {
     }
 }
 
-/// Error for an increment that is not finite or too large.
+/// Returns an error for an increment that is not finite or too large.
 fn check_increment(increment: &[f64]) -> Result<(), StepError> {
     // A sum of magnitudes is not finite if one of them is not.
     if magnitude(increment) <= MAX_STEP_CHANGE {

@@ -66,7 +66,7 @@ pub fn memory_limit() -> u64 {
 )]
 pub fn set_memory_limit(_bytes: u64) {}
 
-/// Error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
+/// Returns an error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
 pub fn check(
     quantity: &'static str,
     asked: f64,
