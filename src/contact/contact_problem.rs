@@ -117,8 +117,8 @@ impl ContactSolution<'_> {
 impl ContactProblem {
     /// Makes a contact problem from a Delassus operator and laws.
     ///
-    /// The operator is 2Q × 2Q, row-major, m/Pa. There is one law for all elements or one for each. The static
-    /// tractions are zero at first. This function does not call the method [`check`](InterfaceLaw::check) of the laws.
+    /// The operator is 2Q × 2Q, row-major, m/Pa. There is one law for all elements or one for each. The static tractions
+    /// are zero at first. This function does not call the method [`check`](InterfaceLaw::check) of the laws.
     ///
     /// # Errors
     /// [`Error::Size`] unless the operator belongs to at least one element and the number of laws fits,

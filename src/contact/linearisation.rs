@@ -8,10 +8,10 @@
 //! | p(v) | pressure of its law's curve, which rises at a falling slope, Pa |
 //! | ρ | reciprocal of the element's compliance with all other tractions fixed, Pa/m |
 //!
-//! A step is solved with the tangent of each curve at a trial settlement. A tangent lies above its curve, so the
-//! solution has too much pressure and too little settlement. The next trial settlement solves each element alone: its
-//! line p + ρ v = constant through the solution meets the curve there. Newton's direction is one of descent for the
-//! energy of a step, which is convex without friction; shorter steps therefore converge where whole ones do not.
+//! A step is solved with the tangent of each curve at a trial settlement. A tangent lies above its curve, so the solution
+//! has too much pressure and too little settlement. The next trial settlement solves each element alone: its line
+//! p + ρ v = constant through the solution meets the curve there. Newton's direction is one of descent for the energy of a
+//! step, which is convex without friction; shorter steps therefore converge where whole ones do not.
 //!
 //! In the plane a line of nearly the same slope takes the place of the tangent: see [`super::trial_line`].
 

@@ -47,8 +47,8 @@ pub(crate) struct StructurePart<C, P> {
 impl OnBed {
     /// W of a soil and a structure on elements with these areas.
     ///
-    /// All lists have a number for each contact component. `None` if the structure has more than `max_mode_count`
-    /// modes, or its compliance per force is not symmetric or not positive semi-definite.
+    /// All lists have a number for each contact component. `None` if the structure has more than `max_mode_count` modes, or
+    /// its compliance per force is not symmetric or not positive semi-definite.
     pub(crate) fn new(
         soil: &[f64],
         areas: Vec<f64>,

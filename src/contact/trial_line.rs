@@ -1,8 +1,8 @@
 //! Lines in place of the curves of laws, for yielding elements in the plane.
 //!
-//! The slope of a line is that of the curve, rounded. The matrix of a trial is then the same in several trials and
-//! steps, with its factors. The lines follow from the state at the start of the step alone, so that a resumed run has
-//! the same ones. Each trial reduces the distance from the curves by the relative error of the slopes or more.
+//! The slope of a line is that of the curve, rounded. The matrix of a trial is then the same in several trials and steps,
+//! with its factors. The lines follow from the state at the start of the step alone, so that a resumed run has the same
+//! ones. Each trial reduces the distance from the curves by the relative error of the slopes or more.
 
 use crate::interface::{Condition, Limits};
 

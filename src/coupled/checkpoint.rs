@@ -88,8 +88,8 @@ impl Checkpoint {
 impl Simulation {
     /// Saves the state of the run for [`Simulation::resume`].
     ///
-    /// The checkpoint contains the ground's history: all tractions of an exact history, and the tractions of at most
-    /// two windows of a history of exponentials.
+    /// The checkpoint contains the ground's history: all tractions of an exact history, and the tractions of at most two
+    /// windows of a history of exponentials.
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`](crate::coupled::CheckpointError::Unsupported) if the ground, its history or the
@@ -155,9 +155,9 @@ impl Simulation {
     ///
     /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
     ///
-    /// The function compares sizes, time step and scheme, elements, probes, sums over the matrices, static state,
-    /// gravity stage, initial motion and the [label](crate::coupled::SimulationBuilder::label). It does not compare
-    /// interface laws, ground motion, loads and nonlinear forces: name them in the label. It restores forces that were
+    /// The function compares sizes, time step and scheme, elements, probes, sums over the matrices, static state, gravity
+    /// stage, initial motion and the [label](crate::coupled::SimulationBuilder::label). It does not compare interface
+    /// laws, ground motion, loads and nonlinear forces: name them in the label. It restores forces that were
     /// [set](Simulation::set_load). A checkpoint does not contain the transitions, trials and method of its last step.
     ///
     /// # Errors

@@ -15,8 +15,7 @@ pub enum UnilateralCondition {
     /// Change of the gap (Moreau 1988; Jean 1999).
     ///
     /// An element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg = 0; any
-    /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that
-    /// step.
+    /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that step.
     Velocity {
         /// Largest gap at which an element is regarded as closed, m.
         closed_below: f64,
@@ -67,9 +66,8 @@ pub(super) fn check_friction(friction: f64) -> Result<()> {
 impl Coulomb {
     /// Law with a friction coefficient of zero or more; if it is infinite, nothing ever slides.
     ///
-    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare the run with a run of the
-    /// scene's mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports such a
-    /// coefficient.
+    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare the run with a run of the scene's
+    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports such a coefficient.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.

@@ -15,12 +15,13 @@ use crate::error::{Error, Result, finite, not_negative, require};
 /// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
-/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens. In the plane
-/// an element that slides under more tension than its attraction opens. Elastic layers are in addition to these limits:
-/// see [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. Hardening is linear in a step;
-/// a law whose pressure is a curve returns the tangent at
-/// [`PreviousContact::trial_settlement`](super::PreviousContact::trial_settlement). The default is frictionless and
-/// hard contact.
+/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens. In the plane an
+/// element that slides under more tension than its attraction opens.
+/// Elastic layers are in addition to these limits: see
+/// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. Hardening is linear in a step; a law
+/// whose pressure is a curve returns the tangent at
+/// [`PreviousContact::trial_settlement`](super::PreviousContact::trial_settlement). The default is frictionless and hard
+/// contact.
 ///
 /// ```
 /// use basemat::interface::{Coulomb, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};

@@ -88,8 +88,7 @@ impl EliminationFront {
 impl EliminationPlan {
     /// Plan for matrices with these degrees of freedom.
     ///
-    /// One list for each matrix, with `None` for fixed degrees of freedom. All are eliminated, except those in
-    /// `retained`.
+    /// One list for each matrix, with `None` for fixed degrees of freedom. All are eliminated, except those in `retained`.
     pub(super) fn new(matrix_dofs: &[Vec<Option<usize>>], retained: &[usize]) -> Self {
         let mut graph = CliqueGraph::new(matrix_dofs, retained);
         let mut steps = vec![];

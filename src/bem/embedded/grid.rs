@@ -59,9 +59,8 @@ pub(super) struct GridLayer {
 impl TrenchGrid {
     /// Grid for the elements of a base and a wall.
     ///
-    /// `base_ends`: ends of the base elements, m from the axis. `wall_ends`: depths of the ends of the wall elements,
-    /// m. `layers`: the last is the half-plane, with an infinite depth, unless the bedrock `is_rigid`.
-    /// `backfill_width`, m.
+    /// `base_ends`: ends of the base elements, m from the axis. `wall_ends`: depths of the ends of the wall elements, m.
+    /// `layers`: the last is the half-plane, with an infinite depth, unless the bedrock `is_rigid`. `backfill_width`, m.
     pub(super) fn new(
         base_ends: &[f64],
         wall_ends: &[f64],

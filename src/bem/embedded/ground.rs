@@ -24,9 +24,9 @@ use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 /// elements follow. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the
 /// corners of the trench and depends on the contact elements only.
 ///
-/// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights
-/// follow by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh.
-/// The number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
+/// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights follow
+/// by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh. The
+/// number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
 /// translations.
 ///
 /// The mesh is as fine as the contact elements, and resolves waves of their length. Short steps on long elements excite
@@ -169,8 +169,8 @@ impl TrenchGround {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Item`](crate::Error::Item) for an element whose pressure at rest is below the active pressure or above
-    /// the passive one; [`Error::Size`](crate::Error::Size) for another number of strengths;
+    /// [`Error::Item`](crate::Error::Item) for an element whose pressure at rest is below the active pressure or above the
+    /// passive one; [`Error::Size`](crate::Error::Size) for another number of strengths;
     /// [`Error::Input`](crate::Error::Input) for a gravity that is not finite and above zero.
     pub fn interfaces(
         &self,

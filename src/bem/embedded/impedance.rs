@@ -1,9 +1,9 @@
 //! Dynamic stiffness and kinematic motion of a rigid body in a trench.
 //!
-//! F(s) are the compliances of the faces. The columns of A are the resultants of unit tractions, which also describe
-//! the rigid motions. Then K = Aᵀ F⁻¹ A. With the displacements u and the tractions t of the free field at the faces (t
-//! on the soil), soil that moves by w has the tractions t + F⁻¹(w − u). A body without mass exerts no resultant: K U =
-//! Aᵀ (F⁻¹ u − t).
+//! F(s) are the compliances of the faces. The columns of A are the resultants of unit tractions, which also describe the
+//! rigid motions. Then K = Aᵀ F⁻¹ A. With the displacements u and the tractions t of the free field at the faces (t on
+//! the soil), soil that moves by w has the tractions t + F⁻¹(w − u). A body without mass exerts no resultant:
+//! K U = Aᵀ (F⁻¹ u − t).
 
 use basemat_fourier::num_complex::Complex64;
 
@@ -69,10 +69,10 @@ const RIGID_MOTION_COUNT: usize = 3;
 impl TrenchGround {
     /// Dynamic stiffness of a bonded rigid body at each of `frequencies` (Hz).
     ///
-    /// The body is bonded to walls and base. The reference point is the middle of the base. The observer counts points
-    /// of the Laplace plane, eight per frequency. At frequency 0 the result is the static stiffness on rigid bedrock.
-    /// Layers may have any damping, including hysteretic damping; the computation takes up to eight times as long for
-    /// layers without damping.
+    /// The body is bonded to walls and base. The reference point is the middle of the base. The observer counts points of
+    /// the Laplace plane, eight per frequency. At frequency 0 the result is the static stiffness on rigid bedrock. Layers
+    /// may have any damping, including hysteretic damping; the computation takes up to eight times as long for layers
+    /// without damping.
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};

@@ -40,8 +40,8 @@ impl Trench {
     /// A trench of depth 0 is a strip of the surface.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or
-    /// not finite.
+    /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or not
+    /// finite.
     pub fn new(sides: Range<f64>, depth: f64) -> Result<Self> {
         let Range { start: left, end: right } = sides;
         finite("left side of a trench", left)?;
@@ -73,8 +73,8 @@ impl Trench {
     ///
     /// # Errors
     /// [`Error::Scene`](crate::Error::Scene) for a number of base elements that is zero or odd, or for walls without
-    /// elements, or elements of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than
-    /// their matrices allow.
+    /// elements, or elements of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their
+    /// matrices allow.
     pub fn elements(&self, base_count: usize, wall_count: usize) -> Result<TrenchElements> {
         let element_count = base_count.saturating_add(wall_count.saturating_mul(2));
         check_count(element_count, COMPONENTS_IN_PLANE)?;

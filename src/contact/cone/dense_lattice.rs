@@ -32,8 +32,8 @@ pub(super) struct DenseLattice {
 impl DenseLattice {
     /// W of `cells` (column and row): the row-major `w` with the part `soil(row, column)`.
     ///
-    /// `layer(row)`: part of the diagonal that is neither soil nor structure. `None` if blocks of equal offset differ,
-    /// or the structure has too many modes.
+    /// `layer(row)`: part of the diagonal that is neither soil nor structure. `None` if blocks of equal offset differ, or
+    /// the structure has too many modes.
     pub(super) fn new(
         w: &[f64],
         cells: &[[usize; 2]],

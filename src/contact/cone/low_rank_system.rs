@@ -8,9 +8,9 @@
 //! | a | corrections of the amplitudes: the sum of Lᵀ δr over all elements |
 //! | M | stiffness of an element: δr = δr₀ − M L a by the conditions of its status |
 //!
-//! The conditions are those of `system.rs`. Elimination of δr gives (1 + Σ Lᵀ M L) a = Σ Lᵀ δr₀ (Woodbury 1950). An
-//! element that slides without pressure in a closed gap, the limit of infinite friction, has no M: its shear along the
-//! slip is one more unknown, and its gap one more equation.
+//! The conditions are those of `system.rs`. Elimination of δr gives (1 + Σ Lᵀ M L) a = Σ Lᵀ δr₀ (Woodbury 1950). An element
+//! that slides without pressure in a closed gap, the limit of infinite friction, has no M: its shear along the slip is one
+//! more unknown, and its gap one more equation.
 
 use super::low_rank::LowRankCompliance;
 use super::problem::{Bounds, ConeProblem};

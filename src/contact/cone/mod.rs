@@ -14,16 +14,16 @@
 //! 4. Newton's method from other forces, with partial steps.
 //! 5. The proximal point method, which solves a sequence of better conditioned problems by methods 2 to 4.
 //!
-//! For friction above 100, or infinite, the step first tries Newton's method alone. Then it uses all methods with a
-//! lower friction, and raises the friction from that solution. If the friction cannot be raised, the step uses the
-//! lower friction, and the run warns of it.
+//! For friction above 100, or infinite, the step first tries Newton's method alone. Then it uses all methods with a lower
+//! friction, and raises the friction from that solution. If the friction cannot be raised, the step uses the lower
+//! friction, and the run warns of it.
 //!
 //! W is symmetric and positive definite, so a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); with
 //! small friction it is unique. The shear of a sliding element lies on the boundary of its disc and opposes the slip of
 //! the same solution: its friction work is never negative.
 //!
-//! A bond bears tension, and shear without pressure, up to its strength. The bond breaks in the step in which the
-//! element opens at that strength. The step is then solved again: at most once for each element.
+//! A bond bears tension, and shear without pressure, up to its strength. The bond breaks in the step in which the element
+//! opens at that strength. The step is then solved again: at most once for each element.
 
 mod acceleration;
 mod bounds;

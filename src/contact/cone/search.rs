@@ -49,9 +49,8 @@ impl SearchOutcome {
 
 /// Finds forces by one method after the other, with `initial_change` and `limited_change` as scratch.
 ///
-/// If Newton's method alone finds no forces for a friction above [`MAX_DIRECT_FRICTION`], the search limits the
-/// friction, and raises it from that solution as far as possible. `is_constant`: whether W is constant for the whole
-/// run.
+/// If Newton's method alone finds no forces for a friction above [`MAX_DIRECT_FRICTION`], the search limits the friction,
+/// and raises it from that solution as far as possible. `is_constant`: whether W is constant for the whole run.
 pub(super) fn find_forces(
     problem: &mut ConeProblem,
     newton: &mut Newton,

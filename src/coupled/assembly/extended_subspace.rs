@@ -21,9 +21,8 @@ impl Subspace<'_> {
     ///
     /// The vectors themselves are not computed.
     ///
-    /// `block` has the responses K_eff⁻¹ f to the inertia f of the vectors from index `first` on, with the scheme's
-    /// factor. Directions shorter than `min_length` are omitted. `products` are the products of the vectors with the
-    /// `rows` of F.
+    /// `block` has the responses K_eff⁻¹ f to the inertia f of the vectors from index `first` on, with the scheme's factor.
+    /// Directions shorter than `min_length` are omitted. `products` are the products of the vectors with the `rows` of F.
     pub(crate) fn extended_ritz(
         &self,
         (block, first): (&[f64], usize),

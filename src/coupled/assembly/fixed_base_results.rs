@@ -28,8 +28,7 @@ pub(super) struct FixedBaseResults {
 impl FixedBaseResults {
     /// Computes the results from the factored stiffness with a fixed base.
     ///
-    /// The factor is dropped if the structure is not condensed, since factors of large structures need most of the
-    /// memory.
+    /// The factor is dropped if the structure is not condensed, since factors of large structures need most of the memory.
     pub(super) fn new(
         parts: &Parts,
         assembled: &Assembled,

@@ -1,7 +1,7 @@
 //! Check of flexible bases: whether contact elements are short enough for the base's static shape.
 //!
-//! The ground receives only the mean displacement of the base over each element. In the model the structure alone
-//! resists a shape with zero means. In reality the soil resists such a shape too.
+//! The ground receives only the mean displacement of the base over each element. In the model the structure alone resists a
+//! shape with zero means. In reality the soil resists such a shape too.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -58,9 +58,8 @@ const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Warning of a flexible base with too few elements, if there are too few.
 ///
-/// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the
-/// condensed structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no
-/// computation.
+/// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the condensed
+/// structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no computation.
 pub(super) fn check(
     parts: &Parts,
     (assembled, condensed): (&Assembled, Option<&Condensed>),
@@ -221,8 +220,8 @@ fn shared_factor(
 
 /// Face with the largest difference of its shape between two static states, and the difference.
 ///
-/// Shapes are displacements into the soil minus their best linear fit, with the root of the mean square over the nodes
-/// as norm. The difference is relative to the largest norm of all faces of the foundation in the second state.
+/// Shapes are displacements into the soil minus their best linear fit, with the root of the mean square over the nodes as
+/// norm. The difference is relative to the largest norm of all faces of the foundation in the second state.
 fn largest_difference(
     base: &PlacedBase,
     first_state: &StaticState,

@@ -7,10 +7,10 @@
 //! | σ | shifts; the first is the shift √(a/d) of the time scheme, 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for the others |
 //!
-//! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe
-//! 1984; Grimme 1997). Each power of K_eff makes the response exact for two more steps after a change of traction.
-//! Lower shifts represent the few modes at lower frequencies, which are complete after a few rounds. One higher shift
-//! represents motion that the time step does not resolve. With many forces: `many_forces.rs`.
+//! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe 1984;
+//! Grimme 1997). Each power of K_eff makes the response exact for two more steps after a change of traction. Lower shifts
+//! represent the few modes at lower frequencies, which are complete after a few rounds. One higher shift represents motion
+//! that the time step does not resolve. With many forces: `many_forces.rs`.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -80,8 +80,7 @@ pub(crate) struct Reduction<'a> {
 impl<'a> Reduction<'a> {
     /// Collects the forces, initial motions and probes of a structure for a run of `step_count` steps.
     ///
-    /// The tuple has the responses on a fixed base, the factored K + εM if it exists, and a function that factors
-    /// K_eff.
+    /// The tuple has the responses on a fixed base, the factored K + εM if it exists, and a function that factors K_eff.
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,

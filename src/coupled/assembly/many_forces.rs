@@ -39,8 +39,8 @@ const MAX_STATIC_SHIFT_RATIO: f64 = 0.5;
 const MIN_SQUARED_SHIFT_RATIO: f64 = 1e-9;
 /// Factor of the weakest response of a probe in the length of omitted directions.
 ///
-/// The response is relative to the energy norms of the probe's row and of the force. For a response below the
-/// reciprocal of this factor, omitted directions must be shorter than the root of the tolerance.
+/// The response is relative to the energy norms of the probe's row and of the force. For a response below the reciprocal
+/// of this factor, omitted directions must be shorter than the root of the tolerance.
 const WEAK_PROBE_FACTOR: f64 = 10.0;
 /// Smallest factor for the square of the length of omitted directions; smaller directions are rounding.
 const MIN_PROBE_FACTOR: f64 = 1e-2;

@@ -7,9 +7,8 @@
 //! | Φ, ω | Ritz modes of M and K, and their circular frequencies |
 //! | Z | K_eff, or K + σ²M |
 //!
-//! Only −βG in C couples the modes. The space is built, and its tolerance checked, with the damping βK + αM. The
-//! damping forces −βG of the modes' velocities act on all degrees of freedom. The responses Z⁻¹βGΦω to them are added
-//! to the space.
+//! Only −βG in C couples the modes. The space is built, and its tolerance checked, with the damping βK + αM. The damping
+//! forces −βG of the modes' velocities act on all degrees of freedom. The responses Z⁻¹βGΦω to them are added to the space.
 
 use crate::coupled::assembly::krylov::Reduction;
 use crate::coupled::assembly::subspace::{RitzModes, Subspace};

@@ -6,8 +6,8 @@
 //! | u, v, a | displacement, velocity and acceleration of each mode under a unit force |
 //!
 //! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows at a constant rate, the
-//! accelerations are the velocities v under a constant force, and the velocities are the displacements u. Loads may
-//! start suddenly. The value of a probe is then its sum of u, v and a.
+//! accelerations are the velocities v under a constant force, and the velocities are the displacements u. Loads may start
+//! suddenly. The value of a probe is then its sum of u, v and a.
 
 use std::ops::Range;
 
@@ -172,8 +172,7 @@ impl ResponseChanges {
 
 /// Largest difference of any compared output, relative to the largest value of this output.
 ///
-/// Two sets of responses have one output after the other for each force and step. An output's scale is at least
-/// `min_scale`.
+/// Two sets of responses have one output after the other for each force and step. An output's scale is at least `min_scale`.
 fn largest_difference(
     [values, other_values]: [&[f64]; 2],
     output_count: usize,

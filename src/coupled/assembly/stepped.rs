@@ -64,8 +64,8 @@ pub(crate) struct SteppedStructure {
 impl SteppedStructure {
     /// Chooses the coordinates, and factors the effective stiffness in them.
     ///
-    /// The effective stiffness in degrees of freedom is factored only if these are stepped, or if the choice depends on
-    /// the factor. `reduction` is the input of [`Reduction`], for reduced coordinates.
+    /// The effective stiffness in degrees of freedom is factored only if these are stepped, or if the choice depends on the
+    /// factor. `reduction` is the input of [`Reduction`], for reduced coordinates.
     pub(crate) fn new(
         parts: &Parts,
         assembled: &Assembled,
@@ -191,7 +191,7 @@ fn singularity_cause(
 
 /// The modes, if steps in modal coordinates take less time.
 ///
-/// The computation of the modes is included. /// `factor_entries` is the number of entries of the sparse factor in
+/// The computation of the modes is included. `factor_entries` is the number of entries of the sparse factor in
 /// degrees of freedom.
 fn modes_if_faster(
     assembled: &Assembled,

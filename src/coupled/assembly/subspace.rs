@@ -5,8 +5,8 @@
 //! | V | vectors, V M Vᵀ = 1 |
 //! | F | weights of the degrees of freedom in forces and in probes |
 //!
-//! All vectors are rows. The first vectors are rigid translations, which K does not resist. Their products with K are
-//! set to zero.
+//! All vectors are rows. The first vectors are rigid translations, which K does not resist. Their products with K are set
+//! to zero.
 
 use crate::coupled::base::transformation::ModalBasis;
 use crate::error::{Error, Result};

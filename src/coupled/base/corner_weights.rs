@@ -15,8 +15,8 @@ pub(crate) type Point = [f64; 2];
 ///
 /// The displacement is linear over a triangle, bilinear over a quadrilateral, and continued beyond the face. A bilinear
 /// displacement may have no continuation. The displacement and the slopes at the nearest point of the face are then
-/// continued linearly. At a corner of 180° the displacement of the largest triangle is continued. On a rigid base all
-/// of these displacements are equal.
+/// continued linearly. At a corner of 180° the displacement of the largest triangle is continued. On a rigid base all of
+/// these displacements are equal.
 pub(crate) fn corner_weights(corners: &[Point], p: Point) -> Vec<f64> {
     let [a, b, c, d] = *corners else {
         return triangle_weights([corners[0], corners[1], corners[2]], p).into();
@@ -191,8 +191,8 @@ mod tests {
 
     /// Linear displacements are exact on convex quadrilaterals of all shapes, inside and outside.
     ///
-    /// Outside, bilinear displacements often have no continuation. The faces are near the origin and at coordinates of
-    /// a site.
+    /// Outside, bilinear displacements often have no continuation. The faces are near the origin and at coordinates of a
+    /// site.
     #[test]
     fn linear_displacements_are_exact_on_all_convex_faces() {
         let mut state = 1_u64;

@@ -101,8 +101,8 @@ struct DividedFaces<'a> {
 impl<'a> DividedFaces<'a> {
     /// Divides faces of more than four corners into triangles.
     ///
-    /// `nodes` has the corners of all faces, one face after the other. `corner_counts` has the number of corners of
-    /// each face.
+    /// `nodes` has the corners of all faces, one face after the other. `corner_counts` has the number of corners of each
+    /// face.
     fn new(nodes: &'a [BaseNode], corner_counts: &[usize]) -> Result<Self> {
         let mut faces = Self { nodes, pieces: Vec::new() };
         let mut first_node = 0;

@@ -51,9 +51,8 @@ struct Support {
 impl Influence {
     /// Splits the rigid translations of the whole structure into translations of its parts.
     ///
-    /// `part_labels` has a number for each degree of freedom; degrees of freedom of one part have equal numbers.
-    /// Returns an error for a side of a joint with nodes of several parts, and for a part that no joints connect to the
-    /// ground.
+    /// `part_labels` has a number for each degree of freedom; degrees of freedom of one part have equal numbers. Returns an
+    /// error for a side of a joint with nodes of several parts, and for a part that no joints connect to the ground.
     pub(crate) fn split(
         base: &PlacedBase,
         translations: &[Vec<f64>],
@@ -236,8 +235,8 @@ impl ConnectedPart {
 
     /// Mean translation `[right, up, along_y]` of contact displacements over this part's elements.
     ///
-    /// Normal components of contact displacements are positive downwards. The mean is zero in directions in which the
-    /// part cannot move. It is exact if all displacements are equal.
+    /// Normal components of contact displacements are positive downwards. The mean is zero in directions in which the part
+    /// cannot move. It is exact if all displacements are equal.
     pub(crate) fn mean_translation(&self, base: &PlacedBase, displacement: &[f64]) -> [f64; 3] {
         let Some(&first_element) = self.elements.first() else { return [0.0; 3] };
         let areas = base.areas();
@@ -312,8 +311,8 @@ fn next_supported(
     parts: &[(usize, ConnectedPart)],
 ) -> Option<NextPart> {
     let index = |label: usize| parts.iter().position(|(other, _)| *other == label);
-    // Sides of the part, and whether all parts below it must be connected: a part that stands on others comes before
-    // one that hangs from others.
+    // Sides of the part, and whether all parts below it must be connected: a part that stands on others comes before one
+    // that hangs from others.
     [(0, true), (0, false), (1, false)].into_iter().find_map(|(side, needs_all)| {
         let is_complete = |label: usize| {
             let mut below = joint_labels.iter().filter(|labels| labels[side] == label);

@@ -102,8 +102,8 @@ impl JointLine {
 
 /// Span of the coordinates along `direction` that all sides share, m.
 ///
-/// Returns an error for sides that are not straight, not parallel to `direction` (an element of this `length`, m),
-/// listed in the other sense, or not opposite each other.
+/// Returns an error for sides that are not straight, not parallel to `direction` (an element of this `length`, m), listed
+/// in the other sense, or not opposite each other.
 fn common_span(
     sides: &[&Vec<BaseNode>; 2],
     direction: &ContactElement,

@@ -34,8 +34,8 @@ const TRANSLATION_CORRECTION_COUNT: usize = 4;
 /// B maps coordinates to element means of displacement, and BᵀA maps tractions to forces.
 ///
 /// Normal components are positive downwards. The coordinates are the structure's degrees of freedom or its stepping
-/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes B is the matrix T of halves
-/// of Patel & Spyrakos, eq. 14, and Bᵀ their eq. 15. `faces.rs` computes the means in plan.
+/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes B is the matrix T of halves of
+/// Patel & Spyrakos, eq. 14, and Bᵀ their eq. 15. `faces.rs` computes the means in plan.
 #[derive(Debug, Clone)]
 pub(crate) struct PlacedBase {
     /// Rows of B, component by component.

@@ -13,8 +13,8 @@ const TEAR_ROUNDING_TOLERANCE: f64 = 1e-6;
 
 /// Number of tears of a base, and the first torn point; `None` without tears.
 ///
-/// Two corners at one point are torn if some degree of freedom raises them by different amounts. A corner on the edge
-/// of another face is torn if it does not stay on the line between the ends of the edge.
+/// Two corners at one point are torn if some degree of freedom raises them by different amounts. A corner on the edge of
+/// another face is torn if it does not stay on the line between the ends of the edge.
 pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
     let Base::Faces(faces) = base else { return Ok(None) };
     let mut mat_faces = Vec::with_capacity(faces.len());

@@ -186,8 +186,8 @@ const RIGID_COORDINATE_ROUNDING: f64 = 1e-12;
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
 ///
 /// In modal coordinates every matrix of the equation of motion is diagonal: Φᵀ M Φ = 1, Φᵀ K Φ = diag(λ),
-/// Φᵀ C Φ = diag(c). A step needs a few operations per mode, and a few per mode and contact component. It evaluates
-/// only the rows of Φ for the base and the probes.
+/// Φᵀ C Φ = diag(c). A step needs a few operations per mode, and a few per mode and contact component. It evaluates only
+/// the rows of Φ for the base and the probes.
 #[derive(Debug)]
 pub(crate) struct ModalBasis {
     /// Modal stiffnesses λ, the squared circular frequencies.

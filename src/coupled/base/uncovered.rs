@@ -11,8 +11,8 @@ const MAX_UNCOVERED_FRACTION: f64 = 0.1;
 impl PlacedBase {
     /// Lengths by which foundations extend too far beyond the ground's elements.
     ///
-    /// An entry is the foundation's number, in plan the axis, and the overhang, m. An overhang is too long if it
-    /// exceeds the longest side of the elements along the axis, or a tenth of the foundation.
+    /// An entry is the foundation's number, in plan the axis, and the overhang, m. An overhang is too long if it exceeds
+    /// the longest side of the elements along the axis, or a tenth of the foundation.
     pub(crate) fn long_overhangs(&self) -> Vec<(usize, Option<char>, f64)> {
         let mut overhangs = Vec::new();
         for (foundation, (nodes, elements)) in self.foundations().enumerate() {

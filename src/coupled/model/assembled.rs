@@ -50,8 +50,8 @@ pub(crate) struct Assembled {
 impl Assembled {
     /// Assembles a structure over `elements` with joints, and factors its stiffness at rest with a fixed base.
     ///
-    /// Returns an error for matrices of wrong sign, parts without connection to the base, supports besides the ground,
-    /// and mechanisms that cannot be factored.
+    /// Returns an error for matrices of wrong sign, parts without connection to the base, supports besides the ground, and
+    /// mechanisms that cannot be factored.
     pub(crate) fn new(
         structure: &dyn Structure,
         elements: &Patch,
@@ -121,8 +121,8 @@ impl Assembled {
 
     /// Returns an error for a damping that is not positive semi-definite, unless the structure declares active damping.
     ///
-    /// `shifted_stiffness` is K + εM if this matrix is positive definite. Damping in proportion to it and to the mass
-    /// then needs no factorization.
+    /// `shifted_stiffness` is K + εM if this matrix is positive definite. Damping in proportion to it and to the mass then
+    /// needs no factorization.
     pub(crate) fn check_damping(
         &self,
         structure: &dyn Structure,
@@ -178,9 +178,9 @@ impl Assembled {
 
     /// Period on a fixed base, s; NaN for a structure without mass.
     ///
-    /// It follows from Rayleigh's quotient of the deflection under a horizontal weight along x. In plan it is the
-    /// longer period of x and y. `fixed_factor` is the factored stiffness with springs at the base. The work of the
-    /// weight on the springs is neglected (an error of 1 %).
+    /// It follows from Rayleigh's quotient of the deflection under a horizontal weight along x. In plan it is the longer
+    /// period of x and y. `fixed_factor` is the factored stiffness with springs at the base. The work of the weight on the
+    /// springs is neglected (an error of 1 %).
     pub(crate) fn period_on_fixed_base(&self, fixed_factor: &mut SparseFactor) -> f64 {
         // Direction 0 is to the right; in plan direction 2 is horizontally along y.
         let directions = self.base.layout().axes().map(|axis| 2 * axis);
@@ -251,9 +251,8 @@ impl Assembled {
     /// Computes the influence vectors, and factors the stiffness with a fixed base.
     ///
     /// A rigid translation r has K r = 0 and moves the contact nodes by one. It is therefore the solution of
-    /// (K + γ NᵀN) r = γ Nᵀ 1 for every γ, independent of the meaning of the degrees of freedom. Displacements are
-    /// stepped relative to rigid translations. Therefore R must be exact at the base: N R, and with it B R, is 1 or 0
-    /// to rounding.
+    /// (K + γ NᵀN) r = γ Nᵀ 1 for every γ, independent of the meaning of the degrees of freedom. Displacements are stepped
+    /// relative to rigid translations. Therefore R must be exact at the base: N R, and with it B R, is 1 or 0 to rounding.
     fn compute_influence(&self) -> Result<(Influence, SparseFactor)> {
         let stiffness = self.stiffness_at_rest();
         let dofs = self.dofs();

@@ -16,9 +16,9 @@ use std::fmt;
 /// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once,
 /// at the time of the scheme's equation of motion: t + Δt/2 for
 /// [`Midpoint`](crate::coupled::Midpoint) and [`DissipativeMidpoint`](crate::coupled::DissipativeMidpoint), t + Δt
-/// for [`Newmark`](crate::coupled::Newmark). All iterations of a nonlinear structure use this value. If a failed step
-/// is tried again, the load is evaluated again. Between the steps, [`set_load`](crate::Simulation::set_load) sets a
-/// force that depends on the state, for example the force of a controller.
+/// for [`Newmark`](crate::coupled::Newmark). All iterations of a nonlinear structure use this value. If a failed step is
+/// tried again, the load is evaluated again. Between the steps, [`set_load`](crate::Simulation::set_load) sets a force
+/// that depends on the state, for example the force of a controller.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -65,9 +65,9 @@ impl Load {
 
     /// Constant `force` that is applied with the weight.
     ///
-    /// The [gravity stage](crate::coupled::GravityStage) defines how the weight is applied. Use it for dead loads
-    /// without mass in the structure: equipment, fill, a fixed tank. Other loads at t = 0 are applied after the weight,
-    /// with the interface law.
+    /// The [gravity stage](crate::coupled::GravityStage) defines how the weight is applied. Use it for dead loads without
+    /// mass in the structure: equipment, fill, a fixed tank. Other loads at t = 0 are applied after the weight, with the
+    /// interface law.
     ///
     /// ```
     /// use basemat::bem::ElasticGround;
@@ -85,8 +85,8 @@ impl Load {
     ///     .interface(Coulomb::new(0.5)?)
     ///     .load(Load::weight(up, -400.0e3))
     ///     .build()?;
-    /// // The base is placed without friction and has no shear. A constant load would cause a shear of 0.3 of the
-    /// pressure. assert!(simulation.state().contact.iter().all(|element| element.shear.abs() < 1.0));
+    /// // The base is placed without friction and has no shear. A constant load would cause a shear of 0.3 of the pressure.
+    /// assert!(simulation.state().contact.iter().all(|element| element.shear.abs() < 1.0));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn weight(row: impl Into<DofCombination>, force: f64) -> Self {

@@ -109,8 +109,7 @@ impl RegularisedStiffness {
         Self::on_springs(at_rest, 1.0)
     }
 
-    /// The stiffness at rest with springs under the contact nodes, `stiffness_ratio` times as stiff as its largest
-    /// entry.
+    /// The stiffness at rest with springs under the contact nodes, `stiffness_ratio` times as stiff as its largest entry.
     pub(crate) fn on_springs<'a>(
         at_rest: &StructureAtRest<'a>,
         stiffness_ratio: f64,
@@ -125,8 +124,8 @@ impl RegularisedStiffness {
 
     /// Regularises a matrix with a largest entry of about `reference_stiffness` by a diagonal `mass`.
     ///
-    /// A degree of freedom without mass is regularised by its diagonal entry. Lagrange multipliers have neither mass
-    /// nor diagonal entry and stay unchanged.
+    /// A degree of freedom without mass is regularised by its diagonal entry. Lagrange multipliers have neither mass nor
+    /// diagonal entry and stay unchanged.
     fn new(matrix: Triplets, reference_stiffness: f64, mass: &[f64]) -> Self {
         let max_mass = largest(mass);
         let mut diagonal = vec![0.0; matrix.order()];

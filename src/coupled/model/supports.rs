@@ -21,9 +21,9 @@
 //! | the same on a wall 200 times as high as wide | 7e-10 | 0.09 |
 //!
 //! The total force on the reduced walls is 2e-10 of the largest stiffness, that on the springs 1e-9. A support exceeds
-//! all of the limits below, and its squared frequency r·K r / r·M r is not negligible. This ratio does not depend on
-//! the scaling of coordinates. It distinguishes a support from rounding in the stiffness of a rigid base, which has no
-//! other stiffness for a comparison.
+//! all of the limits below, and its squared frequency r·K r / r·M r is not negligible. This ratio does not depend on the
+//! scaling of coordinates. It distinguishes a support from rounding in the stiffness of a rigid base, which has no other
+//! stiffness for a comparison.
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;

@@ -38,9 +38,9 @@ pub struct SchemeCoefficients {
 
 /// Time stepping of the structure's equation of motion.
 ///
-/// Contact and soil do not depend on the scheme. They use displacements at the ends of steps and tractions that are
-/// constant within steps. The work τ·Δu of the tractions on the structure equals the work that the soil loses. A scheme
-/// in which Δu·(M a* + K u*) is not the change of energy plus a loss adds energy to the run.
+/// Contact and soil do not depend on the scheme. They use displacements at the ends of steps and tractions that are constant
+/// within steps. The work τ·Δu of the tractions on the structure equals the work that the soil loses. A scheme in which
+/// Δu·(M a* + K u*) is not the change of energy plus a loss adds energy to the run.
 ///
 /// | scheme | order | energy with the soil | use |
 /// |---|---|---|---|
@@ -56,8 +56,8 @@ pub trait TimeScheme: Send {
 
 /// Implicit midpoint rule (the default): second order, conserves energy exactly, also with soil.
 ///
-/// It is Newmark's average acceleration with the traction of the step itself. If impacts excite frequencies that the
-/// time step does not resolve, [`DissipativeMidpoint`] damps these frequencies.
+/// It is Newmark's average acceleration with the traction of the step itself. If impacts excite frequencies that the time
+/// step does not resolve, [`DissipativeMidpoint`] damps these frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Midpoint;
@@ -70,8 +70,8 @@ impl TimeScheme for Midpoint {
 
 /// θ-method: dissipative at high frequencies for θ > ½, and passive together with the soil.
 ///
-/// For θ = ½ it is the midpoint rule. For θ > ½ it is of first order. [`DissipativeMidpoint`] is dissipative and of
-/// second order.
+/// For θ = ½ it is the midpoint rule. For θ > ½ it is of first order. [`DissipativeMidpoint`] is dissipative and of second
+/// order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ThetaForm"))]

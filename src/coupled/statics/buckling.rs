@@ -53,9 +53,9 @@ pub(crate) fn has_p_delta(structure: &dyn Structure) -> bool {
 
 /// Returns an error for a structure with P–Δ whose static state is an unstable equilibrium.
 ///
-/// Elements that are closed at rest count as bonded to the ground. The error has the load factor with all elements
-/// bonded if this factor is below 1. `condensed` is the structure condensed on its base, if it exists. Its matrix takes
-/// much less time to factor.
+/// Elements that are closed at rest count as bonded to the ground. The error has the load factor with all elements bonded
+/// if this factor is below 1. `condensed` is the structure condensed on its base, if it exists. Its matrix takes much less
+/// time to factor.
 pub(crate) fn check(
     grounded: GroundedStructure<'_>,
     condensed: Option<&Assembled>,
@@ -172,9 +172,9 @@ impl<'a> GroundStiffness<'a> {
 
 /// Factored compliance for forces on some components of a contact vector.
 ///
-/// The static compliance of a half-plane is defined up to a uniform settlement. A structure that begins to buckle does
-/// not change the sum of its forces on the ground. A uniform compliance therefore does not change the load factor. It
-/// is added if the compliance is not positive definite otherwise.
+/// The static compliance of a half-plane is defined up to a uniform settlement. A structure that begins to buckle does not
+/// change the sum of its forces on the ground. A uniform compliance therefore does not change the load factor. It is added
+/// if the compliance is not positive definite otherwise.
 fn factored_compliance(
     grounded: GroundedStructure<'_>,
     contact_indices: &[usize],
