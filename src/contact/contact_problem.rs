@@ -74,7 +74,7 @@ pub struct ContactSolution<'a> {
     pub states: &'a [ContactState],
     /// Mode of each element.
     pub modes: &'a [Mode],
-    /// Number of linear solves of the mode search.
+    /// Number of trials of the mode search: linear solutions, and sweeps over the elements.
     pub trials: usize,
     /// Method that found the modes.
     pub method: SearchMethod,

@@ -10,8 +10,7 @@
 //!
 //! Measured errors of the settlement of columns relative to the middle of the base:
 //!
-//! * mat 20 m wide with two columns on the half-plane: a factor of 12 to 21 at ρ = 0.06, 136 to 500 % at 0.5, 2 to 51 %
-//!   at
+//! * mat 20 m wide with two columns on the half-plane: a factor of 12 to 21 at ρ = 0.06, 136 to 500 % at 0.5, 2 to 51 % at
 //!   3, and 0.3 to 0.5 % at 29, depending on the positions of the columns;
 //! * slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2, 0.9, 2.4 and 11;
 //! * walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times as many elements.

@@ -1,4 +1,4 @@
-/// Softest shape of a base with zero mean displacement on every element.
+//! Softest shape of a base with zero mean displacement on every element.
 //!
 //! Symbols: see `flexible_base.rs`.
 

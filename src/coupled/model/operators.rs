@@ -20,7 +20,9 @@ pub(crate) struct Operators {
     /// Tangent ∂f/∂u of the nonlinear force.
     pub(crate) tangent: SparseMatrix,
     factorization: StiffnessFactorization,
-    /// K_eff⁻¹BᵀA, stored column by column; not used after a change of the tangent of a large structure.
+    /// K_eff⁻¹BᵀA, stored column by column.
+    ///
+    /// It is not used after the tangent of a large structure has changed.
     pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,

@@ -101,7 +101,10 @@ pub struct State {
     pub free_field_across: f64,
     /// The energy balance; every term is NaN if the balance is omitted.
     pub energy_balance: EnergyBalance,
-    /// Number of linear solutions of the mode search.
+    /// Number of trials of the search for contact modes.
+    ///
+    /// In the plane a trial is a linear solution or a sweep over the elements, in plan a sweep or an iteration of
+    /// Newton's method.
     pub trials: usize,
     /// Method that solved the contact problem; for a nonlinear structure the slowest method of all iterations.
     pub method: SearchMethod,
