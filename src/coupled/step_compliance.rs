@@ -1,4 +1,4 @@
-//! Step compliance of a ground under a structure: a matrix, or a diagonal for a bed of springs.
+//! Step compliance of a ground: a matrix, or a diagonal for a bed of springs.
 
 use crate::bem::Ground;
 use crate::contact::MAX_STRUCTURE_RANK;
@@ -8,7 +8,7 @@ use crate::geometry::{Patch, check_count, lattice_cells};
 use crate::linalg::{CompressedMatrix, indefinite_pivot};
 use crate::structure::Structure;
 
-/// Number of contact elements from which the step compliance of a bed of springs is not stored as a matrix.
+/// Number of contact elements from which a bed of springs is not stored as a matrix.
 ///
 /// With fewer elements, matrices take less time.
 const MIN_BED_ELEMENTS: usize = 64;
@@ -37,7 +37,9 @@ pub(crate) fn step_compliance(
     compliance_matrix(ground, elements)
 }
 
-/// Diagonal of the step compliance of a bed, for tractions inside the outline; `None` for other scenes.
+/// Diagonal of the step compliance of a bed; `None` for other scenes.
+///
+/// It is for tractions inside the outline.
 fn bed_compliance(
     ground: &dyn Ground,
     structure: &dyn Structure,

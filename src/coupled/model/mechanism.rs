@@ -117,7 +117,9 @@ impl RegularisedStiffness {
         Self::on_springs(at_rest, 1.0)
     }
 
-    /// The stiffness at rest with springs under the contact nodes, `stiffness_ratio` times as stiff as its largest entry.
+    /// The stiffness at rest with springs under the contact nodes.
+    ///
+    /// The springs are `stiffness_ratio` times as stiff as the largest entry.
     pub(crate) fn on_springs<'a>(
         at_rest: &StructureAtRest<'a>,
         stiffness_ratio: f64,

@@ -33,7 +33,9 @@ pub(crate) fn pressures_above(scene: &Scene, masses: &[f64], gravity: f64) -> Ve
     pressures
 }
 
-/// Warning of the wall with the largest fraction of its thrust beyond the passive pressure of strong soil.
+/// Warning of a wall that presses beyond the passive pressure of strong soil.
+///
+/// It names the wall with the largest fraction of its thrust beyond that pressure.
 ///
 /// `pressures_above`: as returned by [`pressures_above`].
 pub(crate) fn wall_warning(

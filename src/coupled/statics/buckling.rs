@@ -26,7 +26,9 @@ const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
 const GROUND_COMPLIANCE_NAME: &str = "static compliance of the ground";
 /// Compliance of an element of a joint, relative to the largest entry of the ground's compliance.
 const CLOSED_JOINT_COMPLIANCE_RATIO: f64 = 1e-6;
-/// Uniform compliance that is added to a compliance without a datum, relative to the largest entry of the latter.
+/// Uniform compliance that is added to a compliance without a datum.
+///
+/// It is relative to the largest entry of that compliance.
 const UNIFORM_COMPLIANCE_FACTOR: f64 = 10.0;
 
 /// A structure on the static compliance of its ground.
@@ -111,9 +113,9 @@ fn is_stable_with_tangent(
         .is_ok_and(|stiffness| ground.is_stable_with(&stiffness))
 }
 
-/// Load factor up to 1 at which a structure with P–Δ becomes unstable, with all elements bonded to the ground.
+/// Load factor up to 1 at which a structure with P–Δ becomes unstable.
 ///
-/// `None` for a stable structure, and without P–Δ.
+/// All elements are bonded to the ground. `None` for a stable structure, and without P–Δ.
 pub(super) fn load_factor(grounded: GroundedStructure<'_>) -> Option<f64> {
     let GroundedStructure { assembled, structure, .. } = grounded;
     // A structure condensed on its base has other degrees of freedom.

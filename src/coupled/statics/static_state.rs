@@ -11,7 +11,9 @@ pub(crate) struct StaticState {
     layout: ContactLayout,
     /// Tractions of all contact components, Pa.
     pub(crate) traction: Vec<f64>,
-    /// Gap of each element, m: positive if uplifted, negative for a compressed layer, zero in hard contact.
+    /// Gap of each element, m.
+    ///
+    /// Positive if uplifted, negative for a compressed layer, zero in hard contact.
     pub(crate) gap: Vec<f64>,
     /// Displacement of the degrees of freedom, m and rad.
     pub(crate) displacement: Vec<f64>,
@@ -48,7 +50,9 @@ impl StaticState {
         }
     }
 
-    /// Contact modes at the start of the next static stage or of the run: closed elements stick.
+    /// Contact modes at the start of the next static stage or of the run.
+    ///
+    /// Closed elements stick.
     pub(crate) fn initial_modes(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {

@@ -23,7 +23,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{LatticeScratch, dot};
 use crate::structure::{InternalEnergy, Structure};
 
-/// The energy balance so far, and the data of the last step that the next step needs.
+/// The energy balance so far, with data of the last step for the next one.
 #[derive(Clone)]
 pub(crate) struct EnergyAccumulator {
     pub(crate) energy_balance: EnergyBalance,
@@ -147,7 +147,7 @@ impl EnergyAccumulator {
         energy_balance.largest = energy_balance.scale().max(static_energy);
     }
 
-    /// Energy of the static state in compliant interfaces, and in a nonlinear force that returns its energy.
+    /// Energy of the static state in compliant interfaces and the nonlinear force.
     ///
     /// The balance counts energies relative to the static state. Rounding of changes is proportional to this energy.
     fn static_energy(&self, scene: &Scene) -> f64 {
@@ -293,7 +293,7 @@ impl EnergyAccumulator {
         energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_energy;
     }
 
-    /// Adds the work of −M R ÿ between the middles of the last two steps, and of the loads.
+    /// Adds the work of −M R ÿ between the middles of the last two steps.
     ///
     /// ÿ = (Δy₁ − Δy₀)/Δt² at the time between the two steps.
     fn add_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {

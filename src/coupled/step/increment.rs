@@ -35,7 +35,7 @@ pub(crate) struct Increment {
     pub(crate) compliance: Vec<[f64; 2]>,
     /// State variables of the laws at the end.
     pub(crate) state_variables: Vec<f64>,
-    /// Number of linear solutions of the mode search.
+    /// Number of trials of the search for contact modes, as in `State::trials`.
     pub(crate) trials: usize,
     /// Last method of the mode search.
     pub(crate) method: SearchMethod,
@@ -78,7 +78,9 @@ impl Increment {
         }
     }
 
-    /// Computes the change of traction on the ground, without the tractions of the free field (empty on the surface).
+    /// Computes the change of traction on the ground.
+    ///
+    /// The tractions of the free field are subtracted; `free_traction` is empty on the surface.
     pub(crate) fn set_ground_traction(&mut self, scene: &Scene, free_traction: &[f64]) {
         let Self { traction, spread_traction, .. } = self;
         scene.base.copy_ground_part(traction, spread_traction);
