@@ -20,7 +20,7 @@ use crate::soil::Soil;
 
 /// Thickness of the layer over the height of the adjacent element [PS, eq. 13].
 const DEFAULT_THICKNESS_RATIO: f64 = 0.1;
-/// Fraction of the stiffness that remains in debonding, so that the stiffness matrix of debonded elements is regular.
+/// Fraction of the stiffness that keeps the stiffness matrix of debonded elements regular.
 const DEFAULT_DEBONDED_RATIO: f64 = 1e-3;
 
 /// Pressure from which a thin layer computes its friction limit.
@@ -36,7 +36,7 @@ pub enum FrictionLimit {
     Lagged,
     /// The pressure of the static state, throughout the run.
     Static,
-    /// The magnitude of the pressure change due to the shaking, at the end of the previous step.
+    /// The magnitude of the change of pressure from the static state to the end of the previous step.
     Dynamic,
 }
 
@@ -139,9 +139,10 @@ validated! {
 }
 
 impl ThinLayer {
-    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements of height `neighbour_height` (m).
+    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements.
     ///
-    /// The friction coefficient is zero or more; if it is infinite, nothing ever slides.
+    /// `neighbour_height`: height of these elements, m. The friction coefficient is zero or more; if it is infinite,
+    /// nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient that is NaN or negative.
@@ -227,7 +228,7 @@ impl ThinLayer {
         self.reference_stiffness.map(|stiffness| stiffness / self.thickness_ratio)
     }
 
-    /// Friction limit of the shear traction, Pa; `None` if it is infinite or depends on the pressure in the step.
+    /// Friction limit, Pa; `None` if it is infinite or depends on the pressure in the step.
     fn prescribed_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.friction_limit {
             FrictionLimit::Total => return None,
@@ -260,7 +261,7 @@ impl ThinLayer {
         }
     }
 
-    /// Slip (m) or slip velocity (m/s), as [`SlipSense`] defines, whose sign is compared with the direction of slip.
+    /// Quantity whose sign is compared with the direction of slip: slip (m) or slip velocity (m/s).
     fn slip_measure(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
         let slip_increment = trial.slip - start.state.slip;
         match self.slip_sense {
@@ -358,7 +359,7 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// No error: the constructors have checked the numbers. The default would reject a layer without limits.
+    /// Never returns an error; the default would reject a layer without limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }

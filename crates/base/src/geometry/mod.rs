@@ -1,5 +1,4 @@
-//! Geometry: contact elements and the order of their numbers, cells of a lattice, directions, and shapes of
-//! foundations.
+//! Geometry of contact elements, lattices, directions and foundations.
 
 mod direction;
 mod element;
@@ -94,7 +93,9 @@ impl ContactLayout {
         [index / self.elements, index % self.elements]
     }
 
-    /// The first N components of a contact vector, each for all elements; a short vector gives short slices.
+    /// The first N components of a contact vector, each for all elements.
+    ///
+    /// A short vector gives short slices.
     pub fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
         std::array::from_fn(|_| {
             let entry_count = self.elements.min(vector.len());
@@ -157,7 +158,9 @@ pub fn middle([low, high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// Name of the axis x (0) or y (1) in plan; `None` in the plane, which has one axis along the surface.
+/// Name of an axis along the surface in plan; `None` in the plane.
+///
+/// `axis`: 0 for x, 1 for y. The plane has only one axis along the surface.
 pub fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
 }
