@@ -364,9 +364,7 @@ impl InterfaceLaw for ThinLayer {
         Ok(())
     }
 
-    /// Limits in plan.
-    ///
-    /// Only a layer without traction in debonding has limits, and only with inelastic [`SlipSense`] and zero slip stiffness.
+    /// Limits in plan, for inelastic [`SlipSense`] without slip stiffness and traction in debonding.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let quantity = "thin layer in plan";
         if self.debonded_ratio > 0.0 {

@@ -82,7 +82,9 @@ impl ComplexBlock {
             .fold(0.0, f64::max)
     }
 
-    /// Subtracts Cᵀ M⁻¹ C from this symmetric matrix: eliminates the rows of the symmetric `pivot` M.
+    /// Subtracts Cᵀ M⁻¹ C from this symmetric matrix.
+    ///
+    /// This eliminates the rows of the symmetric `pivot` M.
     ///
     /// `coupling`: the block C, with the rows of M and the columns of this matrix. The result is symmetric to the last
     /// bit.

@@ -13,7 +13,9 @@ impl SparseMatrix {
         Some(values)
     }
 
-    /// Index of each entry in the pattern of another matrix; `None` if an entry is outside this pattern.
+    /// Index of each entry in the pattern of another matrix.
+    ///
+    /// `None` if an entry is outside this pattern.
     pub fn indices_in(&self, pattern: &Self) -> Option<Vec<usize>> {
         let mut indices = Vec::with_capacity(self.entry_count());
         for row in 0..self.order {

@@ -14,7 +14,9 @@ struct MirroredEntry {
 }
 
 impl SparseMatrix {
-    /// Whether the matrix is symmetric up to rounding, so that it may be factored as a symmetric one.
+    /// Whether the matrix is symmetric up to rounding.
+    ///
+    /// It may then be factored as a symmetric one.
     pub fn is_symmetric(&self) -> bool {
         self.asymmetry() <= MAX_ASYMMETRY
     }
@@ -69,7 +71,9 @@ impl SparseMatrix {
     }
 }
 
-/// Largest difference of mirrored entries relative to the largest entry, from the pairs of all stored entries.
+/// Largest difference of mirrored entries, relative to the largest entry.
+///
+/// `pairs`: those of all stored entries.
 fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let mut max_value = 0.0_f64;
     let mut max_difference = 0.0_f64;
@@ -80,7 +84,9 @@ fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     if max_value > 0.0 { max_difference / max_value } else { 0.0 }
 }
 
-/// Indices of mirrored entries in the pattern of a matrix, for its asymmetry whenever its values have changed.
+/// Indices of mirrored entries in the pattern of a matrix.
+///
+/// They give the asymmetry of the matrix whenever its values have changed.
 pub(super) struct MirroredPairs {
     /// Indices of an entry above the diagonal and of its mirrored entry.
     pairs: Vec<[usize; 2]>,

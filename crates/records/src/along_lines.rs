@@ -201,7 +201,9 @@ impl SeriesInLines {
         Ok(())
     }
 
-    /// Values of a line in the columns of a format; the numbers of successive cards must increase.
+    /// Values of a line in the columns of a format.
+    ///
+    /// The numbers of successive cards must increase.
     fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
         let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
         if let Some(card_number) = card.card_number {

@@ -53,7 +53,9 @@ impl FortranFormat {
         self.repeat
     }
 
-    /// Reads the numbers of a line in these columns; `None` if the line does not match them.
+    /// Reads the numbers of a line in these columns.
+    ///
+    /// `None` if the line does not match them.
     ///
     /// Only the number of a card may follow the columns.
     pub(super) fn read_card(self, line: &str) -> Option<Card> {

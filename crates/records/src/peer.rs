@@ -75,7 +75,9 @@ struct PeerHeader {
     time_step: f64,
 }
 
-/// Reads the lines of the header; an error unless they state that the accelerations are in g.
+/// Reads the lines of the header.
+///
+/// Returns an error unless they state that the accelerations are in g.
 fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
     let quantities = "number of points and time step (NPTS, DT)";
     let mut states_unit = false;
@@ -208,7 +210,9 @@ fn count_and_time_step(line: &str) -> FaultResult<Option<PeerHeader>> {
     Ok(header.map(|(sample_count, time_step)| PeerHeader { sample_count, time_step }))
 }
 
-/// The value of a key in `NPTS= 4, DT= .01 SEC`; `ORIGINAL DT` is another key than `DT`.
+/// The value of a key in `NPTS= 4, DT= .01 SEC`.
+///
+/// `ORIGINAL DT` is another key than `DT`.
 fn assigned_value(line: &str, key: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
     let mut pieces = line.split(['=', ':']).peekable();
     let mut stored_value = None;

@@ -14,7 +14,9 @@ use crate::error::{Observer, ProgressReporter, Result, damping_ratio, positive, 
 
 /// Smallest number of substeps in a period: peaks between substeps are then found to 2e-6.
 const MIN_SUBSTEPS_PER_PERIOD: f64 = 40.0;
-/// Largest number of substeps for one period, some seconds of work; a period that needs more is an error.
+/// Largest number of substeps for one period, some seconds of work.
+///
+/// A period that needs more is an error.
 const MAX_SUBSTEPS: f64 = 1e9;
 
 /// Number of substeps between two reports of progress, some milliseconds of work.

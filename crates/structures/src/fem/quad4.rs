@@ -311,7 +311,9 @@ impl Element for Quad4 {
 pub(super) const NODE_COORDINATES: [[f64; 2]; 4] =
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// Gauss points of the 2 × 2 rule in the order of the corners; all weights are 1.
+/// Gauss points of the 2 × 2 rule in the order of the corners.
+///
+/// All weights are 1.
 pub(super) fn gauss_points() -> [[f64; 2]; 4] {
     let gauss_coordinate = gauss::rule(2).nodes[1];
     NODE_COORDINATES.map(|[xi, eta]| [gauss_coordinate * xi, gauss_coordinate * eta])

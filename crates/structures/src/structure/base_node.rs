@@ -241,7 +241,9 @@ impl BaseNode {
         [self.x, self.y]
     }
 
-    /// Displacements to the right, upwards and away; the last one is empty for a node in the plane.
+    /// Displacements to the right, upwards and away.
+    ///
+    /// The last one is empty for a node in the plane.
     #[doc(hidden)]
     pub fn rows(&self) -> [&DofCombination; 3] {
         [&self.horizontal, &self.vertical, &self.across]
@@ -281,7 +283,9 @@ impl BaseNode {
     }
 }
 
-/// Largest positive value and its index, the first one of equal values; zero and index 0 without a positive value.
+/// Largest positive value and its index, the first one of equal values.
+///
+/// Both are zero without a positive value.
 fn largest_value(values: impl Iterator<Item = f64>) -> LargestValue {
     let mut largest = LargestValue { value: 0.0, index: 0 };
     for (index, value) in values.enumerate() {

@@ -200,7 +200,9 @@ struct LoopEnd {
 
 /// Largest number of Newton iterations, which converge from one side and finally quadratically.
 const MAX_NEWTON_ITERATIONS: usize = 60;
-/// Change of y ≤ 1 at which Newton's method has converged; it is the rounding of y.
+/// Change of y ≤ 1 at which Newton's method has converged.
+///
+/// It is the rounding of y.
 const UNLOADING_TOLERANCE: f64 = 1e-16;
 /// Relative change of v at which Newton's method has converged: a few roundings.
 const LOADING_TOLERANCE: f64 = 1e-15;
@@ -220,7 +222,9 @@ impl LoopShape {
         if y > 0.0 { 1.0 - power } else { 1.0 + self.unloading * power }
     }
 
-    /// End of a path of the length ξ = `path_length` from y = `start`; NaN for invalid arguments.
+    /// End of a path of the length ξ = `path_length` from y = `start`.
+    ///
+    /// NaN for invalid arguments.
     fn advance(&self, start: f64, path_length: f64) -> LoopEnd {
         if !(start.abs() <= 1.0 && path_length.is_finite()) {
             return LoopEnd { y: f64::NAN, lost_energy: f64::NAN };

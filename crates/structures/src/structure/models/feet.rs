@@ -5,7 +5,9 @@ use std::collections::{HashMap, HashSet};
 use crate::error::{Result, at_least, in_bounds, positive, require, require_part};
 use crate::fem::{Element, ElementFace, Mesh};
 
-/// Inward shift of a shell's corner, relative to its distance from the middle; it is far above rounding.
+/// Inward shift of a shell's corner, relative to its distance from the middle.
+///
+/// It is far above rounding.
 const INWARD_OFFSET_RATIO: f64 = 1e-6;
 
 /// A point of the base, at a distance below the node of the mesh with which it moves.
@@ -19,7 +21,9 @@ pub(super) struct Foot {
     pub(super) height: f64,
 }
 
-/// Feet of the `lines` of a base in the plane; each line lists its nodes from left to right.
+/// Feet of the `lines` of a base in the plane.
+///
+/// Each line lists its nodes from left to right.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) for a mesh in space, [`Error::Size`](crate::Error::Size) for fewer than two

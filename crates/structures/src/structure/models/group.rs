@@ -15,7 +15,9 @@ use crate::structure::{
 /// A structure of the group, and its base in the group.
 pub(super) struct Member {
     pub(super) structure: Box<dyn Structure>,
-    /// Base in coordinates and degrees of freedom of the group; without lines for a structure above others.
+    /// Base in coordinates and degrees of freedom of the group.
+    ///
+    /// It has no lines for a structure above others.
     base: Base,
     /// Shift to the right and upwards, m.
     pub(super) offset: [f64; 2],

@@ -212,7 +212,9 @@ impl InelasticElements {
         self.has_initial_stress
     }
 
-    /// States of the integration points of an element at the end of the last step; `None` for a linear element.
+    /// States of the integration points of an element at the end of the last step.
+    ///
+    /// `None` for a linear element.
     pub(super) fn points(&self, element_index: usize) -> Option<Result<Vec<SolidPoint>>> {
         let position = self.elements.binary_search_by_key(&element_index, |e| e.index).ok()?;
         Some(self.points_at(&self.elements[position], &self.committed_displacement))

@@ -85,7 +85,9 @@ impl FemModel {
         Ok(row)
     }
 
-    /// Nodes of a line with their parts of its segments; a node may occur more than once.
+    /// Nodes of a line with their parts of its segments.
+    ///
+    /// A node may occur more than once.
     fn weighted_nodes(&self, nodes: &[usize]) -> Result<Vec<WeightedNode>> {
         at_least("nodes of a loaded line", nodes.len(), 2)?;
         let mesh_nodes = self.mesh().nodes();

@@ -13,7 +13,9 @@ const MATRIX_NAME: &str = "stiffness matrix with the contact nodes fixed";
 ///
 /// Rounding leaves far less, unless the stiffness is nearly singular.
 const EQUILIBRIUM_TOLERANCE: f64 = 1e-6;
-/// Largest factor on the axial forces in the search for buckling; larger factors have no practical meaning.
+/// Largest factor on the axial forces in the search for buckling.
+///
+/// Larger factors have no practical meaning.
 const MAX_BUCKLING_FACTOR: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
 const BUCKLING_FACTOR_TOLERANCE: f64 = 1e-9;

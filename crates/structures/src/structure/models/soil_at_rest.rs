@@ -115,7 +115,9 @@ impl FemModel {
 }
 
 impl StructureGroup {
-    /// Mass of soil at rest of all members on the degrees of freedom of the group, kg; `None` without such soil.
+    /// Mass of soil at rest of all members on the degrees of freedom of the group, kg.
+    ///
+    /// `None` without such soil.
     pub(super) fn mass_of_soil_at_rest(&self) -> Result<Option<Vec<f64>>> {
         let mut masses = None;
         for member in &self.members {

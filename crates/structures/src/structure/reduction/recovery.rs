@@ -7,7 +7,9 @@ use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
 use crate::structure::DofCombination;
 use crate::structure::probe::Probe;
 
-/// Number of columns of A T that are computed together; a block of this size fits into the cache.
+/// Number of columns of A T that are computed together.
+///
+/// A block of this size fits into the cache.
 const COLUMNS_PER_BLOCK: usize = 16;
 
 /// The basis T of a reduction, u = T q.
