@@ -6,9 +6,9 @@ use crate::error::FileFault;
 ///
 /// Some stated durations are approximate; a wrong unit or time step causes a larger difference.
 const DURATION_TOLERANCE: f64 = 0.03;
-/// Largest ratio of a stated peak and the samples' peak that a change of the baseline may explain.
+/// Largest ratio of a stated peak and the samples' peak.
 ///
-/// The closest two units differ by a factor of 2.54.
+/// A change of the baseline may explain a ratio up to this one. The closest two units differ by a factor of 2.54.
 const MAX_PEAK_RATIO: f64 = 2.0;
 /// Largest relative difference of two printed numbers that counts as rounding.
 const PRINTED_NUMBER_TOLERANCE: f64 = 1e-3;

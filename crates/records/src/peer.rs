@@ -2,7 +2,7 @@
 //!
 //! Layout: Pacific Earthquake Engineering Research Center, *PEER Strong Motion Database* and *NGA-West2*
 //! (peer.berkeley.edu, `.AT2`): four lines of header, of which the third names the unit and the fourth number of points
-//! and time step, then five numbers a line as `5E15.7`; the headers of older files vary. Only the number of samples is
+//! and time step, then five numbers per line as `5E15.7`; the headers of older files vary. Only the number of samples is
 //! stated twice.
 
 use std::io::Read;

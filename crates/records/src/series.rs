@@ -12,7 +12,7 @@ pub(super) fn whole_sample_count(value: f64) -> Option<usize> {
     (value.fract() == 0.0 && (2.0..=1e9).contains(&value)).then_some(value as usize)
 }
 
-/// Error unless a file has the expected number of samples.
+/// Returns an error unless a file has the expected number of samples.
 pub(super) fn check_sample_count(
     lines: &Lines,
     sample_count: usize,

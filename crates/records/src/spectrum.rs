@@ -67,7 +67,7 @@ impl fmt::Display for CoarseSpectrum {
         let min_period = MIN_STEPS_PER_PERIOD * time_step;
         write!(
             f,
-            "below a period of {min_period:.3} s the spectrum is not exact, at {period:.3} s by far: the record has fewer \
+            "below a period of {min_period:.3} s the spectrum is not exact, least of all at {period:.3} s: the record has fewer \
              than ten time steps of {time_step} s in a period; a floor's spectrum needs a run with a shorter step"
         )
     }
