@@ -8,7 +8,9 @@ use crate::geometry::Direction;
 ///
 /// Rounding of the stiffness gives far less. Unbalanced forces would do work in a rigid rotation.
 const MAX_FORCE_IMBALANCE: f64 = 1e-8;
-/// Largest distance of nodes from a line on which they count as lying, relative to the radius of the element.
+/// Largest distance of nodes from a line, relative to the radius of the element.
+///
+/// Nodes up to this distance count as lying on the line.
 ///
 /// It is far above the rounding of coordinates.
 const MAX_DISTANCE_FROM_LINE: f64 = 1e-6;

@@ -241,11 +241,10 @@ impl Mesh {
         })
     }
 
-    /// Indices of the nodes at a `height`, within `tolerance` (m).
+    /// Indices of the nodes at a `height` (m), within `tolerance` (m).
     ///
-    /// The height is y in the plane and z in space, m.
-    ///
-    /// They are listed from left to right, in space at each x from front to back.
+    /// The height is y in the plane and z in space. Nodes are listed from left to right, in space at each x from front
+    /// to back.
     ///
     /// # Errors
     /// [`Error::Input`] unless `height` is finite and `tolerance` finite and not negative.

@@ -123,9 +123,10 @@ impl BaseNode {
         rotations
     }
 
-    /// Displacements along x, along y and up of a point that is rigidly connected to the base.
+    /// Displacements of a point that is rigidly connected to the base.
     ///
-    /// The point lies at `[x, y]` (m), `height` above the base, and moves with the plane that fits the nodes best.
+    /// They are along x, along y and up. The point lies at `[x, y]` (m), `height` above the base, and moves with the
+    /// plane that fits the nodes best.
     #[doc(hidden)]
     pub fn rigid_displacements(
         nodes: &[Self],
@@ -270,7 +271,9 @@ impl BaseNode {
         terms.filter(|(_, weight)| *weight != 0.0).map(|(dof, _)| *dof)
     }
 
-    /// Returns an error for a coordinate or weight that is not finite, or a degree of freedom of at least `dof_count`.
+    /// Returns an error for an invalid coordinate, weight or degree of freedom.
+    ///
+    /// Coordinates and weights must be finite, and degrees of freedom below `dof_count`.
     pub(super) fn check(&self, dof_count: usize) -> Result<()> {
         for coordinate in [self.x, self.y, self.z] {
             finite("coordinate of a contact node", coordinate)?;
@@ -312,7 +315,9 @@ fn largest_weight(row: &DofCombination) -> f64 {
     row.iter().fold(0.0_f64, |max, (_, weight)| max.max(weight.abs()))
 }
 
-/// Returns an error unless a contact node at `x` lies to the right of the previous node, at `previous_x`.
+/// Returns an error unless a contact node lies to the right of the previous one.
+///
+/// The nodes are at `x` and at `previous_x`.
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input).

@@ -180,7 +180,9 @@ impl Hysteresis for BoucWen {
     }
 }
 
-/// Shape of the hysteresis loop: y = ±z in the direction of a path, over the path length ξ = |d|/d_y.
+/// Shape of the hysteresis loop.
+///
+/// It is y over the path length ξ = |d|/d_y, where y = ±z in the direction of a path.
 ///
 /// dy/dξ = 1 − yⁿ while the spring loads (y > 0), and 1 + b |y|ⁿ while it unloads (y < 0).
 #[derive(Debug, Clone, PartialEq)]
@@ -258,7 +260,9 @@ impl LoopShape {
         (stored_energy - released_work).max(0.0)
     }
 
-    /// ∫₀^w sᵖ ds/(1 + b sⁿ): for p = 0 the path length of an unloading, for p = 1 its work.
+    /// ∫₀^w sᵖ ds/(1 + b sⁿ).
+    ///
+    /// For p = 0 it is the path length of an unloading, for p = 1 its work.
     fn unloading_integral(&self, w: f64, p: i32) -> f64 {
         let n = self.exponent;
         let b = self.unloading;

@@ -10,12 +10,14 @@ use crate::fem::{Element, ElementFace, Mesh};
 /// It is far above rounding.
 const INWARD_OFFSET_RATIO: f64 = 1e-6;
 
-/// A point of the base, at a distance below the node of the mesh with which it moves.
+/// A point of the base, below the node with which it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Foot {
     /// Index of the node.
     pub(super) node: usize,
-    /// Distance of the point below the node, m: half the thickness of a shell, whose underside is the base.
+    /// Distance of the point below the node, m.
+    ///
+    /// It is half the thickness of a shell, whose underside is the base.
     pub(super) depth: f64,
     /// Height of the point above the surface, m.
     pub(super) height: f64,

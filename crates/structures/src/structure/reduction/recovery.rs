@@ -99,7 +99,9 @@ impl Recovery {
         &self.basis.kept
     }
 
-    /// Converts a weighted sum of the full model's degrees of freedom to the reduced model's, for a spring.
+    /// Converts a sum of the full model's degrees of freedom to the reduced model's.
+    ///
+    /// Springs and probes of the reduced model need such sums.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have,
