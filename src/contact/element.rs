@@ -15,7 +15,7 @@ pub(super) fn local_mode(
 ) -> LawResult<Mode> {
     let layout = response.layout;
     let size = layout.len();
-    let [n, t] = layout.places(e);
+    let [n, t] = layout.indices_of(e);
     let rows = [n, t].map(|i| &input.delassus[i * size..(i + 1) * size]);
     // Jump without the change of traction on this element.
     let mut jump = [0.0; 2];

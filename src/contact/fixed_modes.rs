@@ -153,7 +153,7 @@ impl ContactModeSolver {
             for (component, column) in columns.iter_mut().enumerate() {
                 if !fixed_components.contains(&Some(component)) {
                     *column = Some(self.dofs.len());
-                    self.dofs.push(self.response.layout.place(component, element));
+                    self.dofs.push(self.response.layout.index_of(component, element));
                 }
             }
             for (condition, fixed_component) in fixed_components.iter().enumerate() {
@@ -175,7 +175,7 @@ impl ContactModeSolver {
         for row in rows {
             let condition = &conditions[row.element][row.condition];
             let [gaps, slips] =
-                layout.places(row.element).map(|place| &input.delassus[place * size..][..size]);
+                layout.indices_of(row.element).map(|place| &input.delassus[place * size..][..size]);
             let row_start = matrix.len();
             // Most conditions contain a gap or a slip alone.
             let gap = condition.gap;
@@ -214,7 +214,7 @@ impl ContactModeSolver {
         for (e, element_conditions) in self.conditions.iter().enumerate() {
             for condition in element_conditions {
                 if let Some(component) = condition.fixed_component() {
-                    let i = layout.place(component, e);
+                    let i = layout.index_of(component, e);
                     let total_traction = condition.value / (condition.pressure + condition.shear);
                     traction[i] = total_traction - input.static_traction[i];
                 }
@@ -228,7 +228,7 @@ impl ContactModeSolver {
         self.rhs.clear();
         for row in &self.rows {
             let condition = self.conditions[row.element][row.condition];
-            let [n, t] = layout.places(row.element);
+            let [n, t] = layout.indices_of(row.element);
             let fixed_traction_term = condition.gap * jump[n] - condition.slip * jump[t]
                 + condition.pressure * (input.static_traction[n] + traction[n])
                 + condition.shear * (input.static_traction[t] + traction[t]);

@@ -192,7 +192,7 @@ impl Path {
         let size = layout.len();
         let mut max_pressure = 0.0_f64;
         for e in 0..modes.len() {
-            for i in layout.places::<COMPONENTS_IN_PLANE>(e) {
+            for i in layout.indices_of::<COMPONENTS_IN_PLANE>(e) {
                 let pressure = input.free_jump[i].abs() / input.delassus[i * (size + 1)];
                 max_pressure = max_pressure.max(pressure);
             }
@@ -225,7 +225,7 @@ impl Path {
                 *mode = next_mode;
                 target = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..target };
             }
-            let [n, t] = layout.places(e);
+            let [n, t] = layout.indices_of(e);
             change[n] += target.pressure;
             change[t] += target.shear;
             self.covering_jump[n] = target.gap;

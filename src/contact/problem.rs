@@ -197,10 +197,10 @@ impl ContactResponse {
         let is_plan = layout.is_plan();
         for (e, state) in states.iter_mut().enumerate() {
             let total_traction = |component| {
-                let i = layout.place(component, e);
+                let i = layout.index_of(component, e);
                 input.static_traction[i] + traction[i]
             };
-            let jump = |component| jump[layout.place(component, e)];
+            let jump = |component| jump[layout.index_of(component, e)];
             *state = ContactState::from_components(jump, total_traction, is_plan);
         }
     }

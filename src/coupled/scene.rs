@@ -16,7 +16,7 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{CompressedMatrix, mixing_sum};
 use crate::structure::Probe;
 
@@ -77,9 +77,9 @@ impl SteppedProbe {
         if probe.absolute {
             for part in model.influence.parts() {
                 rigid_displacements.push(
-                    part.vectors
-                        .each_ref()
-                        .map(|vector| weights[0].value(&spread(vector, model.coordinate_count))),
+                    part.vectors.each_ref().map(|vector| {
+                        weights[0].value(&dense_vector(vector, model.coordinate_count))
+                    }),
                 );
             }
         }

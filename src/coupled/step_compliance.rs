@@ -85,7 +85,8 @@ fn compliance_matrix(ground: &dyn Ground, elements: &Patch) -> Result<Compressed
     ground.step_compliance(&mut compliance)?;
     elements.refer_inside(&mut compliance);
     all_finite(STEP_COMPLIANCE_NAME, &compliance)?;
-    let row_areas: Vec<f64> = (0..order).map(|row| areas[layout.origin(row)[1]]).collect();
+    let row_areas: Vec<f64> =
+        (0..order).map(|row| areas[layout.component_and_element(row)[1]]).collect();
     let mut scale = vec![1.0; order];
     for row in 0..order {
         let root = (row_areas[row] * compliance[row * (order + 1)].abs()).sqrt();

@@ -135,7 +135,7 @@ pub fn rule(order: usize) -> &'static Rule {
 }
 
 /// The cached rule with the most points, 26: it is exact for polynomials up to degree 51.
-pub fn largest() -> &'static Rule {
+pub fn largest_rule() -> &'static Rule {
     &rules()[CACHED_ORDERS.len() - 1]
 }
 

@@ -18,7 +18,7 @@ pub fn check_order(quantity: &'static str, order: usize) -> std::result::Result<
 /// Dense vector of (degree of freedom, weight) terms.
 ///
 /// Terms at the same degree of freedom are summed.
-pub fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
+pub fn dense_vector(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
     let mut weights = vec![0.0; length];
     for &(i, weight) in terms {
         weights[i] += weight;

@@ -289,11 +289,11 @@ pub fn mixing_sum(values: &[f64]) -> f64 {
     values.iter().enumerate().map(|(k, value)| mixing_weight(k) * value).sum()
 }
 
-/// Number of independent sums in [`magnitude`]: consecutive additions to one sum cannot overlap.
+/// Number of independent sums in [`magnitude_sum`]: consecutive additions to one sum cannot overlap.
 const MAGNITUDE_SUMS: usize = 8;
 
 /// Sum of magnitudes, Σ |xᵢ|.
-pub fn magnitude(x: &[f64]) -> f64 {
+pub fn magnitude_sum(x: &[f64]) -> f64 {
     let chunks = x.chunks_exact(MAGNITUDE_SUMS);
     let mut sums = [0.0; MAGNITUDE_SUMS];
     let tail: f64 = chunks.remainder().iter().map(|x| x.abs()).sum();

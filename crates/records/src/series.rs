@@ -68,5 +68,5 @@ pub(super) fn select_component(
     let components = components?;
     let component_count = components.len();
     let selected = number.checked_sub(1).and_then(|index| components.into_iter().nth(index));
-    selected.ok_or_else(|| (0, out_of_range("channel", component_count, number)))
+    selected.ok_or_else(|| (0, out_of_range("component", component_count, number)))
 }

@@ -265,7 +265,7 @@ impl ForceSearch {
             // The total traction of an element without force is exactly zero.
             *traction = match problem.force(i) {
                 0.0 => -input.static_traction[i],
-                _ => problem.force_change[i] / areas[layout.origin(i)[1]],
+                _ => problem.force_change[i] / areas[layout.component_and_element(i)[1]],
             };
         }
         StepError::check_finite("contact traction", &response.traction)

@@ -80,7 +80,7 @@ impl ModeSearch {
     fn set_present_tractions(&mut self, input: &ContactInput<'_>) {
         let ContactResponse { layout, traction, .. } = &mut self.solver.response;
         for (i, traction) in traction.iter_mut().enumerate() {
-            let [component, e] = layout.origin(i);
+            let [component, e] = layout.component_and_element(i);
             *traction = input.start.state(e).traction()[component] - input.static_traction[i];
         }
     }

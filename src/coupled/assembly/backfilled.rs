@@ -148,7 +148,7 @@ pub(super) fn traction_at_rest(
     let division_count = elements.len() / parts.elements.len();
     for e in (0..pressures.len() * division_count).filter(|e| includes_floor || !floor.contains(e))
     {
-        traction[layout.place(0, e)] = parts.builder.gravity * pressures[e / division_count];
+        traction[layout.index_of(0, e)] = parts.builder.gravity * pressures[e / division_count];
     }
     Ok(traction)
 }
@@ -156,5 +156,5 @@ pub(super) fn traction_at_rest(
 /// Indices of all components of some elements in a contact vector.
 fn contact_indices(layout: ContactLayout, elements: &[usize]) -> impl Iterator<Item = usize> {
     (0..layout.components())
-        .flat_map(move |component| elements.iter().map(move |e| layout.place(component, *e)))
+        .flat_map(move |component| elements.iter().map(move |e| layout.index_of(component, *e)))
 }

@@ -31,7 +31,7 @@ use crate::coupled::statics::compliance::{Compliance, ShiftedStiffnessFactor, in
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{ContactElement, axis_name, enclosing_interval, min_interval_count};
-use crate::linalg::{dot, magnitude};
+use crate::linalg::{dot, magnitude_sum};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
@@ -285,12 +285,12 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
     ];
     let mut norm = 0.0;
     for mut column in columns {
-        let initial_norm = magnitude(&column);
+        let initial_norm = magnitude_sum(&column);
         for direction in basis.iter().chain(&basis) {
             let component = dot(direction, &column);
             column.iter_mut().zip(direction).for_each(|(x, unit)| *x -= component * unit);
         }
-        norm = magnitude(&column);
+        norm = magnitude_sum(&column);
         if norm > PROJECTION_ROUNDING_TOLERANCE * initial_norm {
             basis.push(column.iter().map(|x| x / norm).collect());
         } else {

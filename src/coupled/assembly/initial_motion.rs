@@ -72,10 +72,10 @@ fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) ->
     } else {
         let mut previous_contacts = Vec::with_capacity(scene.element_count());
         for (e, (contact, mode)) in state.elements_mut().enumerate() {
-            contact.gap = scene.base.initial_gap(e) - displacement[layout.place(0, e)];
-            contact.slip = displacement[layout.place(1, e)];
+            contact.gap = scene.base.initial_gap(e) - displacement[layout.index_of(0, e)];
+            contact.slip = displacement[layout.index_of(1, e)];
             if layout.components() > 2 {
-                contact.slip_across = displacement[layout.place(2, e)];
+                contact.slip_across = displacement[layout.index_of(2, e)];
             }
             let quantity = "gap of an element under the initial displacement, m";
             require(quantity, contact.gap, contact.gap >= -gap_tolerance, "zero or more")?;

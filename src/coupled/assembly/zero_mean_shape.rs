@@ -94,7 +94,7 @@ impl ZeroMeanShape {
         let mut deviation_springs = Triplets::new(dofs);
         for (point, rows) in base.deviations() {
             for (component, row) in rows.iter().enumerate() {
-                let modulus = moduli[layout.place(component, point.element)];
+                let modulus = moduli[layout.index_of(component, point.element)];
                 deviation_springs.add_outer(row, modulus * point.area);
             }
         }
@@ -146,7 +146,7 @@ fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize
         let face = faces(base).position(|(.., elements)| elements.contains(&point.element));
         for (component, row) in rows.iter().enumerate() {
             let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
-            let modulus = moduli[base.layout().place(component, point.element)];
+            let modulus = moduli[base.layout().index_of(component, point.element)];
             energies[face.unwrap_or(0)] += modulus * point.area * value * value;
         }
     }
@@ -188,7 +188,7 @@ fn soil_moduli(
     let faces: Vec<_> = faces(base).map(|(.., elements)| elements).collect();
     let mut moduli = Vec::with_capacity(layout.len());
     for i in 0..layout.len() {
-        let [component, e] = layout.origin(i);
+        let [component, e] = layout.component_and_element(i);
         let face = faces.iter().position(|elements| elements.contains(&e));
         let face_elements = face.map_or(e..e + 1, |face| faces[face].clone());
         let neighbours = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
@@ -223,17 +223,17 @@ fn alternating_compliance(
 ) -> f64 {
     let order = base.layout().len();
     let row = |element: usize| {
-        &ground_compliance[base.layout().place(component, element) * order..][..order]
+        &ground_compliance[base.layout().index_of(component, element) * order..][..order]
     };
-    let i = base.layout().place(component, elements[0]);
-    let j = base.layout().place(component, elements[1]);
+    let i = base.layout().index_of(component, elements[0]);
+    let j = base.layout().index_of(component, elements[1]);
     0.5 * (row(elements[0])[i] + row(elements[1])[j] - row(elements[0])[j] - row(elements[1])[i])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::magnitude;
+    use crate::linalg::magnitude_sum;
     use basemat_testkit::random::Random;
 
     /// REFERENCE: the matrix with the springs that fix the means.
@@ -288,7 +288,7 @@ mod tests {
             computed
                 .iter()
                 .zip(&expected)
-                .all(|(a, b)| (a - b).abs() < 1e-8 * magnitude(&expected))
+                .all(|(a, b)| (a - b).abs() < 1e-8 * magnitude_sum(&expected))
         );
     }
 }

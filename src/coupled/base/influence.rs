@@ -8,7 +8,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::SparseVector;
 use crate::error::{Error, Result};
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::structure::BaseNode;
 
 /// The influence vectors of all connected parts.
@@ -141,7 +141,7 @@ impl Influence {
             for e in joint.elements.clone() {
                 let values = base.element(e).components([right, along_y, up]);
                 for (component, value) in (0..layout.components()).zip(values) {
-                    distortion[layout.place(component, e)] = value;
+                    distortion[layout.index_of(component, e)] = value;
                 }
             }
         }
@@ -186,7 +186,7 @@ impl Influence {
     pub(crate) fn part_vectors(&self, dofs: usize) -> Vec<f64> {
         let vectors = self.parts.iter().flat_map(|part| &part.vectors);
         let nonempty_vectors = vectors.filter(|vector| !vector.is_empty());
-        nonempty_vectors.flat_map(|vector| spread(vector, dofs)).collect()
+        nonempty_vectors.flat_map(|vector| dense_vector(vector, dofs)).collect()
     }
 
     /// The vectors of the whole structure for all directions, with `dofs` entries each.
@@ -270,7 +270,7 @@ impl ConnectedPart {
         for &e in self.elements() {
             let values = base.elements()[e].components([right, along_y, up]);
             for (component, value) in (0..layout.components()).zip(values) {
-                displacement[layout.place(component, e)] -= value;
+                displacement[layout.index_of(component, e)] -= value;
             }
         }
     }

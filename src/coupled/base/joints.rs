@@ -35,7 +35,7 @@ impl PlacedBase {
         for joint in &self.joints {
             for (e, components) in joint.elements.clone().zip(element_rows(&joint.line)) {
                 for (component, row) in components.into_iter().enumerate() {
-                    rows[self.layout.place(component, e)] = row;
+                    rows[self.layout.index_of(component, e)] = row;
                 }
             }
             self.areas.extend(joint.line.elements().iter().map(ContactElement::area));
@@ -84,8 +84,8 @@ impl PlacedBase {
 
     /// Index in a contact vector of an entry of the ground's elements.
     fn contact_index(&self, ground_index: usize) -> usize {
-        let [component, element] = self.elements.layout().origin(ground_index);
-        self.layout.place(component, element)
+        let [component, element] = self.elements.layout().component_and_element(ground_index);
+        self.layout.index_of(component, element)
     }
 
     /// Copies the entries of the ground's elements out of a contact vector.

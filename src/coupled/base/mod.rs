@@ -124,7 +124,7 @@ impl PlacedBase {
         for (e, element_weights) in weights.into_iter().enumerate() {
             let means = element_components(&nodes, &element_weights, &elements[e]);
             for (component, terms) in means.into_iter().enumerate() {
-                rows[layout.place(component, e)] = terms;
+                rows[layout.index_of(component, e)] = terms;
             }
         }
         Self {
@@ -156,7 +156,7 @@ impl PlacedBase {
                 &self.elements[point.element],
             );
             for (component, terms) in rows.iter_mut().enumerate() {
-                accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
+                accumulate(terms, &self.mean_row(layout.index_of(component, point.element)), -1.0);
             }
             (point, rows)
         })
@@ -243,7 +243,7 @@ impl PlacedBase {
 
     /// Area of the element of contact component `i`, m²; in the plane its length, m.
     pub(crate) fn area(&self, i: usize) -> f64 {
-        self.areas()[self.layout().origin(i)[1]]
+        self.areas()[self.layout().component_and_element(i)[1]]
     }
 
     /// Writes the element means B u to `out`.
@@ -263,7 +263,7 @@ impl PlacedBase {
         let layout = self.layout();
         let mut components = [0.0; 3];
         for (component, value) in components.iter_mut().take(layout.components()).enumerate() {
-            *value = displacement[layout.place(component, e)];
+            *value = displacement[layout.index_of(component, e)];
         }
         let vector = self.element(e).vector(components);
         [vector[0], vector[2], vector[1]]

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::linalg::matrix::{SparseMatrix, spread};
+use crate::linalg::matrix::{SparseMatrix, dense_vector};
 use crate::linalg::{dense_multiply_add, dot, largest, transposed_multiply_add};
 use crate::structure::DofCombination;
 
@@ -248,7 +248,7 @@ impl ModalBasis {
         vector: &[(usize, f64)],
         mass: &SparseMatrix,
     ) -> Vec<(usize, f64)> {
-        let coordinates = self.coordinates(&spread(vector, mass.order()), mass);
+        let coordinates = self.coordinates(&dense_vector(vector, mass.order()), mass);
         let rounding = RIGID_COORDINATE_ROUNDING * largest(&coordinates);
         let mut rigid_terms = Vec::new();
         for (j, (q, stiffness)) in coordinates.into_iter().zip(&self.stiffness).enumerate() {

@@ -17,7 +17,7 @@ use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
 use crate::error::{Error, Result, at_least};
 use crate::geometry::Patch;
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, SpringSupportedBase, Structure, StructureError, Tangent, Triplets, check_attached,
@@ -226,7 +226,7 @@ impl Assembled {
         let parts = self.influence.parts().iter();
         let vectors = parts.flat_map(|part| [&part.vectors[0], &part.vectors[2]]);
         let rates = vectors.filter(|vector| !vector.is_empty()).map(|vector| {
-            let translation = spread(vector, self.dofs());
+            let translation = dense_vector(vector, self.dofs());
             let quadratic_form = |matrix: &SparseMatrix| matrix.form(&translation, &translation);
             quadratic_form(&self.damping) / quadratic_form(&self.mass)
         });

@@ -41,7 +41,7 @@ pub(crate) fn with_joint_compliance(
     ratio: f64,
 ) -> CompressedMatrix {
     let layout = base.layout();
-    let is_joint = |i: &usize| layout.origin(*i)[1] >= base.elements().len();
+    let is_joint = |i: &usize| layout.component_and_element(*i)[1] >= base.elements().len();
     let indices: Vec<usize> = (0..layout.len()).filter(is_joint).collect();
     let mut responses = vec![0.0; indices.len() * dofs];
     let mut unit_traction = vec![0.0; layout.len()];

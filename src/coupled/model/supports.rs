@@ -28,7 +28,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
 use crate::error::{Error, Result, StructureError, require, require_part};
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{NEGLIGIBLE_SQUARED_FREQUENCY, Structure, Tangent};
 
@@ -125,7 +125,7 @@ pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize)
         + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
-            base.means(&spread(vector, dofs), &mut means);
+            base.means(&dense_vector(vector, dofs), &mut means);
             for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
                 let mean = base.element_displacement(e, &means)[direction];
                 if (mean - 1.0).abs() > tolerance {
@@ -192,7 +192,7 @@ pub(crate) fn parts_connected_by_force(
     if parts.len() > 1 {
         for (part, is_connected) in parts.iter().zip(&mut is_connected) {
             for vector in &part.vectors {
-                *is_connected |= find_resistance(&spread(vector, dofs))?.is_some();
+                *is_connected |= find_resistance(&dense_vector(vector, dofs))?.is_some();
             }
         }
     }

@@ -110,7 +110,7 @@ impl Sampler<'_> {
             let samples = [-1.5, -0.5, 0.5, 1.5].map(|shift| {
                 self.ground.free_field(self.motion, time + shift * interval, &mut field);
                 let sample: [f64; COMPONENTS_IN_SPACE] = std::array::from_fn(|k| {
-                    field.get(layout.place(k, elements.len() / 2)).copied().unwrap_or(0.0)
+                    field.get(layout.index_of(k, elements.len() / 2)).copied().unwrap_or(0.0)
                 });
                 sample
             });

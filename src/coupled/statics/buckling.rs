@@ -133,8 +133,9 @@ impl<'a> GroundStiffness<'a> {
         let assembled = grounded.assembled;
         let base = &assembled.base;
         let layout = base.layout();
-        let contact_indices: Vec<usize> =
-            (0..layout.len()).filter(|index| is_closed(layout.origin(*index)[1])).collect();
+        let contact_indices: Vec<usize> = (0..layout.len())
+            .filter(|index| is_closed(layout.component_and_element(*index)[1]))
+            .collect();
         let factor = factored_compliance(grounded, &contact_indices)?;
         let dofs = base.dofs();
         // Rows of Bᵀ.
@@ -193,7 +194,7 @@ fn factored_compliance(
     };
     let mut compliance = Triplets::new(contact_indices.len());
     for (row, &i) in contact_indices.iter().enumerate() {
-        let [component, element] = layout.origin(i);
+        let [component, element] = layout.component_and_element(i);
         let law_compliance = compliance_at_rest(law_of(laws, element))[component.min(1)];
         compliance.add(row, row, law_compliance / base.area(i));
         let has_diagonal = ground_compliance.as_diagonal().is_some();
@@ -210,7 +211,7 @@ fn factored_compliance(
     let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
     // The compliance of hard contact between bodies is zero.
     for (row, &i) in contact_indices.iter().enumerate() {
-        if layout.origin(i)[1] >= base.elements().len() {
+        if layout.component_and_element(i)[1] >= base.elements().len() {
             compliance.add(row, row, CLOSED_JOINT_COMPLIANCE_RATIO * max_entry);
         }
     }

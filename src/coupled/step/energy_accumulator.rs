@@ -19,7 +19,7 @@ use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
 use crate::coupled::step::joint_losses::JointLosses;
 use crate::error::LawError;
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{LatticeScratch, dot};
 use crate::structure::{InternalEnergy, Structure};
 
@@ -89,7 +89,7 @@ impl EnergyAccumulator {
         let mut mass = Vec::new();
         for part in parts {
             let products = part.vectors.each_ref().map(|vector| {
-                let translation = spread(vector, coordinates);
+                let translation = dense_vector(vector, coordinates);
                 let mut product = vec![0.0; coordinates];
                 scene.model.mass.multiply_add(1.0, &translation, &mut product);
                 (dot(&translation, &product), product)
@@ -154,7 +154,7 @@ impl EnergyAccumulator {
         let static_state = &scene.static_state;
         let layout = scene.layout();
         let interface_energies = static_state.traction.iter().enumerate().map(|(i, traction)| {
-            let [component, e] = layout.origin(i);
+            let [component, e] = layout.component_and_element(i);
             let compliance = self.compliance.get(e).map_or(0.0, |c| c[component.min(1)]);
             0.5 * scene.base.area(i) * compliance * traction * traction
         });
@@ -331,7 +331,7 @@ impl EnergyAccumulator {
         let joint_losses = &mut self.joint_losses;
         let error_bound = ground.increment_error_bound();
         for i in 0..layout.len() {
-            let [k, e] = layout.origin(i);
+            let [k, e] = layout.component_and_element(i);
             let area = scene.base.area(i);
             let change = increment.traction[i];
             let static_traction = scene.static_state.traction[i];

@@ -89,8 +89,8 @@ impl Increment {
         }
         let ground_layout = scene.base.elements().layout();
         for (i, value) in spread_traction.iter_mut().enumerate() {
-            let [component, e] = ground_layout.origin(i);
-            *value -= free_traction[scene.layout().place(component, e)];
+            let [component, e] = ground_layout.component_and_element(i);
+            *value -= free_traction[scene.layout().index_of(component, e)];
         }
     }
 

@@ -79,17 +79,17 @@ impl ContactLayout {
     }
 
     /// Index in a contact vector of a component (0: the normal one) of `element`.
-    pub const fn place(self, component: usize, element: usize) -> usize {
+    pub const fn index_of(self, component: usize, element: usize) -> usize {
         component * self.elements + element
     }
 
     /// Indices in a contact vector of the first N components of `element`.
-    pub fn places<const N: usize>(self, element: usize) -> [usize; N] {
-        std::array::from_fn(|component| self.place(component, element))
+    pub fn indices_of<const N: usize>(self, element: usize) -> [usize; N] {
+        std::array::from_fn(|component| self.index_of(component, element))
     }
 
     /// Component and element of an index in a contact vector.
-    pub const fn origin(self, index: usize) -> [usize; 2] {
+    pub const fn component_and_element(self, index: usize) -> [usize; 2] {
         [index / self.elements, index % self.elements]
     }
 

@@ -182,8 +182,8 @@ fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])
         let mut slices: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
         fill(pair.class, &mut slices);
         for term in terms {
-            let row = layout.place(term.components[0], receiver);
-            let column = layout.place(term.components[1], source);
+            let row = layout.index_of(term.components[0], receiver);
+            let column = layout.index_of(term.components[1], source);
             let lags = lags[term.kind].iter().enumerate();
             let sum: f64 = lags.map(|(n, lag)| lag * (0.3 * n as f64).cos()).sum();
             matrix[row * layout.len() + column] = sum * term.factor * pair.scale;

@@ -357,7 +357,7 @@ fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     }
     let middle = 0.5 * (low + high);
     let half_width = 0.5 * (high - low);
-    let rule = gauss::largest();
+    let rule = gauss::largest_rule();
     let points = rule.nodes.iter().zip(&rule.weights);
     half_width * points.map(|(x, weight)| weight * f(middle + half_width * x)).sum::<f64>()
 }
