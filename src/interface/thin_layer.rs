@@ -261,15 +261,23 @@ impl ThinLayer {
         }
     }
 
-    /// Quantity whose sign is compared with the direction of slip: slip (m) or slip velocity (m/s).
-    fn slip_measure(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
+    /// Whether slip in this direction ends, as [`SlipSense`] defines; `tolerance` is a slip, m.
+    fn ends_slip(
+        &self,
+        direction: f64,
+        start: &PreviousContact,
+        trial: &ContactState,
+        tolerance: f64,
+    ) -> bool {
         let slip_increment = trial.slip - start.state.slip;
         match self.slip_sense {
             SlipSense::Inelastic => {
-                slip_increment - (trial.shear - start.state.shear) / self.stiffness()[1]
+                let elastic_increment = (trial.shear - start.state.shear) / self.stiffness()[1];
+                direction * (slip_increment - elastic_increment) < -tolerance
             }
-            SlipSense::Velocity => slip_increment,
-            SlipSense::LastVelocity => start.slip_rate,
+            SlipSense::Velocity => direction * slip_increment < -tolerance,
+            // The velocity of the previous step does not change with the trial, so that it needs no tolerance.
+            SlipSense::LastVelocity => direction * start.slip_rate < 0.0,
         }
     }
 }
@@ -328,7 +336,7 @@ impl InterfaceLaw for ThinLayer {
                 mode
             } else if is_shear_from_pressure && direction * trial.shear < -traction_tolerance {
                 Mode::Open
-            } else if direction * self.slip_measure(start, trial) < -slip_tolerance {
+            } else if self.ends_slip(direction, start, trial, slip_tolerance) {
                 Mode::Stick
             } else {
                 mode

@@ -1,6 +1,5 @@
 //! W in the form whose products take the least time, chosen when W is read.
 
-use super::dense_lattice::DenseLattice;
 use super::low_rank::LowRankCompliance;
 use super::near_field::NearFieldBlocks;
 
@@ -15,8 +14,6 @@ pub(super) enum ComplianceForm {
     Entries,
     /// Elements on a lattice; a force on one moves few others much.
     NearField(Box<NearFieldBlocks>),
-    /// Elements on a lattice; a force on one moves most others much.
-    DenseLattice(Box<DenseLattice>),
     /// Independent elements under a structure with few modes; no entries are stored.
     LowRank(Box<LowRankCompliance>),
 }

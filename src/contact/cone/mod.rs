@@ -28,7 +28,6 @@
 mod acceleration;
 mod bounds;
 mod compliance;
-mod dense_lattice;
 mod group;
 mod low_rank;
 mod low_rank_system;

@@ -149,19 +149,11 @@ impl ConeProblem {
 
     /// Allocates the acceleration of sweeps, for many elements without a near field.
     pub(super) fn prepare_acceleration(&mut self) {
-        let displacement_count = match &self.form {
-            ComplianceForm::DenseLattice(lattice) => lattice.response_count(),
-            _ => self.component_count(),
-        };
         let has_near_field = self.form.near_field().is_some();
         if has_near_field || self.element_count < MIN_ELEMENTS_FOR_ACCELERATION {
             self.acceleration = None;
-        } else if self
-            .acceleration
-            .as_ref()
-            .is_none_or(|stored| stored.displacement_count() != displacement_count)
-        {
-            self.acceleration = Some(Acceleration::new(self.component_count(), displacement_count));
+        } else if self.acceleration.is_none() {
+            self.acceleration = Some(Acceleration::new(self.component_count()));
         }
     }
 
@@ -182,7 +174,7 @@ impl ConeProblem {
 
     /// Computes y for the present r.
     pub(super) fn update_displacements(&mut self) {
-        let Self { w, form, added_diagonal, q, force_change, y, element_count, .. } = self;
+        let Self { w, form, added_diagonal, q, force_change, y, .. } = self;
         match form {
             ComplianceForm::Entries => {
                 y.copy_from_slice(q);
@@ -191,16 +183,6 @@ impl ConeProblem {
             ComplianceForm::NearField(blocks) => {
                 blocks.update_displacements(force_change);
                 self.copy_near_field_displacements();
-            }
-            ComplianceForm::DenseLattice(lattice) => {
-                lattice.update_displacements(force_change);
-                for e in 0..*element_count {
-                    let indices = [e, *element_count + e, 2 * *element_count + e];
-                    let displacement = lattice.displacement(e, indices.map(|i| force_change[i]));
-                    for (i, displacement) in indices.into_iter().zip(displacement) {
-                        y[i] = q[i] + *added_diagonal * force_change[i] + displacement;
-                    }
-                }
             }
             ComplianceForm::LowRank(low_rank) => {
                 low_rank.update_displacements(force_change, q, *added_diagonal, y);

@@ -4,7 +4,6 @@
 
 use super::ForceSearch;
 use super::compliance::ComplianceForm;
-use super::dense_lattice::DenseLattice;
 use super::near_field::NearFieldBlocks;
 use super::newton::Newton;
 use super::problem::{Bounds, ConeProblem};
@@ -152,7 +151,7 @@ impl ForceSearch {
         }
         problem.update_scales();
         problem.form = ComplianceForm::Entries;
-        // The other forms take longer to compute than they save if W changes.
+        // Near-field blocks take longer to compute than they save if W changes.
         if let Some(soil) = input.delassus.soil().filter(|_| is_constant)
             && let Some(cells) = soil.cells()
         {
@@ -161,8 +160,6 @@ impl ForceSearch {
             let ConeProblem { w, rho, form, .. } = problem;
             if let Some(blocks) = NearFieldBlocks::new(w, rho, cells, compliance, layer) {
                 *form = ComplianceForm::NearField(Box::new(blocks));
-            } else if let Some(lattice) = DenseLattice::new(w, cells, compliance, layer) {
-                *form = ComplianceForm::DenseLattice(Box::new(lattice));
             }
         }
         problem.prepare_acceleration();

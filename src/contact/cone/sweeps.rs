@@ -4,12 +4,11 @@
 
 use super::acceleration::Acceleration;
 use super::compliance::ComplianceForm;
-use super::dense_lattice::DenseLattice;
 use super::low_rank::LowRankCompliance;
 use super::problem::{
     Bounds, ConeProblem, SWEEP_TOLERANCE_FACTOR, SolveOutcome, is_too_slow, max_or_nan,
 };
-use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
+use crate::linalg::transposed_multiply_add;
 
 /// Largest number of projections of an element in a sweep.
 const MAX_LOCAL_PROJECTIONS: usize = 40;
@@ -101,13 +100,7 @@ impl ConeProblem {
             if sweep - last_reduction == MAX_SWEEPS_WITHOUT_REDUCTION {
                 return SolveOutcome::new(sweep, self.is_solved());
             }
-            let Self { force_change, y, form, .. } = self;
-            if let ComplianceForm::DenseLattice(lattice) = form {
-                let [normal, x, y, amplitudes] = lattice.response_mut();
-                acceleration.end_sweep(&mut [force_change, normal, x, y, amplitudes]);
-            } else {
-                acceleration.end_sweep(&mut [force_change, y]);
-            }
+            acceleration.end_sweep(&mut self.force_change, &mut self.y);
         }
         SolveOutcome::new(MAX_ACCELERATED_SWEEPS, self.is_solved())
     }
@@ -116,9 +109,6 @@ impl ConeProblem {
     pub(super) fn relax_all(&mut self, tolerance: f64) -> f64 {
         let mut form = std::mem::take(&mut self.form);
         let largest_change = match &mut form {
-            ComplianceForm::DenseLattice(lattice) => {
-                vectorized(DenseLatticeSweep { lattice, problem: self, tolerance })
-            }
             ComplianceForm::LowRank(low_rank) => self.relax_all_by_modes(low_rank, tolerance),
             ComplianceForm::Entries | ComplianceForm::NearField(_) => {
                 (0..self.element_count).map(|e| self.relax(e, tolerance)).fold(0.0, max_or_nan)
@@ -229,40 +219,4 @@ fn relaxed_force(
         }
     }
     r
-}
-
-/// A sweep with the influence tables of a lattice: all elements in turn.
-struct DenseLatticeSweep<'a> {
-    lattice: &'a mut DenseLattice,
-    problem: &'a mut ConeProblem,
-    tolerance: f64,
-}
-
-impl WithSimd for DenseLatticeSweep<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let Self { lattice, problem, tolerance } = self;
-        let mut largest_change = 0.0;
-        for e in 0..problem.element_count {
-            let indices = problem.component_indices(e);
-            let mut force_change = [0.0; 3];
-            for k in 0..3 {
-                force_change[k] = problem.force_change[indices[k]];
-            }
-            let displacement = lattice.displacement(e, force_change);
-            let r = problem.relaxed_force_at(e, displacement, tolerance);
-            let mut increment = [0.0; 3];
-            for k in 0..3 {
-                increment[k] = r[k] - problem.force(indices[k]);
-                problem.set_force(indices[k], r[k]);
-            }
-            if increment != [0.0; 3] {
-                lattice.add_force(simd, e, increment);
-            }
-            largest_change = max_or_nan(largest_change, magnitude_sum(increment));
-        }
-        largest_change
-    }
 }
