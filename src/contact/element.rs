@@ -59,7 +59,9 @@ pub(super) fn local_mode(
     Ok(present_mode)
 }
 
-/// Change of traction of one element that satisfies its two conditions; `None` if they are dependent.
+/// Change of traction of one element that satisfies its two conditions.
+///
+/// `None` if they are dependent.
 fn solve_element(
     conditions: [Condition; 2],
     jump: [f64; 2],

@@ -237,7 +237,9 @@ impl Path {
         }
     }
 
-    /// Computes states at `lambda` and their rates, for fixed modes; `false` if the modes are singular.
+    /// Computes states at `lambda` and their rates, for fixed modes.
+    ///
+    /// `false` if the modes are singular.
     fn update_states(
         &mut self,
         solver: &mut ContactModeSolver,

@@ -149,7 +149,9 @@ impl ContactInput<'_> {
         Err(LawError { element, mode: mode.word(), reason })
     }
 
-    /// Traction by which a trial exceeds the strength of an element's bond; `None` without a bond.
+    /// Traction by which a trial exceeds the strength of an element's bond.
+    ///
+    /// `None` without a bond.
     pub(super) fn overload(&self, element: usize, trial: &ContactState) -> LawResult<Option<f64>> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {

@@ -161,7 +161,9 @@ impl ModeSearch {
         }
     }
 
-    /// Breaks the most overloaded of the intact bonds in the last solution; `false` if none is overloaded.
+    /// Breaks the most overloaded of the intact bonds in the last solution.
+    ///
+    /// `false` if none is overloaded.
     fn break_overloaded_bonds(
         &mut self,
         input: &ContactInput<'_>,
@@ -204,7 +206,9 @@ impl ModeSearch {
         Ok(is_found.then_some(SearchMethod::Path))
     }
 
-    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`]; returns whether one is admissible.
+    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`].
+    ///
+    /// Returns whether one is admissible.
     fn enumerate(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         let set_count =
             (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(input.modes(e).len()));
@@ -269,7 +273,9 @@ impl ModeSearch {
         Ok(self.solver.solve_for_modes(input, modes)? && self.update_next_modes(input, modes)?)
     }
 
-    /// Updates the next modes of all elements after a trial; returns whether all equal `modes`.
+    /// Updates the next modes of all elements after a trial.
+    ///
+    /// Returns whether all equal `modes`.
     fn update_next_modes(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> LawResult<bool> {
         let tolerance = self.solver.tolerance(input);
         let mut is_admissible = true;

@@ -48,7 +48,9 @@ pub(crate) struct Identity {
     /// Whether the scene has an energy balance.
     energy_balance: bool,
     probes: Vec<String>,
-    /// Ends of the state variables of each element's law; empty if no law has any.
+    /// Ends of the state variables of each element's law.
+    ///
+    /// Empty if no law has any.
     laws: Vec<usize>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]

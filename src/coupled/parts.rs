@@ -35,7 +35,9 @@ pub(crate) struct Parts {
     ///
     /// Around soil at rest it has no pressures at rest.
     pub(crate) description: GroundDescription,
-    /// Mass of soil at rest on each degree of freedom, kg; `None` without such soil.
+    /// Mass of soil at rest on each degree of freedom, kg.
+    ///
+    /// `None` without such soil.
     ///
     /// The weight of this soil does not act on the structure.
     pub(crate) mass_at_rest: Option<Vec<f64>>,

@@ -59,7 +59,9 @@ fn bed_compliance(
     diagonal_inside_outline(STEP_COMPLIANCE_NAME, compliance.in_step, elements).map(Some)
 }
 
-/// Diagonal compliance for tractions inside the outline; an error unless it is finite and positive.
+/// Diagonal compliance for tractions inside the outline.
+///
+/// Returns an error unless it is finite and positive.
 pub(crate) fn diagonal_inside_outline(
     quantity: &'static str,
     mut diagonal: Vec<f64>,

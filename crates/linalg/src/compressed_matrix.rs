@@ -57,7 +57,9 @@ impl CompressedMatrix {
         Self { is_diagonal: true, ..Self::dense(diagonal) }
     }
 
-    /// The diagonal of a matrix that is stored as a diagonal; `None` for other matrices.
+    /// The diagonal of a matrix that is stored as a diagonal.
+    ///
+    /// `None` for other matrices.
     #[inline]
     pub fn as_diagonal(&self) -> Option<&[f64]> {
         self.is_diagonal.then_some(&self.values)

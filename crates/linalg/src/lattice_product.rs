@@ -256,7 +256,9 @@ struct OffsetBlocks {
 }
 
 impl OffsetBlocks {
-    /// Collects the blocks of all pairs of cells; `None` if blocks of equal offset differ.
+    /// Collects the blocks of all pairs of cells.
+    ///
+    /// `None` if blocks of equal offset differ.
     fn new(
         cells: &[[usize; 2]],
         [x_length, y_length]: [usize; 2],

@@ -26,7 +26,9 @@ impl SparseMatrix {
         relative_asymmetry(self.mirrored_entries().map(|entry| (entry.value, entry.mirrored_value)))
     }
 
-    /// The pair of mirrored entries whose difference exceeds the allowed difference most; `None` if none does.
+    /// The pair of mirrored entries whose difference exceeds the allowed difference most.
+    ///
+    /// `None` if none does.
     ///
     /// `allowed_difference(i, j)` is the largest |a_ij − a_ji| that counts as symmetric. Returns row, column, and
     /// [a_ij, a_ji].

@@ -219,7 +219,9 @@ struct CosmosHeader {
 }
 
 impl CosmosHeader {
-    /// Reads a line of the header, with the numbers under it; `false` for any other line.
+    /// Reads a line of the header, with the numbers under it.
+    ///
+    /// `false` for any other line.
     fn read(&mut self, lines: &mut Lines, line: &str, lower_case_line: &str) -> LineResult<bool> {
         if lower_case_line.contains("real-header values follow") {
             self.real_values = read_real_values(lines, lower_case_line)?;

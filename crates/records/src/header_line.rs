@@ -85,7 +85,9 @@ impl ColumnTitles {
         self.0.iter().any(|line| matches!(line, LineTitles::All(_)))
     }
 
-    /// Names of columns of accelerations; an error if a title names a unit other than `expected_unit`.
+    /// Names of columns of accelerations.
+    ///
+    /// Returns an error if a title names a unit other than `expected_unit`.
     pub(super) fn acceleration_names(
         &self,
         columns: &[usize],

@@ -38,7 +38,9 @@ impl NumberTable {
         self.values.extend(numbers);
     }
 
-    /// Mean step of a column of counts, times or a constant; `None` for other columns.
+    /// Mean step of a column of counts, times or a constant.
+    ///
+    /// `None` for other columns.
     ///
     /// `column`: index of the column, from 0.
     fn equal_step(&self, column: usize) -> Option<f64> {

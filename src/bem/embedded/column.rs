@@ -124,7 +124,9 @@ impl ColumnMatrices {
     }
 }
 
-/// Row of a component at a node of a side; `None` at the fixed bottom.
+/// Row of a component at a node of a side.
+///
+/// `None` at the fixed bottom.
 fn side_row(component: usize, node: usize, node_count: usize) -> Option<MatrixRow> {
     (node < node_count).then_some(MatrixRow::Side(component * node_count + node))
 }

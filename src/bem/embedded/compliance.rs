@@ -66,7 +66,9 @@ pub(super) struct TrenchModel<'a> {
 }
 
 impl TrenchModel<'_> {
-    /// Compliances of the right half; `None` if the regular columns do not attenuate the waves.
+    /// Compliances of the right half.
+    ///
+    /// `None` if the regular columns do not attenuate the waves.
     ///
     /// # Errors
     /// [`Error::Singular`](crate::Error::Singular).

@@ -168,7 +168,9 @@ impl<'a> DofNumbers<'a> {
         Self { mesh, basis, node_count, first_joined, first_edge, first_load }
     }
 
-    /// Number of a component at a node of a vertical line; `None` at the fixed bottom.
+    /// Number of a component at a node of a vertical line.
+    ///
+    /// `None` at the fixed bottom.
     fn of_node(&self, line: usize, component: usize, node: usize) -> Option<usize> {
         let number = (2 * line + component) * self.node_count + node;
         (node < self.node_count).then_some(number)

@@ -105,7 +105,9 @@ impl LowRankSystem {
         }
     }
 
-    /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
+    /// Corrects r, with its present y, to the solution for `statuses`.
+    ///
+    /// `false` if the system is singular.
     pub(super) fn solve(&mut self, problem: &mut ConeProblem, statuses: &[Status]) -> bool {
         let form = std::mem::take(&mut problem.form);
         let is_solved =
@@ -210,7 +212,9 @@ impl LowRankSystem {
         Some(())
     }
 
-    /// Factors the system of the modes, and writes its right-hand side; `false` if it is singular.
+    /// Factors the system of the modes, and writes its right-hand side.
+    ///
+    /// `false` if it is singular.
     fn assemble(&mut self, operator: &LowRankCompliance, problem: &ConeProblem) -> bool {
         let mode_count = operator.mode_count();
         let order = mode_count + self.pressureless.len();

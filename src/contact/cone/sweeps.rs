@@ -150,7 +150,9 @@ impl ConeProblem {
         relaxed_force(&self.bounds[e], self.rho[e], &self.element_blocks[e], start, y, tolerance)
     }
 
-    /// Relaxes one element with all other forces fixed; returns the change of its force (N).
+    /// Relaxes one element with all other forces fixed.
+    ///
+    /// Returns the change of its force (N).
     ///
     /// It uses the entries of W. It ends when the force changes by less than `tolerance` or a tenth of the first
     /// change.

@@ -111,7 +111,9 @@ impl System {
         }
     }
 
-    /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
+    /// Corrects r, with its present y, to the solution for `statuses`.
+    ///
+    /// `false` if the system is singular.
     ///
     /// `accepts_recent_factors`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
     pub(super) fn solve(
@@ -155,7 +157,9 @@ impl System {
         self.factored_statuses.iter().map(Status::kind).eq(statuses.iter().map(Status::kind))
     }
 
-    /// Corrects r so that all gaps are closed without slip; `false` if W is singular.
+    /// Corrects r so that all gaps are closed without slip.
+    ///
+    /// `false` if W is singular.
     fn solve_sticking(&mut self, problem: &mut ConeProblem) -> bool {
         if !self.factor_w(problem) {
             return false;

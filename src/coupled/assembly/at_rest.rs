@@ -124,7 +124,9 @@ pub(crate) fn static_compliance(parts: &Parts, base: &PlacedBase) -> Result<Comp
     Ok(CompressedMatrix::dense(base.spread_ground_matrix(compliance)))
 }
 
-/// Weight, and all other loads at t = 0, N; empty without a static state.
+/// Weight, and all other loads at t = 0, N.
+///
+/// Empty without a static state.
 pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
     if !parts.builder.has_static_loads() {
         return Ok([vec![], vec![]]);

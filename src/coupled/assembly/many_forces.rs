@@ -51,7 +51,9 @@ const FORCE_GROWTH_STEPS: usize = 32;
 /// Errors of responses depend on the square of the length.
 const OMITTED_LENGTH_FACTOR: f64 = 0.5;
 
-/// Adds the static responses to forces to a space; returns the index of the first one.
+/// Adds the static responses to forces to a space.
+///
+/// Returns the index of the first one.
 ///
 /// `block` contains the forces.
 ///

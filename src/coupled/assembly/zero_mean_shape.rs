@@ -79,7 +79,9 @@ impl RefinedBase {
 }
 
 impl ZeroMeanShape {
-    /// The shape with the smallest ρ on a ground; `None` if there is no such shape.
+    /// The shape with the smallest ρ on a ground.
+    ///
+    /// `None` if there is no such shape.
     ///
     /// `halves`: see [`soil_moduli`].
     pub(super) fn softest(

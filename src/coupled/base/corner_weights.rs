@@ -69,7 +69,9 @@ impl Quadrilateral {
         weights[1] * corners[0][k] + weights[2] * corners[1][k] + weights[3] * corners[2][k]
     }
 
-    /// Newton step from the coordinates `[s, t]` towards a point; `None` for a singular Jacobian.
+    /// Newton step from the coordinates `[s, t]` towards a point.
+    ///
+    /// `None` for a singular Jacobian.
     fn newton_step(&self, [s, t]: [f64; 2], p: Point) -> Option<[f64; 2]> {
         let weights = bilinear_weights([s, t]);
         let residual = [0, 1].map(|k| p[k] - self.weighted_sum(weights, k));

@@ -39,7 +39,9 @@ pub(crate) struct Assembled {
     pub(crate) mass: Arc<SparseMatrix>,
     pub(crate) damping: Arc<SparseMatrix>,
     pub(crate) stiffness: Arc<SparseMatrix>,
-    /// K with the tangent of the nonlinear force at rest; `None` for a linear structure.
+    /// K with the tangent of the nonlinear force at rest.
+    ///
+    /// `None` for a linear structure.
     pub(super) tangent_stiffness: Option<SparseMatrix>,
     pub(crate) base: PlacedBase,
     pub(crate) influence: Arc<Influence>,
@@ -104,7 +106,9 @@ impl Assembled {
         Ok((assembled, fixed_factor))
     }
 
-    /// Error for a structure that buckles on a fixed base; `None` if it does not.
+    /// Error for a structure that buckles on a fixed base.
+    ///
+    /// `None` if it does not.
     ///
     /// The error contains the load factor.
     fn buckling(&self, structure: &dyn Structure) -> Option<Error> {

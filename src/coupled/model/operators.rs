@@ -26,9 +26,13 @@ pub(crate) struct Operators {
     pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
-    /// Buffer of zeros for the tractions of the elements; empty before the first change of the tangent.
+    /// Buffer of zeros for the tractions of the elements.
+    ///
+    /// Empty before the first change of the tangent.
     unit_traction: Vec<f64>,
-    /// Buffer for the mean displacements of the elements; empty before the first change of the tangent.
+    /// Buffer for the mean displacements of the elements.
+    ///
+    /// Empty before the first change of the tangent.
     means: Vec<f64>,
 }
 

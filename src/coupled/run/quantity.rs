@@ -312,7 +312,9 @@ impl Quantity {
         PrintedUnit { symbol: whole_body_unit(unit.symbol, in_plan), ..unit }
     }
 
-    /// Label of the limit of one for a factor of safety; `None` for other quantities.
+    /// Label of the limit of one for a factor of safety.
+    ///
+    /// `None` for other quantities.
     pub(crate) fn limit_label(self) -> Option<&'static str> {
         match self.row().scale {
             Scale::Safety(label) => Some(label),

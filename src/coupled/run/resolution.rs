@@ -277,7 +277,9 @@ impl Resolution {
         (self.has_response() && ratio <= MAX_FOLLOWING_RATIO).then_some(wavelength)
     }
 
-    /// Wavelength of the base shear, m; `None` unless it is too short for the elements.
+    /// Wavelength of the base shear, m.
+    ///
+    /// `None` unless it is too short for the elements.
     fn short_wavelength(&self) -> Option<f64> {
         self.wavelength()
             .filter(|length| *length < self.fineness.per_wavelength[0] * self.max_element_length)

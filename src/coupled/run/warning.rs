@@ -146,7 +146,9 @@ pub enum Warning {
         elements: usize,
         /// Approximate number needed.
         needed: usize,
-        /// Relative change of the static shape with twice the elements; `None` if it was not computed.
+        /// Relative change of the static shape with twice the elements.
+        ///
+        /// `None` if it was not computed.
         difference: Option<f64>,
         /// In plan: `x` for elements of a row, `y` for elements of a column.
         ///

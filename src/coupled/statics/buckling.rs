@@ -128,7 +128,9 @@ pub(super) fn load_factor(grounded: GroundedStructure<'_>) -> Option<f64> {
 }
 
 impl<'a> GroundStiffness<'a> {
-    /// Stiffness of the ground under the closed elements; `None` unless its compliance is positive definite.
+    /// Stiffness of the ground under the closed elements.
+    ///
+    /// `None` unless its compliance is positive definite.
     fn new(grounded: GroundedStructure<'a>, is_closed: impl Fn(usize) -> bool) -> Option<Self> {
         let assembled = grounded.assembled;
         let base = &assembled.base;

@@ -36,7 +36,9 @@ pub(super) struct LoadedPart {
 }
 
 impl LoadedPart {
-    /// Failure mode of the base under the load; `None` if the base resists the load.
+    /// Failure mode of the base under the load.
+    ///
+    /// `None` if the base resists the load.
     pub(super) fn failure(&self) -> Option<StabilityError> {
         if self.normal <= 0.0 {
             let ends = self.x_ends();

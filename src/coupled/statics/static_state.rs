@@ -21,14 +21,17 @@ pub(crate) struct StaticState {
     pub(crate) modes: Vec<Mode>,
     /// Load that the structure defines at t = 0, N.
     pub(crate) load: Vec<f64>,
-    /// State variables of each element's law; empty where the law starts with its initial state variables.
+    /// State variables of each element's law.
+    ///
+    /// Empty where the law starts with its initial state variables.
     pub(crate) state_variables: Vec<Vec<f64>>,
     /// Nonlinear force f(u), N; empty for a linear structure.
     pub(crate) force: Vec<f64>,
     /// Energies of the nonlinear force, if the structure returns them.
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
-    /// replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element.
+    ///
+    /// `None` if no coefficient was replaced.
     pub(crate) substituted_friction: Option<f64>,
 }
 

@@ -30,7 +30,9 @@ pub(crate) struct Forcing {
     pub(crate) distortion: Vec<f64>,
     /// Soil displacement minus free field without the contact tractions of this step, m, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
-    /// Mean tractions τ_ff of the free field in this step, Pa, 2Q; empty on the surface.
+    /// Mean tractions τ_ff of the free field in this step, Pa, 2Q.
+    ///
+    /// Empty on the surface.
     pub(crate) free_traction: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
@@ -46,7 +48,9 @@ pub(crate) struct Forcing {
     impulse: Vec<f64>,
     /// Displacements of the ground's elements, m; empty without joints.
     ground_displacement: Vec<f64>,
-    /// Time integral of the free field's tractions on the ground's elements, Pa s; empty without joints.
+    /// Time integral of the free field's tractions on the ground's elements, Pa s.
+    ///
+    /// Empty without joints.
     ground_impulse: Vec<f64>,
 }
 

@@ -39,14 +39,19 @@ pub(crate) struct Increment {
     pub(crate) trials: usize,
     /// Last method of the mode search.
     pub(crate) method: SearchMethod,
-    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
-    /// replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element.
+    ///
+    /// `None` if no coefficient was replaced.
     pub(crate) substituted_friction: Option<f64>,
     /// f(u*) minus f at the static state; empty for a linear structure.
     pub(crate) nonlinear_force: Vec<f64>,
-    /// Displacement u* that f receives in the equation of motion; empty for a linear structure.
+    /// Displacement u* that f receives in the equation of motion.
+    ///
+    /// Empty for a linear structure.
     pub(crate) midstep_displacement: Vec<f64>,
-    /// Displacement at the end of the step that f receives; empty for a linear structure.
+    /// Displacement at the end of the step that f receives.
+    ///
+    /// Empty for a linear structure.
     pub(crate) force_displacement: Vec<f64>,
 }
 

@@ -67,7 +67,9 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Fills `bytes` with the bytes after the current line; `false` if the source has fewer bytes.
+    /// Fills `bytes` with the bytes after the current line.
+    ///
+    /// `false` if the source has fewer bytes.
     pub fn fill(&mut self, bytes: &mut [u8]) -> Result<bool, FileFault> {
         match self.source.read_exact(bytes) {
             Ok(()) => Ok(true),
@@ -95,7 +97,9 @@ impl<R: Read> Lines<R> {
         Ok(true)
     }
 
-    /// The next line without white space at its ends; `None` at the end of the source.
+    /// The next line without white space at its ends.
+    ///
+    /// `None` at the end of the source.
     pub fn next(&mut self) -> LineResult<Option<String>> {
         Ok(self.next_indented()?.map(|line| line.trim_start().to_owned()))
     }

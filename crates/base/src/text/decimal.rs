@@ -22,7 +22,9 @@ pub fn quoted(text: &str) -> String {
     format!("'{}'", excerpt(text))
 }
 
-/// The number in a field of Fortran's format `kPFw.d`; `None` if it is no number.
+/// The number in a field of Fortran's format `kPFw.d`.
+///
+/// `None` if it is no number.
 ///
 /// `scale` is k, and `decimals` is d.
 /// Without a decimal point in the field, the last d digits are decimals. Without an exponent, the field contains 10ᵏ

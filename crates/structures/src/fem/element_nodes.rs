@@ -239,7 +239,9 @@ impl ElementNodes {
         symmetric_inverse(&inertia)
     }
 
-    /// Unit vector of the line on which all nodes lie; `None` if they do not.
+    /// Unit vector of the line on which all nodes lie.
+    ///
+    /// `None` if they do not.
     fn line_direction(&self) -> Option<[f64; 3]> {
         let longest_arm = self
             .arms

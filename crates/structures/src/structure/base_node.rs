@@ -24,7 +24,9 @@ pub struct BaseNode {
     pub z: f64,
     /// Displacement to the right as a weighted sum of degrees of freedom.
     pub horizontal: DofCombination,
-    /// Displacement along y as a weighted sum of degrees of freedom; empty in the plane.
+    /// Displacement along y as a weighted sum of degrees of freedom.
+    ///
+    /// Empty in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub across: DofCombination,
     /// Displacement upwards as a weighted sum of degrees of freedom.

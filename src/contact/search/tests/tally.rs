@@ -38,7 +38,9 @@ impl Tally {
         self.max_violation = self.max_violation.max(other.max_violation);
     }
 
-    /// Solves one problem by all methods; returns the modes and states for the next step.
+    /// Solves one problem by all methods.
+    ///
+    /// Returns the modes and states for the next step.
     pub(super) fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
         let count = problem.start.len();
         let input = problem.input();

@@ -178,7 +178,9 @@ impl RigidLinks {
         leader_link.is_some_and(|(kind, _)| kind.ties(direction))
     }
 
-    /// Index of a mesh's degree of freedom among the remaining ones; `None` for a follower.
+    /// Index of a mesh's degree of freedom among the remaining ones.
+    ///
+    /// `None` for a follower.
     pub(super) fn remaining_dof(
         &self,
         node: usize,

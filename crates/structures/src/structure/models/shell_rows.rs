@@ -195,7 +195,9 @@ fn shell_at(mesh: &Mesh, element: usize) -> Result<&Shell> {
     shell.ok_or_else(|| Error::part(element_name(element), "it is not a shell"))
 }
 
-/// The element as a shell, also if it is in a box; `None` for other elements.
+/// The element as a shell, also if it is in a box.
+///
+/// `None` for other elements.
 fn as_shell(element: &dyn Element) -> Option<&Shell> {
     let any: &dyn Any = element;
     match any.downcast_ref::<Box<dyn Element>>() {

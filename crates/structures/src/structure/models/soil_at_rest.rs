@@ -87,7 +87,9 @@ fn outer_sides(soil: &[&dyn Element]) -> Vec<[usize; 2]> {
 }
 
 impl FemModel {
-    /// Mass of soil at rest on each degree of freedom, kg; `None` without such soil.
+    /// Mass of soil at rest on each degree of freedom, kg.
+    ///
+    /// `None` without such soil.
     pub(super) fn mass_of_soil_at_rest(&self) -> Result<Option<Vec<f64>>> {
         check(&self.mesh, &self.feet)?;
         let up = self.mesh.up_direction();
