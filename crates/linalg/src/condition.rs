@@ -7,8 +7,9 @@
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
-/// Largest number of iterations of the estimator, as in LAPACK's dlacn2: further iterations seldom improve the
-/// estimate.
+/// Largest number of iterations of the estimator, as in LAPACK's dlacn2.
+///
+/// Further iterations seldom improve the estimate.
 const MAX_ESTIMATOR_ITERATIONS: usize = 5;
 
 /// Estimate of the norm ‖B‖₁ of a matrix from its products.
@@ -94,7 +95,9 @@ pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     })
 }
 
-/// Condition number of a matrix A with this diagonal, scaled by it, in the 1-norm; both norms are estimates.
+/// Condition number of a matrix A with this diagonal, scaled by it, in the 1-norm.
+///
+/// Both norms are estimates.
 ///
 /// `multiply(b, is_transposed)` overwrites b with A b or Aᵀ b, and `solve(b, is_transposed)` with A⁻¹ b or A⁻ᵀ b.
 pub fn condition_by_products(

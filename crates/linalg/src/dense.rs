@@ -198,10 +198,12 @@ fn solve_upper<'a>(column: impl Fn(usize) -> &'a [f64], x: &mut [f64]) {
     }
 }
 
-/// Largest magnitude of a negative remainder of the diagonal that counts as rounding, relative to the tolerance.
+/// Largest magnitude of a negative remainder of the diagonal, relative to the tolerance.
+///
+/// A remainder up to this magnitude is a rounding error.
 const MAX_NEGATIVE_FACTOR: f64 = 10.0;
 
-/// Columns of L with V = L Lᵀ for a positive semi-definite matrix V of low rank.
+/// Columns of L with V = L Lᵀ, for a positive semi-definite V of low rank.
 ///
 /// Cholesky's method with pivots (Higham 2002, § 10.3), from the diagonal of V. `write_column(j, column)` overwrites
 /// `column` with column j of V. The diagonal of V − L Lᵀ is at most `tolerance`. `None` if L has more than `max_rank`

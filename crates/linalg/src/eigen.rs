@@ -12,7 +12,9 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, MatRef, Par, Side, Spec};
 
-/// Row at which a symmetric row-major matrix fails to be positive definite; `None` for a positive definite matrix.
+/// Row at which a symmetric row-major matrix fails to be positive definite.
+///
+/// `None` for a positive definite matrix.
 pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order);
     match matrix.llt(Side::Lower) {

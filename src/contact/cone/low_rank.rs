@@ -11,7 +11,9 @@ use crate::contact::OnBed;
 use crate::contact::on_bed::MODE_TOLERANCE;
 use crate::linalg::pivoted_cholesky;
 
-/// Largest number of modes of a structure on a lattice.
+/// Largest number of modes of a structure on a lattice of elements.
+///
+/// Structures with more modes are solved by all entries of W.
 pub(super) const MAX_MODE_COUNT: usize = 24;
 
 /// W = D + L Lᵀ, and the modal amplitudes of the present forces.
@@ -32,7 +34,9 @@ impl LowRankCompliance {
         Self { diagonal: vec![[0.0; 3]; element_count], ..Self::default() }
     }
 
-    /// Reads D and L of elements with these areas; `layer(row)`: part of the diagonal that is neither soil nor structure.
+    /// Computes D and L of elements with these areas.
+    ///
+    /// `layer(row)`: part of the diagonal that is neither soil nor structure.
     pub(super) fn set(&mut self, on_bed: &OnBed, areas: &[f64], layer: impl Fn(usize) -> f64) {
         let count = areas.len();
         self.mode_count = on_bed.mode_count();

@@ -125,7 +125,7 @@ pub struct Run {
     /// Largest energy error of the run; NaN without an energy balance.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub energy_error: f64,
-    /// Total number of linear solutions of the mode search.
+    /// Total number of trials of the search for contact modes, as in [`State::trials`].
     pub trials: usize,
     /// Steps that the first search for contact modes did not solve.
     pub fallbacks: Fallbacks,

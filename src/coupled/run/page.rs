@@ -13,7 +13,9 @@ use crate::text::table::Table;
 
 /// Approximate number of rows above which the pressure envelope omits elements.
 const MAX_PRESSURE_ROWS: usize = 12;
-/// Ratio of the outermost elements' lever to half the width, above which the page omits the hint on its error.
+/// Ratio of the outermost elements' lever to half the width that counts as accurate.
+///
+/// Above it the page omits the hint on the error of factors of safety.
 const ACCURATE_LEVER_RATIO: f64 = 0.93;
 /// Fraction of open base above which small changes of a scene may change its peaks.
 const MOSTLY_OPEN_FRACTION: f64 = 0.5;

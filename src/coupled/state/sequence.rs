@@ -69,7 +69,9 @@ impl StateSequence {
             && state.time > self.last_time
     }
 
-    /// Stores the time of `state` if it is the next one; returns whether it is.
+    /// Stores the time of `state` if it is the next one.
+    ///
+    /// Returns whether it is.
     pub(crate) fn accept(&mut self, state: &State) -> bool {
         let is_next = self.is_next(state);
         if is_next {

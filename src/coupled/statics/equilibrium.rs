@@ -37,7 +37,9 @@ const MIN_SPRING_FRACTION: f64 = 1e-9;
 ///
 /// A structure far softer than the ground converges only slowly with springs that are stiffer than itself.
 const SLOW_DECREASE_RATIO: f64 = 0.2;
-/// Largest factor by which the springs are stiffened for a structure that is unstable (P–Δ) without the ground.
+/// Largest factor by which the springs are stiffened.
+///
+/// A structure with P–Δ that is unstable without the ground needs stiffer springs.
 const MAX_STIFFENING_FACTOR: f64 = 1e4;
 /// Number of iterations between two extrapolations, for springs that must stay stiff (P–Δ).
 const EXTRAPOLATION_INTERVAL: usize = 20;
@@ -61,7 +63,9 @@ pub(crate) struct StaticProblem<'a> {
 }
 
 impl StaticProblem<'_> {
-    /// Computes u and τ with K u + f(u) + BᵀA τ = `load` and the static contact conditions.
+    /// Computes the displacement u and the tractions τ under `load`.
+    ///
+    /// They satisfy K u + f(u) + BᵀA τ = `load` and the static contact conditions.
     ///
     /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum. Springs ε M to the last
     /// iterate make each iteration regular, and their forces vanish at convergence (proximal point method). f is linearised
@@ -196,7 +200,7 @@ impl StaticProblem<'_> {
         base.means(step, &mut means);
         let movement = |element: usize| {
             let components = 0..layout.components();
-            components.fold(0.0, |sum, k| resultant(sum, means[layout.place(k, element)]))
+            components.fold(0.0, |sum, k| resultant(sum, means[layout.index_of(k, element)]))
         };
         let elements = 0..layout.elements();
         let element = elements.max_by(|a, b| movement(*a).total_cmp(&movement(*b)))?;
@@ -333,7 +337,9 @@ impl FictitiousSprings {
         force
     }
 
-    /// Whether the springs have their smallest stiffness, as for a structure that is unstable on softer springs.
+    /// Whether the springs have their smallest stiffness.
+    ///
+    /// A structure may be unstable on softer springs.
     fn must_stay_stiff(&self) -> bool {
         self.min_shift == self.shift
     }

@@ -193,7 +193,7 @@ pub enum Error {
         /// Value of the cause.
         ratio: f64,
     },
-    /// The iteration for the static state under the weight did not converge.
+    /// The search for the static state under weight and loads at t = 0 did not converge.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:.2e} of the load{} \
          (loads are balanced and the structure is not a mechanism: check whether a part of the structure, or of its \
@@ -203,7 +203,9 @@ pub enum Error {
     Preload {
         /// Number of iterations.
         iterations: usize,
-        /// Change in the last iteration, relative to the load.
+        /// Largest unbalanced force of the last iteration, relative to the load.
+        ///
+        /// Unbalanced are forces of fictitious springs, resultants, or forces within a nonlinear structure.
         residual: f64,
         /// Joint, and its element, whose sides moved most against each other in the last iteration.
         ///

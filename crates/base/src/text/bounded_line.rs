@@ -6,14 +6,16 @@ use std::io::{BufRead, BufReader, Read};
 
 use crate::error::FileFault;
 
-/// Largest length of a line, bytes, so that a file without line ends does not fill the memory.
+/// Largest length of a line, bytes.
+///
+/// A file without line ends therefore does not fill the memory.
 const MAX_LINE_BYTES: u64 = 65_536;
 /// UTF-8's byte-order mark.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// End-of-file byte that DOS programs write.
 const DOS_END_OF_FILE: u8 = 0x1a;
 
-/// Result of reading lines; its error is the number of a line and the fault of this line.
+/// Result of reading lines; the error is a line's number and its fault.
 pub type LineResult<T> = Result<T, (usize, FileFault)>;
 
 /// The lines of a text, read one by one.
@@ -65,7 +67,9 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Fills `bytes` with the bytes after the current line; `false` if the source has fewer bytes.
+    /// Fills `bytes` with the bytes after the current line.
+    ///
+    /// `false` if the source has fewer bytes.
     pub fn fill(&mut self, bytes: &mut [u8]) -> Result<bool, FileFault> {
         match self.source.read_exact(bytes) {
             Ok(()) => Ok(true),
@@ -74,9 +78,9 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Skips all bytes up to the end of `marker`; `false` if the source does not contain the marker.
+    /// Skips all bytes up to the end of `marker`.
     ///
-    /// `marker`: begins with `$`, which occurs in it only once.
+    /// Returns `false` if the source does not contain the marker. `marker`: begins with `$`, which occurs in it only once.
     pub fn skip_past(&mut self, marker: &[u8]) -> Result<bool, FileFault> {
         let mut matched_count = 0;
         let mut byte = [0];
@@ -93,12 +97,16 @@ impl<R: Read> Lines<R> {
         Ok(true)
     }
 
-    /// The next line without white space at its ends; `None` at the end of the source.
+    /// The next line without white space at its ends.
+    ///
+    /// `None` at the end of the source.
     pub fn next(&mut self) -> LineResult<Option<String>> {
         Ok(self.next_indented()?.map(|line| line.trim_start().to_owned()))
     }
 
-    /// The next line, including the white space at its beginning; `None` at the end of the source.
+    /// The next line with the white space at its beginning.
+    ///
+    /// `None` at the end of the source.
     pub fn next_indented(&mut self) -> LineResult<Option<String>> {
         Ok(self.advance()?.then(|| self.text().trim_end().to_owned()))
     }

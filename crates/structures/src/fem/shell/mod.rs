@@ -175,7 +175,9 @@ impl Shell {
         })
     }
 
-    /// Forces [x, y, z] (N) of a `pressure` (Pa) at each node; a positive pressure acts along the normal.
+    /// Forces [x, y, z] (N) of a `pressure` (Pa) at each node.
+    ///
+    /// A positive pressure acts along the normal.
     ///
     /// The normal n points to the side from which the nodes are seen counter-clockwise. The forces on a closed surface
     /// are in equilibrium.
