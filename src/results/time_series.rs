@@ -93,7 +93,7 @@ validated! {
             && motion.as_ref().is_none_or(|frames| frames.is_whole(dofs));
         crate::error::same_length("list of whole frames", usize::from(are_whole), 1)?;
         crate::error::same_length("list of times", usize::from(step_count > 0), 1)?;
-        let sequence = StateSequence::ended(end);
+        let sequence = StateSequence::closed_at(end);
         Ok(Self {
             recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
             scalars, foundations, joints, probe_values, energy_balances, contact, motion,

@@ -11,7 +11,7 @@
 use std::collections::HashMap;
 
 use super::group::{Group, LANE_COUNT, Lane, read, write};
-use super::low_rank::{MAX_MODE_COUNT, find_modes};
+use super::low_rank::{MAX_COMPLIANCE_MODES, compliance_modes};
 use crate::geometry::offset;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
@@ -70,7 +70,7 @@ pub(super) struct NearFieldBlocks {
     /// One more entry belongs to free lanes.
     displacements: Vec<[f64; 4]>,
     /// Modal amplitudes Lᵀ r.
-    amplitudes: [f64; MAX_MODE_COUNT],
+    amplitudes: [f64; MAX_COMPLIANCE_MODES],
     last_product: StoredProduct,
 }
 
@@ -78,7 +78,7 @@ pub(super) struct NearFieldBlocks {
 struct StoredProduct {
     forces: Vec<f64>,
     displacements: Vec<[f64; 4]>,
-    amplitudes: [f64; MAX_MODE_COUNT],
+    amplitudes: [f64; MAX_COMPLIANCE_MODES],
 }
 
 impl NearFieldBlocks {
@@ -110,7 +110,7 @@ impl NearFieldBlocks {
             return None;
         }
         let far = far(cells, is_near, block)?;
-        let modes = find_modes(w, 3 * count, &soil, &layer)?;
+        let modes = compliance_modes(w, 3 * count, &soil, &layer)?;
         let groups = near.groups();
         let mut group_modes = Vec::with_capacity(groups.len() * modes.len());
         for group in &groups {
@@ -126,11 +126,11 @@ impl NearFieldBlocks {
             scratch: far.as_ref().map(LatticeProduct::scratch).unwrap_or_default(),
             far,
             displacements: vec![[0.0; 4]; count + 1],
-            amplitudes: [0.0; MAX_MODE_COUNT],
+            amplitudes: [0.0; MAX_COMPLIANCE_MODES],
             last_product: StoredProduct {
                 forces: vec![f64::NAN; 3 * count],
                 displacements: vec![[0.0; 4]; count + 1],
-                amplitudes: [0.0; MAX_MODE_COUNT],
+                amplitudes: [0.0; MAX_COMPLIANCE_MODES],
             },
         })
     }

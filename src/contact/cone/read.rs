@@ -176,7 +176,7 @@ impl ForceSearch {
             *newton = Newton::on_bed(count);
             return self.read_low_rank(on_bed);
         };
-        low_rank.set(on_bed, areas, layer);
+        low_rank.assemble(on_bed, areas, layer);
         newton.reserve(on_bed.mode_count());
         problem.update_scales();
     }

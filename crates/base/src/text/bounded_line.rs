@@ -23,34 +23,36 @@ pub type LineResult<T> = Result<T, (usize, FileFault)>;
 /// A byte-order mark before the first line is skipped.
 pub struct Lines<R> {
     source: BufReader<R>,
-    bytes: Vec<u8>,
+    /// Bytes of the current line, with its line end.
+    line_bytes: Vec<u8>,
     /// Number of the current line, from 1.
     pub number: usize,
 }
 
 impl<R: Read> Lines<R> {
-    /// Lines of a source, before its first line.
+    /// Lines of a source; the first [`Lines::advance`] reads the first one.
     pub fn new(source: R) -> Self {
-        Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
+        Self { source: BufReader::new(source), line_bytes: Vec::new(), number: 0 }
     }
 
     /// Reads the next line; `false` at the end of the source.
     pub fn advance(&mut self) -> LineResult<bool> {
         let has_line = self.read().map_err(|fault| (self.number + 1, fault))?;
         self.number += usize::from(has_line);
-        if self.number == 1 && self.bytes.starts_with(BYTE_ORDER_MARK) {
-            self.bytes.drain(..BYTE_ORDER_MARK.len());
+        if self.number == 1 && self.line_bytes.starts_with(BYTE_ORDER_MARK) {
+            self.line_bytes.drain(..BYTE_ORDER_MARK.len());
         }
         Ok(has_line)
     }
 
     /// Reads the bytes of the next line; `false` at the end of the source.
     fn read(&mut self) -> Result<bool, FileFault> {
-        self.bytes.clear();
-        match self.source.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut self.bytes) {
+        self.line_bytes.clear();
+        match self.source.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut self.line_bytes) {
             Err(error) => Err(FileFault::Unreadable(error.kind())),
             Ok(byte_count)
-                if byte_count as u64 == MAX_LINE_BYTES && self.bytes.last() != Some(&b'\n') =>
+                if byte_count as u64 == MAX_LINE_BYTES
+                    && self.line_bytes.last() != Some(&b'\n') =>
             {
                 Err(FileFault::value(
                     "length of the line",
@@ -59,15 +61,15 @@ impl<R: Read> Lines<R> {
                 ))
             }
             Ok(byte_count) => {
-                if self.bytes.last() == Some(&DOS_END_OF_FILE) {
-                    self.bytes.pop();
+                if self.line_bytes.last() == Some(&DOS_END_OF_FILE) {
+                    self.line_bytes.pop();
                 }
                 Ok(byte_count > 0)
             }
         }
     }
 
-    /// Fills `bytes` with the bytes after the current line.
+    /// Fills `bytes` with the next bytes that have not been read.
     ///
     /// `false` if the source has fewer bytes.
     pub fn fill(&mut self, bytes: &mut [u8]) -> Result<bool, FileFault> {
@@ -104,7 +106,7 @@ impl<R: Read> Lines<R> {
         Ok(self.next_indented()?.map(|line| line.trim_start().to_owned()))
     }
 
-    /// The next line with the white space at its beginning.
+    /// The next line without white space at its end, but with that at its beginning.
     ///
     /// `None` at the end of the source.
     pub fn next_indented(&mut self) -> LineResult<Option<String>> {
@@ -126,6 +128,6 @@ impl<R: Read> Lines<R> {
     /// Bytes that are not UTF-8 become a replacement character. Numbers with this character are rejected; comments may
     /// contain it.
     pub fn text(&self) -> Cow<'_, str> {
-        String::from_utf8_lossy(&self.bytes)
+        String::from_utf8_lossy(&self.line_bytes)
     }
 }

@@ -14,7 +14,7 @@ pub use resultants::ShellResultants;
 
 use std::collections::HashSet;
 
-use frame::Frame;
+use frame::LocalFrame;
 use quad_bending::QuadBending;
 use quad_membrane::QuadMembrane;
 use section::ShellSection;
@@ -221,7 +221,7 @@ impl Shell {
         let section = &self.section();
         Ok(match self.corner_points(coordinates)? {
             Corners::Four(corners) => {
-                let frame = Frame::quadrilateral(&corners);
+                let frame = LocalFrame::quadrilateral(&corners);
                 let points = &frame.points;
                 let local_displacements = frame.local_displacements::<12>(displacement);
                 let membrane =
@@ -231,7 +231,7 @@ impl Shell {
                 section.resultants(frame.axes, &membrane, &bending)
             }
             Corners::Three(corners) => {
-                let frame = Frame::triangle(&corners);
+                let frame = LocalFrame::triangle(&corners);
                 let points = &frame.points;
                 let local_displacements = frame.local_displacements::<9>(displacement);
                 let membrane =
@@ -315,14 +315,14 @@ impl Element for Shell {
         let section = &self.section();
         match self.corner_points(coordinates) {
             Ok(Corners::Four(corners)) => {
-                let frame = Frame::quadrilateral(&corners);
+                let frame = LocalFrame::quadrilateral(&corners);
                 let points = &frame.points;
                 let membrane = QuadMembrane { points, section }.stiffness();
                 let bending = QuadBending { points, section }.stiffness();
                 frame.add_stiffness::<12>(&leading_block(&membrane), &bending, matrix);
             }
             Ok(Corners::Three(corners)) => {
-                let frame = Frame::triangle(&corners);
+                let frame = LocalFrame::triangle(&corners);
                 let points = &frame.points;
                 let membrane =
                     TriangleMembrane { points, section, shared_sides: self.shared_sides }
