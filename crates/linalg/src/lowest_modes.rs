@@ -4,7 +4,7 @@
 //! |---|---|
 //! | A | K⁻¹ M, symmetric in the inner product x·M y; its largest eigenvalues θ are 1/λ |
 //! | V | basis, M-orthonormal, a row per vector |
-//! | H | Vᵀ M A V |
+//! | H | V M A Vᵀ |
 //!
 //! Every new vector is orthogonalised with respect to all earlier vectors, twice unless a large residual is allowed
 //! (Parlett 1998, § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it
@@ -19,25 +19,39 @@ use crate::SparseMatrix;
 /// Number of vectors of one block: the largest number of equal frequencies in practice.
 const VECTORS_PER_BLOCK: usize = 16;
 
-/// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ: far below errors of a structural model.
+/// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
+///
+/// It is far below errors of a structural model.
 const DEFAULT_RESIDUAL_TOLERANCE: f64 = 1e-9;
 
-/// Largest error of the basis' orthonormality, relative to the residual's tolerance: it must not limit residuals.
+/// Largest error of the basis' orthonormality, relative to the residual's tolerance.
+///
+/// The error must not limit residuals.
 const BASIS_ROUNDING_FACTOR: f64 = 1e-9;
 
-/// Between two searches for modes the basis grows by its size over this divisor: fewer searches cost less.
+/// The basis grows by its size over this divisor between two searches for modes.
+///
+/// Fewer searches cost less.
 const SEARCH_INTERVAL_DIVISOR: usize = 8;
 
-/// Largest size of the basis in a search for modes up to a limit: the caller then has a cheaper method.
+/// Largest size of the basis in a search for modes up to a limit.
+///
+/// For more modes the caller has a cheaper method.
 const MAX_LIMITED_BASIS_SIZE: usize = 800;
 
-/// Fraction of a vector's length that must remain after its orthogonalisation: less is a rounding error.
+/// Fraction of a vector's length that must remain after its orthogonalisation.
+///
+/// Less is a rounding error.
 const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
-/// Limit at which a search for modes ends, even if it has found fewer modes than requested.
+/// Limit at which a search for modes ends.
+///
+/// It then may have found fewer modes than requested.
 #[derive(Debug, Clone, Copy)]
 pub struct ModeLimit {
-    /// The search ends at the first eigenvalue λ above this one, which is the last returned eigenvalue.
+    /// Eigenvalue λ above which the search ends.
+    ///
+    /// The first eigenvalue above it is the last returned one.
     pub eigenvalue: f64,
     /// Largest residual of a converged mode, relative to θ.
     ///
@@ -99,7 +113,9 @@ struct KrylovSpace<'a> {
     order: usize,
     /// V.
     basis: OrthonormalRows<'a>,
-    /// Columns of H, one for each vector to which A was applied, with a row for each vector of the basis at that time.
+    /// Columns of H, one for each vector to which A was applied.
+    ///
+    /// Each has a row for each vector that the basis had at that time.
     columns: Vec<Vec<f64>>,
     random_state: u64,
 }
@@ -132,7 +148,9 @@ impl KrylovSpace<'_> {
         self.columns.extend(products.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
-    /// Approximations of the lowest `count` modes in this space, up to the first mode with λ above `max_eigenvalue`.
+    /// Approximations of the lowest modes in this space.
+    ///
+    /// There are up to `count`, the last one at the latest the first with λ above `max_eigenvalue`.
     fn approximations(&self, count: usize, max_eigenvalue: f64) -> Option<Approximations> {
         let m = self.columns.len();
         // H, with zeros for the rows that a column does not have.
@@ -207,7 +225,9 @@ mod tests {
         }
     }
 
-    /// Equal chains of springs k = 1 and masses m = 1, fixed at one end, and massless degrees of freedom.
+    /// Equal chains with one fixed end, and massless degrees of freedom.
+    ///
+    /// Springs have k = 1, and masses m = 1.
     ///
     /// The eigenvalues λ_j = 4 sin²((2j−1)π/(4n+2)) of a chain of n masses occur once for each copy.
     fn chains(length: usize, copies: usize, massless_count: usize) -> Chains {

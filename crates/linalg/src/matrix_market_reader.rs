@@ -28,7 +28,9 @@ struct MatrixMarketHeader {
 /// Lines of the file.
 type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
-/// The next line that is neither empty nor a comment; `None` at the end of the file.
+/// The next line that is neither empty nor a comment.
+///
+/// `None` at the end of the file.
 fn data_line(lines: &mut Lines) -> LineResult<Option<String>> {
     while let Some(line) = lines.next()? {
         if !line.is_empty() && !line.starts_with('%') {

@@ -1,4 +1,6 @@
-//! Elements of a group, one in each lane, projected together with the forces of all others fixed.
+//! Groups of elements that are projected together, one in each lane.
+//!
+//! The forces of all other elements stay fixed. The table of [`problem`](super::problem) explains the symbols.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
@@ -13,9 +15,11 @@ pub(super) type Lane = [f64; LANE_COUNT];
 /// Data of a group's elements; forces and bounds of a lane without an element are zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Group {
+    /// q: displacement without changes of force.
     pub(super) q: [Lane; 3],
-    /// r₀, and r − r₀.
+    /// r₀.
     pub(super) static_force: [Lane; 3],
+    /// r − r₀.
     pub(super) force_change: [Lane; 3],
     /// ρ, normal and tangential.
     pub(super) rho: [Lane; 2],
@@ -24,20 +28,22 @@ pub(super) struct Group {
     /// Smallest and largest p.
     pub(super) interval: [Lane; 2],
     pub(super) closed_gap: Lane,
-    /// Part of a trial's excess over the largest p that hardening soil bears, and whether any is above zero.
+    /// Fraction of a trial's excess over the largest p that hardening soil bears.
     pub(super) hardening_fraction: Lane,
+    /// Whether any hardening fraction is above zero.
     pub(super) hardens: bool,
     pub(super) friction: Lane,
-    /// Force that adds to p in friction, and shear force that adds to friction.
+    /// Force that adds to p in friction.
     pub(super) attraction: Lane,
+    /// Shear force that adds to friction.
     pub(super) shear_strength: Lane,
 }
 
 impl Group {
     /// Projects the trial forces of all elements once, p first.
     ///
-    /// `displacement`: of the elements by W, without q. `added_diagonal`: number on W's diagonal. Writes the changes of
-    /// force to `increments`. Returns the largest sum of an element's changes, N, or NaN.
+    /// `displacement`: W (r − r₀) of the elements, without q. `added_diagonal`: number added to W's diagonal. Writes
+    /// the changes of force to `increments`. Returns the largest sum of an element's changes, N, or NaN.
     #[inline(always)]
     pub(super) fn project<S: Simd>(
         &mut self,
@@ -57,7 +63,9 @@ impl Group {
         if total.is_nan() { total } else { simd.reduce_max_f64s(largest) }
     }
 
-    /// Projects the elements of one vector register, the `part` of their lanes; returns the sums of their changes.
+    /// Projects the elements of one vector register; returns the sums of their changes.
+    ///
+    /// `part`: index of the register among those of a lane.
     #[inline(always)]
     fn project_part<S: Simd>(
         &mut self,

@@ -1,4 +1,6 @@
-//! W of elements on a lattice by blocks: displacements due to the soil and due to the structure's few modes.
+//! W of elements on a lattice, by blocks.
+//!
+//! Displacements are the sum of those due to the soil and those in the structure's few modes.
 //!
 //! Two elements are near each other if a force on one moves the other much. Eight elements that are not near each other
 //! form a group. A sweep projects the forces of a group together, one element in each lane, and updates the
@@ -9,20 +11,26 @@
 use std::collections::HashMap;
 
 use super::group::{Group, LANE_COUNT, Lane, read, write};
-use super::low_rank::{MAX_MODE_COUNT, find_modes};
+use super::low_rank::{MAX_COMPLIANCE_MODES, compliance_modes};
 use crate::geometry::offset;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
-/// Elements are near each other if a unit force on one adds more than this fixed-point force to the other.
+/// Smallest coupling of two elements that are near each other.
+///
+/// A unit force on one changes the trial force r − ρ y of the other by more than this.
 const NEAR_FORCE_RATIO: f64 = 3e-3;
 /// Largest number of near links, relative to all pairs of elements.
 const MAX_NEAR_FRACTION: f64 = 0.3;
-/// Number of near links, relative to all pairs of elements, above which factors of W solve in less time than sweeps.
+/// Number of near links, relative to all pairs, above which factors are faster.
+///
+/// Factors of W then solve in less time than sweeps.
 const FACTORED_NEAR_FRACTION: f64 = 0.05;
 /// Largest number of elements for which factors of W fit into caches.
 const MAX_FACTORED_ELEMENTS: usize = 600;
 
-/// Displacement of an element due to a unit force along each direction on another one; the fourth number is zero.
+/// Displacement of an element due to unit forces on another one.
+///
+/// One row for each direction of the force; the fourth number of a row is zero.
 type LinkBlock = [[f64; 4]; 3];
 
 /// An element near another one, and the block of W between them.
@@ -57,10 +65,12 @@ pub(super) struct NearFieldBlocks {
     /// L of each group, mode by mode: three directions.
     modes: Vec<[Lane; 3]>,
     mode_count: usize,
-    /// Displacements of each element due to the soil, padded by a number; one more entry for free lanes.
+    /// Displacements of each element due to the soil, padded to four numbers.
+    ///
+    /// One more entry belongs to free lanes.
     displacements: Vec<[f64; 4]>,
     /// Modal amplitudes Lᵀ r.
-    amplitudes: [f64; MAX_MODE_COUNT],
+    amplitudes: [f64; MAX_COMPLIANCE_MODES],
     last_product: StoredProduct,
 }
 
@@ -68,7 +78,7 @@ pub(super) struct NearFieldBlocks {
 struct StoredProduct {
     forces: Vec<f64>,
     displacements: Vec<[f64; 4]>,
-    amplitudes: [f64; MAX_MODE_COUNT],
+    amplitudes: [f64; MAX_COMPLIANCE_MODES],
 }
 
 impl NearFieldBlocks {
@@ -100,7 +110,7 @@ impl NearFieldBlocks {
             return None;
         }
         let far = far(cells, is_near, block)?;
-        let modes = find_modes(w, 3 * count, &soil, &layer)?;
+        let modes = compliance_modes(w, 3 * count, &soil, &layer)?;
         let groups = near.groups();
         let mut group_modes = Vec::with_capacity(groups.len() * modes.len());
         for group in &groups {
@@ -116,11 +126,11 @@ impl NearFieldBlocks {
             scratch: far.as_ref().map(LatticeProduct::scratch).unwrap_or_default(),
             far,
             displacements: vec![[0.0; 4]; count + 1],
-            amplitudes: [0.0; MAX_MODE_COUNT],
+            amplitudes: [0.0; MAX_COMPLIANCE_MODES],
             last_product: StoredProduct {
                 forces: vec![f64::NAN; 3 * count],
                 displacements: vec![[0.0; 4]; count + 1],
-                amplitudes: [0.0; MAX_MODE_COUNT],
+                amplitudes: [0.0; MAX_COMPLIANCE_MODES],
             },
         })
     }
@@ -157,7 +167,9 @@ impl NearFieldBlocks {
         });
     }
 
-    /// Adds displacements due to forces on a group: of near elements by the soil, and of all by the structure.
+    /// Adds the displacements due to forces on a group.
+    ///
+    /// The soil moves near elements; the structure moves all.
     #[inline(always)]
     pub(super) fn add_group_forces<S: Simd>(&mut self, simd: S, g: usize, forces: &[Lane; 3]) {
         let Self { near, displacements, .. } = self;
@@ -212,7 +224,9 @@ impl NearFieldBlocks {
     }
 }
 
-/// G without the near links, within `Some` unless it is zero; `None` if blocks of equal offset differ.
+/// G without the near links, or `None` if blocks of equal offset differ.
+///
+/// The inner option is `None` if G without the near links is zero.
 #[allow(clippy::option_option, reason = "the outer option says whether G is a lattice product")]
 fn far(
     cells: &[[usize; 2]],
@@ -319,7 +333,9 @@ impl WithSimd for NearFieldProduct<'_> {
     }
 }
 
-/// Values of a contact vector on the elements of a group, one in each lane; zero in free lanes.
+/// Values of a contact vector on the elements of a group.
+///
+/// One in each lane; zero in free lanes.
 #[inline(always)]
 fn group_lanes(group: &[usize; LANE_COUNT], vector: &[f64]) -> [Lane; 3] {
     let count = vector.len() / 3;

@@ -94,7 +94,7 @@ fn check_closed_form(
     let computed =
         compliances(&SoilProfile::on_half_plane(soil), strip, Complex::real(s), 1e-11).values;
     let layered_values = compliances(layered, strip, Complex::real(s), 1e-11).values;
-    let rule = crate::linalg::gauss::largest();
+    let rule = crate::linalg::gauss::largest_rule();
     let max_compliance = computed.iter().fold(0.0_f64, |m, values| m.max(values[0].re));
     let mut max_error = 0.0_f64;
     for class in 0..classes.count() {
