@@ -11,7 +11,8 @@
 //!    moves
 //!    most others.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
-//! 4. Newton's method from other forces, with partial steps.
+//! 4. Newton's method with trials for elements that move together, if a pressure is bounded; then from other forces, with
+//!    partial steps.
 //! 5. The proximal point method, which solves a sequence of better conditioned problems by methods 2 to 4.
 //!
 //! For friction above 100, or infinite, the step first tries Newton's method alone. Then it uses all methods with a lower
@@ -27,6 +28,7 @@
 
 mod acceleration;
 mod bounds;
+mod collective;
 mod compliance;
 mod group;
 mod low_rank;
