@@ -9,6 +9,7 @@
 //! | mesh, cliques | degrees of freedom of the mesh; their elimination |
 //! | compliance | compliances F(s) of the faces; stretched elements below the near field |
 //! | soil, free_field | the soil; vertical waves at the faces |
+//! | rational, sampling | compliances between samples; choice of the samples |
 //! | pairs, source | classes and compliances of pairs of elements; convolution weights |
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance | a rigid body in the trench |
@@ -26,6 +27,8 @@ mod impedance;
 mod mesh;
 mod pairs;
 mod polynomials;
+mod rational;
+mod sampling;
 mod soil;
 mod source;
 mod stack;
