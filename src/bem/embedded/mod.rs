@@ -6,13 +6,15 @@
 //! | grid | lines of the mesh around the trench |
 //! | polynomials, forms, element | functions and matrices of finite elements |
 //! | stack, column | elements one below the other; matrices of a column |
-//! | mesh, cliques | degrees of freedom of the mesh; their elimination |
+//! | mesh, cliques | degrees of freedom of the mesh; their elimination, matrix by matrix |
 //! | compliance | compliances F(s) of the faces; stretched elements below the near field |
 //! | soil, free_field | the soil; vertical waves at the faces |
 //! | pairs, source | classes and compliances of pairs of elements; convolution weights |
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance | a rigid body in the trench |
+//! | near_field, box_lines | finite elements that fill the trench around a foundation; lines of their mesh |
 
+mod box_lines;
 mod cliques;
 mod column;
 mod compliance;
@@ -24,6 +26,7 @@ mod grid;
 mod ground;
 mod impedance;
 mod mesh;
+mod near_field;
 mod pairs;
 mod polynomials;
 mod soil;
@@ -33,4 +36,5 @@ mod trench;
 
 pub use ground::TrenchGround;
 pub use impedance::KinematicMotion;
+pub use near_field::NearField;
 pub use trench::{Trench, TrenchElements};

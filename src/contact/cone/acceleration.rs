@@ -12,9 +12,13 @@
 
 use crate::linalg::dot;
 
-/// Largest number of earlier sweeps in a combination: their inner products take less time than a sweep.
+/// Largest number of earlier sweeps in a combination.
+///
+/// The inner products of so many sweeps take less time than a sweep.
 const MAX_STORED_SWEEPS: usize = 8;
-/// Smallest pivot of the normal equations, relative to their diagonal; an earlier sweep below it has no weight.
+/// Smallest pivot of the normal equations, relative to their diagonal.
+///
+/// An earlier sweep with a smaller pivot has no weight.
 const MIN_RELATIVE_PIVOT: f64 = 1e-13;
 
 /// Results of earlier sweeps, and scratch of their combination.
@@ -34,22 +38,17 @@ pub(super) struct Acceleration {
 }
 
 impl Acceleration {
-    /// Allocates for `force_count` forces and `displacement_count` displacements.
-    pub(super) fn new(force_count: usize, displacement_count: usize) -> Self {
-        let forces = [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count]);
+    /// Allocates for `component_count` forces and as many displacements.
+    pub(super) fn new(component_count: usize) -> Self {
+        let forces = [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; component_count]);
         Self {
             changes: forces.clone(),
-            results: [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count + displacement_count]),
+            results: [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; 2 * component_count]),
             sweep_count: 0,
-            change: vec![0.0; force_count],
-            result: vec![0.0; force_count + displacement_count],
+            change: vec![0.0; component_count],
+            result: vec![0.0; 2 * component_count],
             differences: forces,
         }
-    }
-
-    /// Number of displacements among the results of a sweep.
-    pub(super) fn displacement_count(&self) -> usize {
-        self.result.len() - self.change.len()
     }
 
     /// Discards the stored sweeps.
@@ -64,27 +63,23 @@ impl Acceleration {
 
     /// Overwrites the results of a sweep with their combination with the results of earlier sweeps.
     ///
-    /// The first slice of `results` is the forces; the others are displacements, linear in the forces.
-    pub(super) fn end_sweep(&mut self, results: &mut [&mut [f64]]) {
-        let mut begin = 0;
-        for part in &*results {
-            self.result[begin..begin + part.len()].copy_from_slice(part);
-            begin += part.len();
-        }
+    /// The displacements are linear in the forces, with a constant part.
+    pub(super) fn end_sweep(&mut self, forces: &mut [f64], displacements: &mut [f64]) {
+        let force_count = forces.len();
+        self.result[..force_count].copy_from_slice(forces);
+        self.result[force_count..].copy_from_slice(displacements);
         for (change, force) in self.change.iter_mut().zip(&self.result) {
             *change = force - *change;
         }
         let weights = self.weights();
-        let mut begin = 0;
-        for part in results {
+        for (begin, values) in [(0, forces), (force_count, displacements)] {
             for (age, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-                let earlier = &self.results[self.slot(age)][begin..begin + part.len()];
-                let present = &self.result[begin..begin + part.len()];
-                for ((value, earlier), present) in part.iter_mut().zip(earlier).zip(present) {
+                let earlier = &self.results[self.slot(age)][begin..][..values.len()];
+                let present = &self.result[begin..][..values.len()];
+                for ((value, earlier), present) in values.iter_mut().zip(earlier).zip(present) {
                     *value += weight * (earlier - present);
                 }
             }
-            begin += part.len();
         }
         let slot = self.sweep_count % MAX_STORED_SWEEPS;
         self.changes[slot].copy_from_slice(&self.change);
@@ -152,7 +147,7 @@ mod tests {
     /// Eigenvalues of the matrix M of sweeps x ← M x + b; plain sweeps diverge because of the largest.
     const SWEEP_EIGENVALUES: [f64; FORCE_COUNT] = [1.3, 0.95, 0.8, 0.5, -0.4, 0.1];
 
-    /// Result of a sweep: forces, then a displacement that is their sum plus 2.
+    /// Forces after a sweep.
     fn sweep(forces: &[f64], vectors: &[[f64; FORCE_COUNT]; FORCE_COUNT]) -> Vec<f64> {
         let mut result = vec![1.0; FORCE_COUNT];
         for (vector, eigenvalue) in vectors.iter().zip(SWEEP_EIGENVALUES) {
@@ -161,12 +156,11 @@ mod tests {
                 *value += amplitude * entry;
             }
         }
-        result.push(result.iter().sum::<f64>() + 2.0);
         result
     }
 
     #[test]
-    fn a_linear_problem_is_solved_by_as_many_sweeps_as_forces_though_plain_sweeps_diverge() {
+    fn a_linear_problem_needs_one_sweep_more_than_forces_though_plain_sweeps_diverge() {
         // Orthonormal cosines.
         let vectors: [[f64; FORCE_COUNT]; FORCE_COUNT] = std::array::from_fn(|k| {
             std::array::from_fn(|i| {
@@ -175,16 +169,18 @@ mod tests {
                 angle.cos() / norm.sqrt()
             })
         });
-        let mut acceleration = Acceleration::new(FORCE_COUNT, 1);
+        let mut acceleration = Acceleration::new(FORCE_COUNT);
         let mut forces = vec![0.0; FORCE_COUNT];
         for _ in 0..=FORCE_COUNT {
             acceleration.begin_sweep(&forces);
-            let mut result = sweep(&forces, &vectors);
-            let (next_forces, displacement) = result.split_at_mut(FORCE_COUNT);
-            acceleration.end_sweep(&mut [next_forces, displacement]);
+            forces = sweep(&forces, &vectors);
+            let mut displacements: Vec<f64> =
+                forces.iter().map(|force| 3.0 * force + 2.0).collect();
+            acceleration.end_sweep(&mut forces, &mut displacements);
             // Weights whose sum is one preserve linear relations.
-            assert!((displacement[0] - 2.0 - next_forces.iter().sum::<f64>()).abs() < 1e-8);
-            forces.copy_from_slice(next_forces);
+            for (force, displacement) in forces.iter().zip(displacements) {
+                assert!((displacement - 2.0 - 3.0 * force).abs() < 1e-8);
+            }
         }
         for (force, swept_force) in forces.iter().zip(sweep(&forces, &vectors)) {
             assert!((force - swept_force).abs() < 1e-9, "{force} {swept_force}");

@@ -4,18 +4,19 @@
 
 use super::acceleration::Acceleration;
 use super::compliance::ComplianceForm;
-use super::dense_lattice::DenseLattice;
 use super::low_rank::LowRankCompliance;
 use super::problem::{
     Bounds, ConeProblem, SWEEP_TOLERANCE_FACTOR, SolveOutcome, is_too_slow, max_or_nan,
 };
-use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
+use crate::linalg::transposed_multiply_add;
 
 /// Largest number of projections of an element in a sweep.
 const MAX_LOCAL_PROJECTIONS: usize = 40;
 /// Largest change of an element's last projection, as a fraction of the change at which sweeps end.
 const LOCAL_TOLERANCE_FACTOR: f64 = 0.1;
-/// Largest change of an element's last projection, as a fraction of its first change: the other elements still move.
+/// Largest change of an element's last projection, as a fraction of its first change.
+///
+/// More exact solutions gain nothing while the other elements still move.
 const FIRST_CHANGE_FRACTION: f64 = 0.1;
 /// Factor of the number of near-field sweeps: they take much less time than a factorization.
 const NEAR_FIELD_SWEEP_FACTOR: usize = 4;
@@ -24,8 +25,9 @@ const NEAR_FIELD_SWEEP_FACTOR: usize = 4;
 const MAX_ACCELERATED_SWEEPS: usize = 200;
 /// Change at which accelerated sweeps end, as a fraction of the residual tolerance.
 const ACCELERATED_CHANGE: f64 = 0.3;
-/// Factor by which accelerated sweeps must reduce the change, and the largest number of sweeps that this may take.
-const MIN_REDUCTION: f64 = 0.5;
+/// Factor by which accelerated sweeps must reduce the change.
+const REQUIRED_REDUCTION: f64 = 0.5;
+/// Largest number of accelerated sweeps without this reduction.
 const MAX_SWEEPS_WITHOUT_REDUCTION: usize = 30;
 
 impl ConeProblem {
@@ -91,20 +93,14 @@ impl ConeProblem {
                     return SolveOutcome::new(sweep, is_solved);
                 }
             }
-            if largest_change <= MIN_REDUCTION * smallest_change {
+            if largest_change <= REQUIRED_REDUCTION * smallest_change {
                 smallest_change = largest_change;
                 last_reduction = sweep;
             }
             if sweep - last_reduction == MAX_SWEEPS_WITHOUT_REDUCTION {
                 return SolveOutcome::new(sweep, self.is_solved());
             }
-            let Self { force_change, y, form, .. } = self;
-            if let ComplianceForm::DenseLattice(lattice) = form {
-                let [normal, x, y, amplitudes] = lattice.response_mut();
-                acceleration.end_sweep(&mut [force_change, normal, x, y, amplitudes]);
-            } else {
-                acceleration.end_sweep(&mut [force_change, y]);
-            }
+            acceleration.end_sweep(&mut self.force_change, &mut self.y);
         }
         SolveOutcome::new(MAX_ACCELERATED_SWEEPS, self.is_solved())
     }
@@ -113,9 +109,6 @@ impl ConeProblem {
     pub(super) fn relax_all(&mut self, tolerance: f64) -> f64 {
         let mut form = std::mem::take(&mut self.form);
         let largest_change = match &mut form {
-            ComplianceForm::DenseLattice(lattice) => {
-                vectorized(DenseLatticeSweep { lattice, problem: self, tolerance })
-            }
             ComplianceForm::LowRank(low_rank) => self.relax_all_by_modes(low_rank, tolerance),
             ComplianceForm::Entries | ComplianceForm::NearField(_) => {
                 (0..self.element_count).map(|e| self.relax(e, tolerance)).fold(0.0, max_or_nan)
@@ -142,7 +135,9 @@ impl ConeProblem {
         largest_change
     }
 
-    /// Force of an element with all other forces fixed, for its displacement by W without the added diagonal.
+    /// Force of an element with all other forces fixed.
+    ///
+    /// `displacement`: W (r − r₀) of the element, without the added diagonal.
     #[inline(always)]
     fn relaxed_force_at(&self, e: usize, displacement: [f64; 3], tolerance: f64) -> [f64; 3] {
         let indices = self.component_indices(e);
@@ -155,9 +150,12 @@ impl ConeProblem {
         relaxed_force(&self.bounds[e], self.rho[e], &self.element_blocks[e], start, y, tolerance)
     }
 
-    /// Relaxes one element with all other forces fixed, by the entries of W; returns the change of its force (N).
+    /// Relaxes one element with all other forces fixed.
     ///
-    /// It ends when the force changes by less than `tolerance` or a tenth of the first change.
+    /// Returns the change of its force (N).
+    ///
+    /// It uses the entries of W. It ends when the force changes by less than `tolerance` or a tenth of the first
+    /// change.
     fn relax(&mut self, e: usize, tolerance: f64) -> f64 {
         let indices = self.component_indices(e);
         let start = indices.map(|i| self.force(i));
@@ -184,9 +182,10 @@ fn magnitude_sum(force: [f64; 3]) -> f64 {
     force[0].abs() + force[1].abs() + force[2].abs()
 }
 
-/// Force of an element with the forces of others fixed, from its force `start` and its displacement `y`.
+/// Force of an element with the forces of others fixed.
 ///
-/// It is projected until it changes by at most `tolerance`, or by little compared with the first projection.
+/// It begins with the force `start` and the displacement `y`. The force is projected until it changes by at most
+/// `tolerance`, or by little compared with the first projection.
 #[inline(always)]
 fn relaxed_force(
     bounds: &Bounds,
@@ -222,40 +221,4 @@ fn relaxed_force(
         }
     }
     r
-}
-
-/// A sweep with the influence tables of a lattice: all elements in turn.
-struct DenseLatticeSweep<'a> {
-    lattice: &'a mut DenseLattice,
-    problem: &'a mut ConeProblem,
-    tolerance: f64,
-}
-
-impl WithSimd for DenseLatticeSweep<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let Self { lattice, problem, tolerance } = self;
-        let mut largest_change = 0.0;
-        for e in 0..problem.element_count {
-            let indices = problem.component_indices(e);
-            let mut force_change = [0.0; 3];
-            for k in 0..3 {
-                force_change[k] = problem.force_change[indices[k]];
-            }
-            let displacement = lattice.displacement(e, force_change);
-            let r = problem.relaxed_force_at(e, displacement, tolerance);
-            let mut increment = [0.0; 3];
-            for k in 0..3 {
-                increment[k] = r[k] - problem.force(indices[k]);
-                problem.set_force(indices[k], r[k]);
-            }
-            if increment != [0.0; 3] {
-                lattice.add_force(simd, e, increment);
-            }
-            largest_change = max_or_nan(largest_change, magnitude_sum(increment));
-        }
-        largest_change
-    }
 }

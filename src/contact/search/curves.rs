@@ -36,9 +36,9 @@ impl ModeSearch {
         }
     }
 
-    /// Linearises the laws at the settlements that each element alone would have under its present tractions.
+    /// Linearises the laws of elements that yielded in the step before.
     ///
-    /// Of elements that yielded in the step before.
+    /// Each at the settlement that its element alone would have under its present tractions.
     fn predict_settlements(
         &mut self,
         input: &ContactInput<'_>,
@@ -59,33 +59,35 @@ impl ModeSearch {
             let row = &input.delassus[e * size..(e + 1) * size];
             let gap = input.free_jump[e] + dot(row, &self.solver.response.traction);
             let pressure = input.start.state(e).pressure;
-            let layer = input.law(e).compliance(Mode::Stick, &input.start_of(e))[0];
-            let settlement = limits.gap_offset - gap - layer * pressure;
+            let compliance = self.compliance(input, e);
+            let settlement = limits.gap_offset - gap - compliance.layer * pressure;
             let solution = TangentSolution {
                 element: e,
                 pressure,
                 settlement,
                 yields: true,
-                stiffness: (row[e] + layer).recip(),
+                stiffness: compliance.total.recip(),
                 pressure_rounding: 0.0,
                 settlement_rounding: 0.0,
             };
             let point = point_on_curve(input, &solution, limits)?;
-            line.set(TrialLine::new(point, limits.gap_offset));
+            line.set(TrialLine::new(point, limits.gap_offset, solution.stiffness));
         }
         Ok(())
     }
 
-    /// Sets the changes of traction from the static state to those at the start of the step.
+    /// Sets the changes of traction to those at the start of the step.
     fn set_present_tractions(&mut self, input: &ContactInput<'_>) {
         let ContactResponse { layout, traction, .. } = &mut self.solver.response;
         for (i, traction) in traction.iter_mut().enumerate() {
-            let [component, e] = layout.origin(i);
+            let [component, e] = layout.component_and_element(i);
             *traction = input.start.state(e).traction()[component] - input.static_traction[i];
         }
     }
 
-    /// Compares the last trial with the curves of the laws, and moves the lines; returns how they have moved.
+    /// Moves the lines towards the last trial; returns how they have moved.
+    ///
+    /// A line stays where the trial is near enough to the curve of its law.
     pub(super) fn move_tangents(
         &mut self,
         input: &ContactInput<'_>,
@@ -108,7 +110,7 @@ impl ModeSearch {
             let solution = self.tangent_solution(input, e, *mode, line.gap_offset, tolerance);
             let next = linearisation.compare(input, &solution, line.settlement)?;
             if let Some(point) = next {
-                let mut next_line = line.through(point);
+                let mut next_line = line.through(point, solution.stiffness);
                 if !linearisation.is_whole() {
                     next_line = next_line.tangent();
                 }
@@ -142,7 +144,9 @@ impl ModeSearch {
         }
     }
 
-    /// Solution of an element in a mode, with its line in place of the curve; `gap_offset`: its gap when closed, m.
+    /// Solution of an element in a mode, with its line in place of the curve.
+    ///
+    /// `gap_offset`: gap of the closed element, m.
     fn tangent_solution(
         &self,
         input: &ContactInput<'_>,
@@ -151,9 +155,7 @@ impl ModeSearch {
         gap_offset: f64,
         tolerance: Tolerance,
     ) -> TangentSolution {
-        let layer = input.law(element).compliance(Mode::Stick, &input.start_of(element))[0];
-        let size = self.solver.response.layout.len();
-        let compliance = input.delassus.diagonal(size, element) + layer;
+        let ElementCompliance { layer, total } = self.compliance(input, element);
         let state = &self.solver.response.states[element];
         let Tolerance { length, traction } = tolerance;
         TangentSolution {
@@ -161,13 +163,22 @@ impl ModeSearch {
             pressure: state.pressure,
             settlement: gap_offset - state.gap - layer * state.pressure,
             yields: mode.is_yield(),
-            stiffness: compliance.recip(),
+            stiffness: total.recip(),
             pressure_rounding: traction,
-            settlement_rounding: length + traction * compliance,
+            settlement_rounding: length + traction * total,
         }
     }
 
-    /// Draws the lines of elements that begin to yield in the next modes, through the begin of their curves.
+    /// Compliance of an element.
+    fn compliance(&self, input: &ContactInput<'_>, element: usize) -> ElementCompliance {
+        let layer = input.law(element).compliance(Mode::Stick, &input.start_of(element))[0];
+        let size = self.solver.response.layout.len();
+        ElementCompliance { layer, total: input.delassus.diagonal(size, element) + layer }
+    }
+
+    /// Sets the lines of elements that begin to yield in the next modes.
+    ///
+    /// The lines pass through the points of the curves at a settlement of zero.
     ///
     /// `modes`: of the last trial.
     pub(super) fn begin_lines(&self, input: &ContactInput<'_>, modes: &[Mode]) {
@@ -178,13 +189,25 @@ impl ModeSearch {
                 && let Ok(limits) = input.limits(e, 0.0)
                 && limits.hardening > 0.0
             {
-                line.set(TrialLine::new(CurvePoint::new(0.0, &limits), limits.gap_offset));
+                let point = CurvePoint::new(0.0, &limits);
+                let stiffness = self.compliance(input, e).total.recip();
+                line.set(TrialLine::new(point, limits.gap_offset, stiffness));
             }
         }
     }
 }
 
-/// Reads the gap of a closed element from its law; `false` if the law has no limits, or no curve.
+/// Normal compliance of an element, m/Pa.
+struct ElementCompliance {
+    /// Of the layer of its law.
+    layer: f64,
+    /// Of the layer, the ground and the structure, with all other tractions fixed.
+    total: f64,
+}
+
+/// Reads the gap of a closed element from its law.
+///
+/// Returns `false` if the law has no limits, or no curve.
 fn read_gap_offset(
     input: &ContactInput<'_>,
     element: usize,

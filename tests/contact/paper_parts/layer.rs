@@ -312,6 +312,12 @@ fn the_sense_of_slip_is_inelastic_or_by_velocity() {
     let by_last_velocity = law.with_slip_sense(SlipSense::LastVelocity);
     let trial = LayerTrial::elastic(Mode::Stick, 301.0);
     assert_eq!(trial.next_mode(&by_last_velocity, &start), Mode::SlipLeft);
+    // A velocity has no tolerance: that of slips is a length.
+    start.slip_rate = -1e-12;
+    let sliding = LayerTrial::elastic(Mode::SlipRight, 300.0);
+    assert_eq!(sliding.next_mode(&by_last_velocity, &start), Mode::Stick);
+    start.slip_rate = 0.0;
+    assert_eq!(sliding.next_mode(&by_last_velocity, &start), Mode::SlipRight);
 }
 
 /// The friction limit follows from the static, the previous or the dynamic pressure.

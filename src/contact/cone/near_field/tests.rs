@@ -1,6 +1,5 @@
-//! Near-field blocks and influence tables of a lattice against the entries of W.
+//! Near-field blocks of a lattice against the entries of W.
 
-use super::super::dense_lattice::DenseLattice;
 use super::super::newton::Newton;
 use super::super::problem::{Bounds, ConeProblem};
 use super::super::{compliance::ComplianceForm, proximal::Proximal, search::find_forces};
@@ -122,60 +121,9 @@ fn near_field_blocks_multiply_as_the_entries_of_w() {
     }
     // The structure's part of W is not positive.
     assert!(blocks(&problem, |i, j| 1.1 * soil(i, j)).is_none());
-    // Every block is another one, or the structure's part has many modes.
+    // Blocks of equal offset differ, or the structure's part has too many modes.
     assert!(blocks(&problem, |i, j| soil(i, j) * (1 + i + j) as f64).is_none());
     assert!(blocks(&problem, |_, _| 0.0).is_none());
-}
-
-#[test]
-fn influence_tables_multiply_as_the_entries_of_w() {
-    let mut random = Random(7);
-    let mut problem = rocking_body(&mut random, 0.5);
-    problem.force_change.iter_mut().for_each(|change| *change = random.within(-1.0, 1.0));
-    // Another layer under each element.
-    let layers: Vec<f64> = (0..3 * ELEMENT_COUNT).map(|_| random.within(0.0, 0.3)).collect();
-    for (i, layer) in layers.iter().enumerate() {
-        problem.w[i * (3 * ELEMENT_COUNT + 1)] += layer;
-    }
-    problem.added_diagonal = 0.1;
-    problem.update_displacements();
-    let expected: Vec<f64> = problem
-        .y
-        .iter()
-        .zip(&problem.force_change)
-        .map(|(y, change)| y + 0.1 * change)
-        .collect();
-    let dense_lattice = |soil: &dyn Fn(usize, usize) -> f64| {
-        DenseLattice::new(&problem.w, &cells(), soil, |i| layers[i])
-    };
-    assert!(dense_lattice(&|i, j| soil(i, j) * (1 + i + j) as f64).is_none());
-    assert!(dense_lattice(&|i, j| 1.1 * soil(i, j)).is_none());
-    problem.form = ComplianceForm::DenseLattice(Box::new(dense_lattice(&soil).unwrap()));
-    problem.update_displacements();
-    for (computed, expected) in problem.y.iter().zip(&expected) {
-        assert!((computed - expected).abs() < 1e-13, "{computed} {expected}");
-    }
-    // Displacements that sweeps have added are products with W.
-    for _ in 0..3 {
-        assert!(problem.relax_all(1e-12) > 1e-3);
-    }
-    let ComplianceForm::DenseLattice(lattice) = &problem.form else {
-        unreachable!()
-    };
-    let displacements: Vec<[f64; 3]> = (0..ELEMENT_COUNT)
-        .map(|e| {
-            let change = problem.component_indices(e).map(|i| problem.force_change[i]);
-            lattice.displacement(e, change)
-        })
-        .collect();
-    problem.update_displacements();
-    for (e, displacement) in displacements.iter().enumerate() {
-        for (k, i) in problem.component_indices(e).into_iter().enumerate() {
-            let computed = displacement[k];
-            let expected = problem.y[i] - problem.q[i] - 0.1 * problem.force_change[i];
-            assert!((computed - expected).abs() < 1e-12, "{e}, {k}: {computed} {expected}");
-        }
-    }
 }
 
 #[test]
@@ -186,7 +134,6 @@ fn sweeps_of_all_forms_find_the_same_forces() {
     for friction in [0.2, 0.6, 1.5] {
         let mut problem = rocking_body(&mut random, friction);
         let near_field = blocks(&problem, soil).unwrap();
-        let lattice = DenseLattice::new(&problem.w, &cells(), soil, |_| 0.0).unwrap();
         let mut solve = |form: ComplianceForm| {
             problem.form = form;
             problem.force_change.fill(0.0);
@@ -209,14 +156,8 @@ fn sweeps_of_all_forms_find_the_same_forces() {
         };
         let expected = solve(ComplianceForm::Entries);
         let near_field_forces = solve(ComplianceForm::NearField(Box::new(near_field)));
-        let lattice_forces = solve(ComplianceForm::DenseLattice(Box::new(lattice)));
-        for computed in [near_field_forces, lattice_forces] {
-            for (i, (expected, computed)) in expected.iter().zip(&computed).enumerate() {
-                assert!(
-                    (expected - computed).abs() < 1e-10,
-                    "{friction}, {i}: {expected} {computed}"
-                );
-            }
+        for (i, (expected, computed)) in expected.iter().zip(&near_field_forces).enumerate() {
+            assert!((expected - computed).abs() < 1e-10, "{friction}, {i}: {expected} {computed}");
         }
         open_count += expected[..ELEMENT_COUNT].iter().filter(|p| **p == 0.0).count();
         slide_count += (0..ELEMENT_COUNT)

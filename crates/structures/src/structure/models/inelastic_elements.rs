@@ -19,7 +19,7 @@ struct InelasticElement {
     terms: Vec<(usize, f64)>,
     /// Range of the terms of each of the element's degrees of freedom.
     rows: Vec<Range<usize>>,
-    /// The model's degree of freedom of each of the element's, if each is one of the model's with a weight of 1.
+    /// Degrees of freedom of the model that equal those of the element; `None` if one is a sum.
     dofs: Option<Vec<usize>>,
     /// Range of the element's internal variables.
     variables: Range<usize>,
@@ -38,7 +38,7 @@ impl InelasticElement {
         }
     }
 
-    /// The model's degree of freedom of each of the element's; `None` unless each is one with a weight of 1.
+    /// Degrees of freedom of the model that equal those of the element; `None` if one is a sum.
     fn single_dofs(&self) -> Option<Vec<usize>> {
         let single_dof = |row: &Range<usize>| match self.terms[row.clone()] {
             [(dof, 1.0)] => Some(dof),
@@ -212,7 +212,7 @@ impl InelasticElements {
         self.has_initial_stress
     }
 
-    /// States of the integration points of an element at the end of the last step; `None` for a linear element.
+    /// States of an element's points after the last step; `None` for a linear element.
     pub(super) fn points(&self, element_index: usize) -> Option<Result<Vec<SolidPoint>>> {
         let position = self.elements.binary_search_by_key(&element_index, |e| e.index).ok()?;
         Some(self.points_at(&self.elements[position], &self.committed_displacement))
