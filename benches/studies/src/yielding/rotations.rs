@@ -14,14 +14,14 @@ const MOMENT_LIMIT: f64 = 0.05;
 /// Moments at 0.06 rad over the capacity of the effective width on the finer mesh.
 const CAPACITY_LIMITS: [f64; 2] = [0.92, 1.03];
 /// Safety factors of slow cycles.
-const CYCLE_SAFETY_FACTORS: [f64; 4] = [2.0, 3.0, 5.0, 10.0];
+const CYCLE_SAFETY_FACTORS: [f64; 5] = [1.5, 2.0, 3.0, 5.0, 10.0];
 /// Elements under half of the strip in slow cycles.
 const CYCLE_HALF_ELEMENTS: usize = 4;
 /// Amplitude of slow cycles, rad.
-const CYCLE_AMPLITUDE: f64 = 0.03;
-const CYCLE_COUNT: usize = 6;
+const CYCLE_AMPLITUDE: f64 = 0.02;
+const CYCLE_COUNT: usize = 4;
 /// Steps of a quarter of a cycle.
-const QUARTER_STEPS: usize = 15;
+const QUARTER_STEPS: usize = 20;
 /// Smallest moment of the last cycle over that of the first one, at the largest rotation.
 const DEGRADATION_LIMIT: f64 = 0.98;
 
@@ -185,7 +185,7 @@ fn picture(cycles: &[SlowCycles]) -> Figure {
     let mut settlements = FigurePanel::new("rotation, mrad", "−settlement/B")
         .legend(SeriesLabelPosition::LowerLeft)
         .room(0.3, 0.05);
-    let colors = [(0, CURVE_RED), (2, CURVE_BLUE), (3, CURVE_GREEN)];
+    let colors = [(1, CURVE_RED), (3, CURVE_BLUE), (4, CURVE_GREEN)];
     for (run, color) in colors.map(|(k, color)| (&cycles[k], color)) {
         let name = format!("F = {}", run.strip.safety_factor);
         let capacity = run.strip.moment_capacity();
