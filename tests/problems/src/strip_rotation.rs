@@ -21,8 +21,8 @@ pub const HALF_WIDTH: f64 = 1.0;
 pub const CENTRAL_CAPACITY: f64 = 2.0 * HALF_WIDTH * (2.0 + PI);
 /// Rotation of a step, rad.
 pub const ROTATION_STEP: f64 = 0.001;
-/// Rotations of the reference moments, rad.
-pub const REFERENCE_ROTATIONS: [f64; 4] = [0.01, 0.02, 0.04, 0.06];
+/// Numbers of steps up to the reference moments.
+pub const REFERENCE_STEPS: [usize; 4] = [10, 20, 40, 60];
 
 /// Friction of the rough strip: with more, its moments change by less than 1 %, and some steps do not converge.
 const FRICTION_COEFFICIENT: f64 = 1.0;
@@ -67,7 +67,7 @@ pub struct StripState {
     pub closed_fraction: f64,
 }
 
-/// Strips of the reference, and their moments at the reference rotations over (N B/2)(1 − N/N_u).
+/// Strips of the reference, and their moments after the reference steps, over (N B/2)(1 − N/N_u).
 pub const REFERENCE_MOMENTS: [(RotatedStrip, [f64; 4]); 6] = [
     (strip(4, 2.0), [0.479, 0.713, 0.923, 1.016]),
     (strip(4, 3.0), [0.646, 0.847, 0.982, 1.034]),
@@ -190,12 +190,14 @@ impl RotatedStrip {
         let force = self.force();
         let down = -1.0 * model.row(middle, Direction::Y)?;
         let rotation = model.row(middle, Direction::Rotation)?;
-        let moments: Vec<f64> = rotations.iter().map(|angle| SUPPORT_STIFFNESS * angle).collect();
-        let step_of = |time: f64| (time / TIME_STEP).round() as usize;
-        let far_moment = move |time: f64| {
-            let step = step_of(time);
-            if step > FORCE_STEPS { moments[step - FORCE_STEPS - 1] } else { 0.0 }
-        };
+        let step_count = FORCE_STEPS + rotations.len();
+        let times: Vec<f64> = (0..=step_count).map(|step| step as f64 * TIME_STEP).collect();
+        let mut forces = vec![force; step_count + 1];
+        for (step, value) in forces.iter_mut().take(FORCE_STEPS).enumerate() {
+            *value *= step as f64 / FORCE_STEPS as f64;
+        }
+        let mut far_moments = vec![0.0; FORCE_STEPS + 1];
+        far_moments.extend(rotations.iter().map(|angle| SUPPORT_STIFFNESS * angle));
         let mut simulation = Simulation::builder(TIME_STEP)
             .ground(SpringGround::under(&model, 8, SUPPORT_STIFFNESS, SUPPORT_STIFFNESS)?)
             .structure(model)
@@ -203,14 +205,12 @@ impl RotatedStrip {
             .joint(joint)
             .gravity(0.0)
             .scheme(Theta::new(1.0)?)
-            .load(Load::new(down.clone(), move |time| {
-                force * (step_of(time) as f64 / FORCE_STEPS as f64).min(1.0)
-            }))
-            .load(Load::new(rotation.clone(), far_moment))
+            .load(Load::table(down.clone(), &times, &forces)?)
+            .load(Load::table(rotation.clone(), &times, &far_moments)?)
             .build()?;
         let mut states = Vec::with_capacity(rotations.len());
         let mut step = 0;
-        simulation.run(FORCE_STEPS + rotations.len(), |state| {
+        simulation.run(step_count, |state| {
             if step >= FORCE_STEPS {
                 let angle = rotation.value(state.displacement());
                 states.push(StripState {
@@ -225,14 +225,11 @@ impl RotatedStrip {
         Ok(states)
     }
 
-    /// Moments at the reference rotations over the capacity of the effective width.
+    /// Moments after the reference steps over the capacity of the effective width.
     pub fn relative_moments(&self) -> Result<[f64; 4]> {
-        let steps = (REFERENCE_ROTATIONS[3] / ROTATION_STEP).round() as usize;
-        let rotations: Vec<f64> = (1..=steps).map(|k| k as f64 * ROTATION_STEP).collect();
+        let steps = 1..=REFERENCE_STEPS[3];
+        let rotations: Vec<f64> = steps.map(|step| step as f64 * ROTATION_STEP).collect();
         let states = self.turn(&rotations)?;
-        Ok(REFERENCE_ROTATIONS.map(|rotation| {
-            let step = (rotation / ROTATION_STEP).round() as usize;
-            states[step - 1].moment / self.moment_capacity()
-        }))
+        Ok(REFERENCE_STEPS.map(|step| states[step - 1].moment / self.moment_capacity()))
     }
 }
