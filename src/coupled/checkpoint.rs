@@ -14,11 +14,12 @@ use crate::coupled::step::joint_losses::JointLosses;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::COMPONENTS_IN_SPACE;
 use crate::interface::{ContactState, LawForm, Mode, PreviousContact};
-use crate::structure::{restore_variables, save_variables};
+use crate::linalg::SparseMatrix;
+use crate::structure::{Structure, Tangent, restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; increase it when the order of its numbers changes.
-const CHECKPOINT_FORMAT: u32 = 13;
+const CHECKPOINT_FORMAT: u32 = 14;
 /// Largest number of steps of a checkpoint; no run has more.
 const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -51,6 +52,9 @@ pub struct Checkpoint {
     /// Internal variables of the structure.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
+    /// Values of the tangent with which the next step of a large nonlinear structure begins; empty for none.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    tangent: Vec<f64>,
     /// Two numbers for each load: whether its force was set (1 or 0), and that force.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     set_loads: Vec<f64>,
@@ -68,7 +72,7 @@ impl Checkpoint {
     /// Check sum over all contents, field by field.
     fn check_sum(&self) -> u64 {
         let Self { format, identity, steps, modes, laws, state, .. } = self;
-        let Self { ground, structure, set_loads, sum: _, .. } = self;
+        let Self { ground, structure, tangent, set_loads, sum: _, .. } = self;
         let mut sum = CheckSum::default();
         sum.add(u64::from(*format));
         identity.add_to(&mut sum);
@@ -78,7 +82,7 @@ impl Checkpoint {
             sum.add(*mode as u64);
             sum.add(u64::from(*has_opened));
         }
-        for list in [laws, state, ground, structure, set_loads] {
+        for list in [laws, state, ground, structure, tangent, set_loads] {
             sum.add_numbers(list);
         }
         sum.value()
@@ -144,6 +148,7 @@ impl Simulation {
             state: numbers.into_iter().map(|value| *value).collect(),
             ground: self.ground.save()?,
             structure: save_variables(self.structure.as_ref())?,
+            tangent: self.solver.first_tangent(state.step).to_vec(),
             set_loads: set_loads(scene),
             sum: 0,
         };
@@ -221,6 +226,7 @@ impl Simulation {
             return Err(CheckpointError::Corrupt { quantity: LAW_VARIABLES_NAME }.into());
         }
         law_variables.copy_from_slice(&checkpoint.laws);
+        let first_tangent = restored_tangent(structure, &checkpoint.tangent)?;
         let previous_variables = save_variables(structure)?;
         restore_variables(structure, &checkpoint.structure)?;
         if let Err(error) = self.ground.restore(checkpoint.steps, &checkpoint.ground) {
@@ -239,6 +245,7 @@ impl Simulation {
             energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
         JointLosses::set(energies.as_ref().map(|energies| &energies.joint_losses), &mut state);
         state.update_resultants(scene);
+        self.solver.set_first_tangent(state.step, first_tangent);
         self.state = state;
         self.energies = energies;
         let mut saved_loads = checkpoint.set_loads.chunks_exact(2).filter(|_| restores_loads);
@@ -250,6 +257,8 @@ impl Simulation {
     }
 }
 
+/// Name of [`Checkpoint::tangent`] in errors.
+const TANGENT_NAME: &str = "tangent of the structure";
 /// Name of [`Checkpoint::laws`] in errors.
 const LAW_VARIABLES_NAME: &str = "state variables of the interface laws";
 
@@ -272,6 +281,7 @@ impl Checkpoint {
             (&self.state, "state"),
             (&self.ground, "state of the ground"),
             (&self.structure, "state of the structure"),
+            (&self.tangent, TANGENT_NAME),
             (&self.set_loads, "forces that were set"),
         ] {
             if values.iter().any(|value| !value.is_finite()) {
@@ -290,6 +300,16 @@ fn set_loads(scene: &Scene) -> Vec<f64> {
         numbers.extend([f64::from(u8::from(value.is_some())), value.unwrap_or(0.0)]);
     }
     numbers
+}
+
+/// The tangent with these values; an empty matrix for none.
+fn restored_tangent(structure: &dyn Structure, values: &[f64]) -> Result<SparseMatrix> {
+    if values.is_empty() {
+        return Ok(SparseMatrix::default());
+    }
+    let tangent = Tangent::at(structure, &vec![0.0; structure.dofs()])?.matrix;
+    let with_values = tangent.with_values(values);
+    with_values.ok_or_else(|| CheckpointError::Corrupt { quantity: TANGENT_NAME }.into())
 }
 
 /// Restores the modes, and whether elements have been open.

@@ -4,6 +4,7 @@ mod checkpoint;
 mod free_cap;
 mod halves;
 mod in_ground;
+mod moment_capacity;
 mod portal;
 mod pounding;
 mod refused;

@@ -64,13 +64,22 @@ impl Elimination {
     }
 
     /// The order for a pattern with `last_rows` moved to the end, whatever its number of entries.
+    ///
+    /// It is the order of minimum degree or of nested dissection, whichever then gives fewer entries: many factors in this
+    /// order repay its search.
     pub(super) fn of_pattern_ending_with(
         &self,
         pattern: Pattern<'_>,
         last_rows: &[usize],
     ) -> Option<Self> {
-        let order = EliminationOrder::of_factor(&self.analyse(pattern)?)?;
-        Some(order.ending_with(last_rows))
+        let order = EliminationOrder::of_factor(&self.analyse(pattern)?)?.ending_with(last_rows);
+        let Some(dissection_order) = EliminationOrder::from_dissection(pattern) else {
+            return Some(order);
+        };
+        let dissection_order = dissection_order.ending_with(last_rows);
+        let entry_count = order.analyse(pattern)?.len_val();
+        let dissection_count = dissection_order.analyse(pattern)?.len_val();
+        Some(if dissection_count < entry_count { dissection_order } else { order })
     }
 
     /// Symbolic factor in the shared order.

@@ -60,6 +60,11 @@ impl SparseMatrix {
         self.values.copy_from_slice(&other.values);
     }
 
+    /// This pattern with other values, row by row; `None` for another number of values.
+    pub fn with_values(self, values: &[f64]) -> Option<Self> {
+        (values.len() == self.values.len()).then(|| Self { values: values.to_vec(), ..self })
+    }
+
     /// Whether another matrix has other entries.
     ///
     /// Values are compared before places: matrices of one pattern mostly differ in a value.

@@ -192,6 +192,19 @@ pub(crate) struct StaticGround<'a> {
     pub(crate) may_shorten_increments: bool,
 }
 
+impl<'a> StaticGround<'a> {
+    /// Ground for a comparison of static states.
+    ///
+    /// Only states that full increments find are compared: close to the capacity of a yielding structure, shapes differ by
+    /// far more than forces.
+    pub(crate) fn for_comparison(
+        compliance: &'a CompressedMatrix,
+        shared_compliance: &'a RefCell<Option<Compliance>>,
+    ) -> Self {
+        Self { compliance, shared_compliance, may_shorten_increments: false }
+    }
+}
+
 /// Static state under weight and loads at t = 0, with interface laws.
 ///
 /// The structure's internal variables stay unchanged.

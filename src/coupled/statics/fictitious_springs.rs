@@ -22,7 +22,9 @@ impl FictitiousSprings {
         force
     }
 
-    /// Whether the springs have their smallest stiffness, as for a structure that is unstable on softer springs.
+    /// Whether the springs have their smallest stiffness.
+    ///
+    /// A structure may be unstable on softer springs.
     pub(super) fn must_stay_stiff(&self) -> bool {
         self.min_shift == self.shift
     }

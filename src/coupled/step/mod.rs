@@ -2,9 +2,11 @@
 
 pub(crate) mod advance;
 pub(crate) mod energy_accumulator;
+mod evaluation;
 pub(crate) mod forcing;
 pub(crate) mod increment;
 pub(crate) mod joint_losses;
+mod kept_tangent;
 mod linear;
 mod modal_loops;
 mod newton;

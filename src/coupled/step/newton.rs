@@ -1,15 +1,14 @@
 //! Newton's method for a step of a nonlinear structure; each iteration solves the contact problem.
 
 use crate::contact::SearchMethod;
-use crate::coupled::model::kinematics::Kinematics;
-use crate::coupled::scene::Scene;
-use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::statics::increment_search::IncrementSearch;
+use crate::coupled::step::evaluation::{change_tangent, evaluate_force};
 use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
+use crate::coupled::step::kept_tangent::{FirstTangent, may_keep_tangent};
 use crate::coupled::step::linear::LinearStep;
 use crate::error::StepError;
-use crate::linalg::largest;
+use crate::linalg::{SparseMatrix, largest};
 use crate::structure::Tangent;
 
 /// Largest number of iterations of a step before the continuation; most steps need fewer than ten.
@@ -24,11 +23,6 @@ const DISPLACEMENT_ROUNDING_FACTOR: f64 = 32.0;
 const ROUNDING_RATIO: f64 = 0.5;
 /// Number of iterations without a smaller out-of-balance force after which the iteration counts as a cycle.
 const MAX_STAGNANT_ITERATIONS: usize = 15;
-/// Smallest number of degrees of freedom for which two iterations with an old tangent take less time than a new factor.
-const MIN_KEPT_TANGENT_DOFS: usize = 400;
-/// Factor of the expected contraction of an iteration with an old tangent.
-const CONTRACTION_SAFETY: f64 = 2.0;
-
 /// Number of degrees of freedom with the largest out-of-balance force that an error passes to the structure.
 const REPORTED_DOFS: usize = 8;
 
@@ -42,6 +36,7 @@ const MIN_STAGE_FRACTION: f64 = 1e-6;
 /// Newton's method with its buffers.
 pub(crate) struct NewtonIteration {
     tangent: Tangent,
+    first_tangent: FirstTangent,
     /// The present iterate of Δu.
     guess: Vec<f64>,
     /// Nonlinear force, linearised about the iterate.
@@ -69,6 +64,7 @@ impl NewtonIteration {
         let zeros = vec![0.0; dofs];
         Self {
             tangent: Tangent::new(dofs),
+            first_tangent: FirstTangent::default(),
             guess: zeros.clone(),
             linearised_force: zeros.clone(),
             force_displacement: zeros.clone(),
@@ -100,7 +96,8 @@ impl NewtonIteration {
             *guess = v * scene.time_step - dy;
         }
         self.evaluate(linear, data, increment)?;
-        let residual = self.iterate_whole_step(linear, data, increment)?;
+        let has_tangent = self.start_with_last_tangent(linear, data)?;
+        let residual = self.iterate_whole_step(linear, data, has_tangent, increment)?;
         if residual.is_nan() || residual > STAGNATION_TOLERANCE.max(self.rounding(linear)) {
             self.continue_in_stages(linear, data, residual, increment)?;
         }
@@ -120,11 +117,36 @@ impl NewtonIteration {
         Ok(())
     }
 
+    /// Sets the operators to the tangent with which the step begins; false if it needs a new one.
+    fn start_with_last_tangent(
+        &mut self,
+        linear: &mut LinearStep,
+        data: StepData<'_>,
+    ) -> Result<bool, StepError> {
+        let first_tangent = self.first_tangent.of_step(data.state.step, &linear.operators.tangent);
+        let Some(tangent) = first_tangent else { return Ok(false) };
+        change_tangent(linear, data, tangent)?;
+        Ok(true)
+    }
+
+    /// Values of the tangent with which the next step begins, for a checkpoint; empty for none.
+    pub(crate) fn first_tangent<'a>(&'a self, step: usize, last: &'a SparseMatrix) -> &'a [f64] {
+        self.first_tangent.values(step, last)
+    }
+
+    /// Sets the tangent with which the next step begins; an empty matrix for none.
+    pub(crate) fn set_first_tangent(&mut self, step: usize, tangent: SparseMatrix) {
+        self.first_tangent = FirstTangent::from_checkpoint(step, tangent);
+    }
+
     /// Iterates until the out-of-balance force vanishes or does not decrease; returns its last relative value.
+    ///
+    /// `has_tangent`: whether the first iteration has the tangent of the operators.
     fn iterate_whole_step(
         &mut self,
         linear: &mut LinearStep,
         data: StepData<'_>,
+        has_tangent: bool,
         increment: &mut Increment,
     ) -> Result<f64, StepError> {
         let mut residual = f64::INFINITY;
@@ -144,7 +166,12 @@ impl NewtonIteration {
                 let force = &increment.nonlinear_force;
                 self.search.start_at(&self.guess, &self.linearised_force, force);
             }
-            if !self.may_keep_tangent(contraction, residual) {
+            let keeps_tangent = if iteration == 0 {
+                has_tangent
+            } else {
+                may_keep_tangent(self.guess.len(), contraction, residual, RESIDUAL_TOLERANCE)
+            };
+            if !keeps_tangent {
                 self.update_tangent(linear, data)?;
             }
             let previous_residual = residual;
@@ -170,15 +197,6 @@ impl NewtonIteration {
             }
         }
         Ok(residual)
-    }
-
-    /// Whether the last tangent is good enough for the next iteration of a large structure.
-    ///
-    /// The tangents at the last two iterates differ by about `contraction`, the factor by which an iteration with the last
-    /// tangent reduces the out-of-balance force.
-    fn may_keep_tangent(&self, contraction: f64, residual: f64) -> bool {
-        self.guess.len() >= MIN_KEPT_TANGENT_DOFS
-            && residual * (CONTRACTION_SAFETY * contraction).powi(2) <= RESIDUAL_TOLERANCE
     }
 
     /// Whether the out-of-balance force is rounding that further iterations do not reduce.
@@ -263,16 +281,7 @@ impl NewtonIteration {
         self.tangent
             .refill(data.structure, &self.force_displacement)
             .map_err(StepError::part("tangent of the structure"))?;
-        let tangent = &self.tangent.matrix;
-        if tangent.differs_from(&linear.operators.tangent) {
-            let Scene { model, base, step_compliance, coefficients, .. } = data.scene;
-            linear
-                .operators
-                .change_tangent(model, base, step_compliance, coefficients, tangent)
-                .map_err(StepError::part("tangent of the structure"))?;
-            linear.contact.invalidate();
-        }
-        Ok(())
+        change_tangent(linear, data, &self.tangent.matrix)
     }
 
     /// Solves the step with the force linearised about the iterate, and returns the relative out-of-balance force.
@@ -331,11 +340,11 @@ impl NewtonIteration {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let Self { search, guess, linearised_force, force_displacement, .. } = self;
-        let nonlinear_force = &mut increment.nonlinear_force;
-        search.search(guess, linearised_force, nonlinear_force, |guess, force| {
-            evaluate_force(linear, data, guess, force_displacement, force)
-        })?;
-        Ok(())
+        search
+            .search(guess, linearised_force, &mut increment.nonlinear_force, |guess, force| {
+                evaluate_force(linear, data, guess, force_displacement, force)
+            })
+            .map(drop)
     }
 
     /// Error for an iteration that did not converge; `residual` is its relative out-of-balance force.
@@ -365,37 +374,4 @@ impl NewtonIteration {
         let Self { guess, force_displacement, .. } = self;
         evaluate_force(linear, data, guess, force_displacement, &mut increment.nonlinear_force)
     }
-}
-
-/// Evaluates f at u* for an iterate of Δu, minus f at the static state.
-///
-/// `displacement` becomes u*.
-fn evaluate_force(
-    linear: &mut LinearStep,
-    data: StepData<'_>,
-    guess: &[f64],
-    displacement: &mut [f64],
-    force: &mut [f64],
-) -> Result<(), StepError> {
-    let StepData { scene, structure, state, forcing } = data;
-    let c = scene.coefficients.displacement;
-    let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
-    for (i, entry) in displacement.iter_mut().enumerate() {
-        *entry = u[i] + SchemeCoefficients::apply(c, guess[i], v[i], a[i]);
-    }
-    let translations = forcing
-        .translations
-        .iter()
-        .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
-    scene.convert_to_force_displacement(displacement, &mut linear.base_means, translations);
-    force.fill(0.0);
-    if let Some(nonlinear_force) = structure.nonlinear() {
-        nonlinear_force
-            .force(displacement, force)
-            .map_err(StepError::part("nonlinear force of the structure"))?;
-    }
-    for (force, static_force) in force.iter_mut().zip(&scene.static_state.force) {
-        *force -= static_force;
-    }
-    StepError::check_finite("nonlinear force of the structure", force)
 }

@@ -8,7 +8,7 @@ use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
 use crate::coupled::step::linear::LinearStep;
 use crate::error::StepError;
-use crate::linalg::{largest, magnitude_sum};
+use crate::linalg::{SparseMatrix, largest, magnitude_sum};
 
 /// Largest change of a degree of freedom in a step, in any units; beyond it a run has diverged.
 const MAX_STEP_CHANGE: f64 = 1e15;
@@ -37,6 +37,19 @@ impl StepSolver {
     /// Operators and contact solver, for estimates of condition numbers.
     pub(crate) fn operators_and_contact_mut(&mut self) -> (&mut Operators, &mut ContactSolver) {
         (&mut self.linear.operators, &mut self.linear.contact)
+    }
+
+    /// Values of the tangent with which the next step begins, for a checkpoint; empty for none.
+    pub(crate) fn first_tangent(&self, step: usize) -> &[f64] {
+        let last = &self.linear.operators.tangent;
+        self.newton.as_ref().map_or(&[], |newton| newton.first_tangent(step, last))
+    }
+
+    /// Sets the tangent with which the next step begins; an empty matrix for none.
+    pub(crate) fn set_first_tangent(&mut self, step: usize, tangent: SparseMatrix) {
+        if let Some(newton) = &mut self.newton {
+            newton.set_first_tangent(step, tangent);
+        }
     }
 
     /// Computes the increment of the step.

@@ -135,7 +135,7 @@ fn older_formats_are_refused_by_name() {
     let error = simulation.resume(&older).unwrap_err();
     assert_eq!(error, CheckpointError::Format { found: 7, needed: 13 }.into());
     // A checkpoint of this format needs a sum.
-    form["format"] = Value::from(13);
+    form["format"] = Value::from(14);
     let without_sum: Checkpoint = serde_json::from_value(form).unwrap();
     assert_eq!(simulation.resume(&without_sum).unwrap_err(), DAMAGED_CONTENTS.into());
 }

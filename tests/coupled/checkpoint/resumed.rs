@@ -5,17 +5,20 @@
 
 use std::any::Any;
 
-use basemat::bem::{ElasticGround, Strip};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::contact::SearchMethod;
 use basemat::coupled::CheckpointError;
 use basemat::coupled::{SimulationBuilder, State};
+use basemat::fem::{Iwan, Mesh};
 use basemat::history::HistoryMethod;
-use basemat::interface::Bonded;
-use basemat::structure::{NonlinearForce, RigidBlock, RigidBody, Structure, Triplets};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::Record;
+use basemat::structure::{FemModel, NonlinearForce, RigidBlock, RigidBody, Structure, Triplets};
 use basemat::{Result, Simulation};
 
 use super::{RUN_STEPS, half_plane, spring_bed, through_text};
 use basemat_problems::scenes::{Rider, SI_UNITS, block, friction, scene, soil, states, tower};
+use basemat_problems::yielding_blocks::grid_lines;
 use basemat_problems::{needed_from, own_force};
 
 /// Rigid block with a weak spring against rotation whose anchor follows the block.
@@ -159,6 +162,41 @@ fn resumed_runs_are_the_same_to_the_last_bit() {
         assert!(end.absolute_displacement().iter().any(|u| *u != 0.0), "{name}: no motion");
         assert!(end.contact[0] != expected[0].contact[0], "{name}: no change of contact");
     }
+}
+
+/// Block of clay with more than 400 degrees of freedom, under strong motion.
+fn block_of_clay(steps: usize) -> Result<Simulation> {
+    let clay = Iwan::hyperbolic(40.0e6, 60.0e3, 0.3, 0.45, 1900.0)?;
+    let x_lines = grid_lines(-4.0, 8.0, 10);
+    let y_lines = grid_lines(0.0, 4.0, 6);
+    let model = FemModel::on_base(Mesh::quad8_block(&x_lines, &y_lines, |_, _| clay.clone())?)?;
+    let time_step = 0.005;
+    let duration = time_step * steps as f64;
+    let motion = Record::from_fn(time_step, duration, |time| 8.0 * (25.0 * time).sin())?;
+    Simulation::builder(time_step)
+        .ground(SpringGround::under(&model, 10, 4.0e8, 4.0e8)?)
+        .structure(model)
+        .interface(Coulomb::new(0.5)?)
+        .motion(motion)
+        .build()
+}
+
+/// Large structures begin a step with the last tangent of the step before, which is part of the checkpoint.
+#[test]
+fn large_yielding_structures_resume_to_the_last_bit() -> Result<()> {
+    const RESUMED_RUN_STEPS: usize = 60;
+    let mut first = block_of_clay(RESUMED_RUN_STEPS)?;
+    assert!(first.structure().dofs() > 400);
+    first.run(RESUMED_RUN_STEPS / 2, |_| {})?;
+    let checkpoint = through_text(&first.checkpoint()?);
+    let mut resumed = block_of_clay(RESUMED_RUN_STEPS)?;
+    resumed.resume(&checkpoint)?;
+    assert_eq!(resumed.checkpoint()?, checkpoint);
+    for _ in RESUMED_RUN_STEPS / 2..RESUMED_RUN_STEPS {
+        assert_eq!(first.step()?, resumed.step()?);
+    }
+    assert!(first.state().energy_balance.hysteresis > 0.0);
+    Ok(())
 }
 
 fn anchor(structure: &dyn Any) -> f64 {

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use basemat_problems::check_sum::{check_sum, text_words};
 
-const CHECKPOINT_FIELDS: [&str; 9] = [
+const CHECKPOINT_FIELDS: [&str; 10] = [
     "format",
     "identity",
     "steps",
@@ -16,6 +16,7 @@ const CHECKPOINT_FIELDS: [&str; 9] = [
     "state",
     "ground",
     "structure",
+    "tangent",
     "set_loads",
 ];
 const IDENTITY_FIELDS: [&str; 11] = [

@@ -39,6 +39,7 @@ pub mod settling_strips;
 pub mod space_beams;
 pub mod static_steps;
 pub mod stiff_element;
+pub mod strip_rotation;
 pub mod supported;
 pub mod tabled_structures;
 pub mod tower;

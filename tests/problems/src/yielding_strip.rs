@@ -160,7 +160,7 @@ impl StripSoil {
 }
 
 /// Distances from zero of lines between elements that grow by a ratio, as long as they stay below a bound.
-fn graded_distances(first_size: f64, ratio: f64, bound: f64) -> Vec<f64> {
+pub(crate) fn graded_distances(first_size: f64, ratio: f64, bound: f64) -> Vec<f64> {
     let mut distances = vec![0.0];
     let mut size = first_size;
     let mut distance = size;

@@ -9,6 +9,7 @@
 mod check;
 mod elements;
 mod laws;
+mod rotations;
 mod runs;
 mod strips;
 
@@ -36,11 +37,14 @@ pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
     let mut checks = laws::checks()?;
     checks.extend(elements::checks()?);
     checks.extend(strips::checks(options.short));
+    let (rotation_checks, figure) = rotations::checks(options.short)?;
+    checks.extend(rotation_checks);
     checks.extend(runs::checks(options.short)?);
     let table = markdown(&checks);
     println!("\n{table}");
     if let Some(docs) = &options.docs {
         splice_into(&docs.join("validation.md"), "yielding", &table)?;
+        figure.draw(&docs.join("images/validation_moment_capacity.svg"))?;
     }
     let failed: Vec<&str> = checks.iter().filter(|check| !check.holds()).map(Check::name).collect();
     if failed.is_empty() {

@@ -45,7 +45,8 @@ impl IntegrationRule<DOF_COUNT> for QuadFormulation {
                 strains[2 * node + 1] = [y_third, dy + y_third, y_third, dx];
             }
             let area = jacobian.determinant;
-            visit(&IntegrationPoint { index, natural: point, area, strains })?;
+            let has_derivatives = false;
+            visit(&IntegrationPoint { index, natural: point, area, strains, has_derivatives })?;
         }
         Ok(())
     }

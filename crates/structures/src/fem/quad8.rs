@@ -168,7 +168,9 @@ impl IntegrationRule<DOF_COUNT> for Quad8Integration {
                 columns[0] = [dx, 0.0, 0.0, dy];
                 columns[1] = [0.0, dy, 0.0, dx];
             }
-            visit(&IntegrationPoint { index, natural, area: weight * determinant, strains })?;
+            let area = weight * determinant;
+            let has_derivatives = true;
+            visit(&IntegrationPoint { index, natural, area, strains, has_derivatives })?;
         }
         Ok(())
     }

@@ -21,6 +21,8 @@ pub(super) struct IntegrationPoint<const N: usize> {
     pub(super) area: f64,
     /// Strains `[xx, yy, zz, xy]` due to a unit displacement of each degree of freedom, 1/m.
     pub(super) strains: [[f64; 4]; N],
+    /// Whether the strains of each node are the derivatives of its shape function: `[x, 0, 0, y]` and `[0, y, 0, x]`.
+    pub(super) has_derivatives: bool,
 }
 
 impl<const N: usize> IntegrationPoint<N> {
@@ -44,6 +46,9 @@ impl<const N: usize> IntegrationPoint<N> {
 
     /// Adds the stiffness of a tangent ∂stress/∂strain, Pa, to a row-major `matrix`.
     fn add_stiffness(&self, tangent: &[[f64; 4]; 4], matrix: &mut [f64]) {
+        if self.has_derivatives {
+            return self.add_stiffness_of_derivatives(tangent, matrix);
+        }
         // Stress components by each degree of freedom, component after component, so that the inner loop is over
         // neighbouring numbers.
         let stresses =
@@ -54,6 +59,33 @@ impl<const N: usize> IntegrationPoint<N> {
                     + strains[1] * stresses[1][j]
                     + strains[2] * stresses[2][j]
                     + strains[3] * stresses[3][j];
+            }
+        }
+    }
+}
+
+impl<const N: usize> IntegrationPoint<N> {
+    /// Adds the same stiffness without the products with zero strains.
+    fn add_stiffness_of_derivatives(&self, tangent: &[[f64; 4]; 4], matrix: &mut [f64]) {
+        // Stress components by each degree of freedom, component after component.
+        let stresses = tangent.map(|row| {
+            let mut component = [0.0; N];
+            let pairs = component.as_chunks_mut::<2>().0.iter_mut();
+            for (pair, column) in pairs.zip(self.strains.iter().step_by(2)) {
+                let x = column[0];
+                let y = column[3];
+                *pair =
+                    [self.area * (row[0] * x + row[3] * y), self.area * (row[1] * y + row[3] * x)];
+            }
+            component
+        });
+        let row_pairs = matrix.as_chunks_mut::<N>().0.as_chunks_mut::<2>().0.iter_mut();
+        for ([x_row, y_row], column) in row_pairs.zip(self.strains.iter().step_by(2)) {
+            let x = column[0];
+            let y = column[3];
+            for j in 0..N {
+                x_row[j] += x * stresses[0][j] + y * stresses[3][j];
+                y_row[j] += y * stresses[1][j] + x * stresses[3][j];
             }
         }
     }
