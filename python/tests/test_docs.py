@@ -78,7 +78,7 @@ def test_every_call_has_a_signature() -> None:
     # What static methods make alone has no constructor.
     assert parameters("PlaneWave") == [] != parameters("PlaneWave.sv")
     keywords = parameters("Simulation")
-    assert len(keywords) == 13 and keywords[4].kind is inspect.Parameter.KEYWORD_ONLY
+    assert len(keywords) == 14 and keywords[4].kind is inspect.Parameter.KEYWORD_ONLY
 
 
 UNITS = r"(?<![\w/])(m|s|Hz|rad|Pa|kg|N|J)(?!\w)|/m|1/s|\bunits?\b"

@@ -201,7 +201,7 @@ def test_what_cannot_pickle_says_so() -> None:
 def test_signatures_stay_readable() -> None:
     # Python 3.9 knows no signatures of compiled classes.
     assert sys.version_info < (3, 10) or str(inspect.signature(bm.RigidBlock)) == (
-        "(width, height, density, *, center=0.0, p_delta=None)"
+        "(width, height, density, *, center=0.0, p_delta=None, carried_weights=None)"
     )
     assert "grading='cosine'" in str(inspect.signature(bm.ElasticGround.under))
     assert "of ``count`` elements" in bm.ElasticGround.under.__doc__
