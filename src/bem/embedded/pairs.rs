@@ -7,7 +7,7 @@ use super::rational::RationalCompliances;
 use super::sampling::{QuadratureDomain, sample};
 use super::soil::TrenchSoil;
 use crate::bem::layered::{Compliances, LayeredCompliance, SurrogateLengths, self_pair_classes};
-use crate::error::{ProgressReporter, Result};
+use crate::error::{Error, ProgressReporter, Result};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::history::{Pair, PairClasses};
 use crate::linalg::Complex;
@@ -186,7 +186,11 @@ impl Compliances<TRENCH_KINDS> for TrenchPairs {
         let classes = trench_classes(self.soil.elements().elements())?;
         let self_pairs = self_pair_classes(&classes);
         let compute = |s, values: &mut [_]| self.computed(s, values);
-        let rational = sample(domain, &self_pairs, compute, progress)?;
+        // Samples are closer to the axis than the points of short histories. A point that fails itself reports its error.
+        let rational = match sample(domain, &self_pairs, compute, progress) {
+            Err(error @ Error::Stopped(_)) => return Err(error),
+            outcome => outcome.ok().flatten(),
+        };
         // Two calls at the same time have the same result.
         self.rational.get_or_init(|| rational);
         Ok(())
