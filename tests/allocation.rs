@@ -8,14 +8,15 @@ use std::cell::Cell;
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
-use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
+use basemat::coupled::{Coordinates, Joint, Load, Probe, SimulationBuilder, Theta};
 use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::structure::{
-    FemModel, NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, Triplets,
+    FemModel, NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, StructureGroup,
+    Triplets,
 };
 use basemat::{Simulation, unobserved};
 
@@ -104,6 +105,7 @@ fn count_steps(builder: SimulationBuilder) -> StepCounts {
         let state = simulation.step().unwrap();
         assert_eq!(state.probe("u"), Ok(state.probes[0]));
         mode_changes += state.transitions.len();
+        mode_changes += state.joints.iter().map(|joint| joint.transitions.len()).sum::<usize>();
     }
     StepCounts { allocations: ALLOCATION_COUNT.get() - start_count, mode_changes }
 }
@@ -171,6 +173,20 @@ fn bonded_tower() -> SimulationBuilder {
     base().structure(tower(SI_UNITS, None)).interface(Bonded)
 }
 
+/// A block that slides and rocks on another one, which is bonded to the ground.
+fn stacked_blocks() -> SimulationBuilder {
+    let lower = RigidBlock::new(4.0, 1.0, 2000.0).unwrap();
+    let upper = RigidBlock::new(2.0, 4.0, 2000.0).unwrap();
+    let top = lower.contact_nodes(&[[-1.0, 1.0], [1.0, 1.0]]).unwrap();
+    let bottom = upper.contact_nodes(&[[-1.0, 0.0], [1.0, 0.0]]).unwrap();
+    let group = StructureGroup::new().with(lower, 0.0).unwrap();
+    let group = group.with_above(upper, [0.0, 1.0]).unwrap();
+    let upper_side = group.contact_nodes(1, bottom).unwrap();
+    let lower_side = group.contact_nodes(0, top).unwrap();
+    let joint = Joint::between(upper_side, lower_side, 6).unwrap();
+    base().structure(group).interface(Bonded).joint(joint.with_law(friction(0.3)))
+}
+
 /// Soil that settles in every cycle.
 fn cyclic_yielding() -> CyclicYielding {
     let law = CyclicYielding::new(4e5, 3e-3, 0.3).unwrap();
@@ -223,6 +239,7 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
                 .coordinates(modes)
                 .load(Load::new(3, |t: f64| 3e4 * (40.0 * t).sin())),
         ),
+        ("joint", stacked_blocks().scheme(Theta::new(1.0).unwrap())),
         ("Newton", base().structure(QuadraticSpring(block)).interface(friction(0.3))),
         ("yielding column", base().structure(spring_column(8)).interface(friction(0.3))),
         ("yielding block", base().structure(yielding_block(2, 3)).interface(friction(0.3))),
@@ -289,6 +306,13 @@ fn histories_in_plan_do_not_allocate() {
 #[test]
 fn recording_does_not_allocate_once_memory_is_reserved() {
     let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(friction(0.3));
+    for builder in [builder, stacked_blocks()] {
+        assert_eq!(allocations_of_recording(builder), 0);
+    }
+}
+
+/// Number of allocations while steps are made and recorded.
+fn allocations_of_recording(builder: SimulationBuilder) -> usize {
     // From modes, the state itself has to make the degrees of freedom of a frame.
     let builder = builder.coordinates(Coordinates::Physical);
     let mut simulation = builder.expected_steps(ALL_STEPS).build().unwrap();
@@ -302,8 +326,9 @@ fn recording_does_not_allocate_once_memory_is_reserved() {
     for _ in 0..COUNTED_STEPS {
         time_series.record(simulation.step().unwrap()).unwrap();
     }
-    assert_eq!(ALLOCATION_COUNT.get() - start_count, 0);
+    let allocations = ALLOCATION_COUNT.get() - start_count;
     assert_eq!(time_series.times().len(), ALL_STEPS + 1);
+    allocations
 }
 
 /// Blocks of soil: eight-node quadrilaterals, and one with four nodes.

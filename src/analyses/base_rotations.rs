@@ -9,8 +9,8 @@ const COLLINEAR_NODES_TOLERANCE: f64 = 1e-12;
 
 /// Rotations of the base about the axes along y and x, rad, from its nodes' displacements.
 ///
-/// A plane is fitted to the nodes of each foundation by least squares. The largest rotation of all foundations counts.
-/// The rotation about x is zero in the plane.
+/// A plane is fitted to the displaced nodes of each foundation by least squares. About each axis, the rotation with the
+/// largest magnitude of all foundations is returned. A structure in two dimensions has no rotation about x.
 pub(super) fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
     let base = structure.base();
     let mut largest_rotations = [0.0_f64; 2];
@@ -31,7 +31,7 @@ pub(super) fn base_rotations(structure: &dyn Structure, displacement: &[f64]) ->
 
 /// Slopes along x and y of the vertical displacements of nodes, by least squares.
 ///
-/// Collinear nodes have no slope along y.
+/// The slope along y of collinear nodes is zero.
 fn fitted_slopes(nodes: &[BaseNode], displacement: &[f64]) -> [f64; 2] {
     let node_count = nodes.len() as f64;
     let mut points = Vec::with_capacity(nodes.len());

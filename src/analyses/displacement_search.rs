@@ -1,8 +1,10 @@
 //! Search for the force of a target displacement in a push-over.
+//!
+//! Above the target means beyond it in its direction; the target may be negative.
 
-/// Width of the bracket of the largest force, relative to this force, at which the search ends.
-pub(super) const LIMIT_TOLERANCE: f64 = 1e-4;
-/// Largest growth of the force in one extrapolation, so that a soft start does not overshoot the limit.
+/// Width of the bracket of the limit force, relative to this force, at which the search ends.
+pub(super) const LIMIT_FORCE_TOLERANCE: f64 = 1e-4;
+/// Largest growth of the force in one extrapolation, so that a stiff start does not overshoot the limit.
 const MAX_FORCE_GROWTH: f64 = 4.0;
 
 /// Force and displacement of a static state.
@@ -15,9 +17,10 @@ pub(super) struct ForceDisplacement {
 /// Search for the force of a target displacement.
 ///
 /// Between two states the search is the regula falsi with halved weights (Illinois method). Beyond all states the force
-/// grows with the last secant stiffness.
+/// grows with the last secant stiffness. If a force has no equilibrium, the search bisects.
 pub(super) struct DisplacementSearch {
     target: f64,
+    /// Force of the first trial; it adds to the force of a state without displacement.
     first_force: f64,
     /// Last state below the target.
     pub(super) lower: ForceDisplacement,
@@ -62,7 +65,7 @@ impl DisplacementSearch {
         }
     }
 
-    /// Replaces the lower or the upper state; returns whether it is above the target.
+    /// Replaces the lower or the upper state by `state`; returns whether `state` is above the target.
     pub(super) fn update(&mut self, state: ForceDisplacement) -> bool {
         let is_above = state.displacement / self.target > 1.0;
         let is_repeated = self.was_above.replace(is_above) == Some(is_above);
@@ -81,6 +84,6 @@ impl DisplacementSearch {
 
     /// Whether the forces with and without equilibrium agree to the tolerance, relative to `force`.
     pub(super) fn is_limit(&self, failed_force: f64, force: f64) -> bool {
-        (failed_force - self.lower.force).abs() <= LIMIT_TOLERANCE * force.abs()
+        (failed_force - self.lower.force).abs() <= LIMIT_FORCE_TOLERANCE * force.abs()
     }
 }

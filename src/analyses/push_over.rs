@@ -3,7 +3,7 @@
 use crate::Simulation;
 use crate::analyses::base_rotations::base_rotations;
 use crate::analyses::displacement_search::{
-    DisplacementSearch, ForceDisplacement, LIMIT_TOLERANCE,
+    DisplacementSearch, ForceDisplacement, LIMIT_FORCE_TOLERANCE,
 };
 use crate::error::{Error, Result, StabilityError, at_least, finite, require};
 use crate::linalg::largest;
@@ -291,7 +291,7 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
         let mut carried_force = self.last_state.force;
         let mut failed_force = force;
         let mut last_point = None;
-        while (failed_force - carried_force).abs() > LIMIT_TOLERANCE * failed_force.abs() {
+        while (failed_force - carried_force).abs() > LIMIT_FORCE_TOLERANCE * failed_force.abs() {
             let middle = 0.5 * (carried_force + failed_force);
             match self.state(middle)? {
                 Some(point) => {

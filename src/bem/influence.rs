@@ -94,7 +94,7 @@ impl InfluenceKernel {
         let max_offset = overlap.max_offset();
         let w = &overlap.even_overlaps;
         let mut moments = [0.0; LATE_SERIES_TERMS];
-        let rule = gauss::largest();
+        let rule = gauss::largest_rule();
         for i in 1..overlap.nodes.len() {
             let x0 = overlap.nodes[i - 1];
             let x1 = overlap.nodes[i];

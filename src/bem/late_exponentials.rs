@@ -247,7 +247,7 @@ fn legendre_means(elements: &[ContactElement], polynomial_count: usize) -> Vec<V
     let mut means = vec![vec![0.0; elements.len()]; polynomial_count];
     let mut values = vec![0.0; polynomial_count];
     // A Gauss rule over each element is exact, without cancellation on short elements.
-    let rule = gauss::largest();
+    let rule = gauss::largest_rule();
     for (e, element) in elements.iter().enumerate() {
         for (node, weight) in rule.points() {
             let x = element.center()[0] - middle + 0.5 * element.length() * node;

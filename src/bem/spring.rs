@@ -230,7 +230,9 @@ impl SpringGround {
 
 /// Value of each component of a contact vector, from the values down, along x and along y.
 fn component_values(layout: ContactLayout, values: [f64; COMPONENTS_IN_SPACE]) -> Vec<f64> {
-    (0..layout.len()).map(|index| values[layout.origin(index)[0]]).collect()
+    (0..layout.len())
+        .map(|index| values[layout.component_and_element(index)[0]])
+        .collect()
 }
 
 impl Ground for SpringGround {

@@ -98,7 +98,7 @@ impl StaticKernel {
         let slope = (w1 - w0) / length;
         if x0 >= 0.5 * length {
             // Away from the singularity the rule is exact to rounding, while differences of the primitives lose digits.
-            let rule = gauss::largest();
+            let rule = gauss::largest_rule();
             let mut sum = 0.0;
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 let distance = 0.5 * length * (1.0 + node);

@@ -74,7 +74,7 @@ pub struct ContactSolution<'a> {
     pub states: &'a [ContactState],
     /// Mode of each element.
     pub modes: &'a [Mode],
-    /// Number of linear solves of the mode search.
+    /// Number of trials of the mode search: linear solutions, and sweeps over the elements.
     pub trials: usize,
     /// Method that found the modes.
     pub method: SearchMethod,
@@ -248,7 +248,7 @@ impl ContactProblem {
     }
 }
 
-/// Error unless the start belongs to this number of elements with these state variables.
+/// Returns an error unless the start has these elements and state variables.
 fn check_start(
     start: &PreviousContacts,
     element_count: usize,
@@ -262,14 +262,14 @@ fn check_start(
     Err(Error::Scene { quantity: "start of the step", needed })
 }
 
-/// Error unless the numbers of an element's start are finite.
+/// Returns an error unless the numbers of an element's start are finite.
 fn check_element(start: &PreviousContact<'_>) -> Result<()> {
     check_finite("state of an element", &start.state.jump())?;
     check_finite("state of an element", &start.state.traction())?;
     check_finite("state of an element", &[start.slip_rate])
 }
 
-/// Error unless all values of this quantity are finite.
+/// Returns an error unless all values of this quantity are finite.
 fn check_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
     values.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))
 }

@@ -8,7 +8,9 @@ use crate::linalg::{
     CompressedMatrix, dense_condition, dense_multiply_add, transposed_multiply_add,
 };
 
-/// Largest rank of the structure's part for separate products: the amplitudes have this fixed size.
+/// Largest rank of the structure's part for separate products.
+///
+/// The amplitudes of a product have this fixed size.
 pub(crate) const MAX_STRUCTURE_RANK: usize = 64;
 /// Factor by which separate products must reduce the entries that are read.
 const MIN_ENTRY_REDUCTION: usize = 4;
@@ -25,7 +27,9 @@ pub(crate) struct Delassus {
     on_bed: Option<OnBed>,
 }
 
-/// Factors of the structure's part in W = G¹ + B C, for a sparse G¹ and few degrees of freedom.
+/// Factors of the structure's part in W = G¹ + B C.
+///
+/// They are stored for a sparse G¹ and few degrees of freedom.
 #[derive(Debug, Clone)]
 struct StructureFactors {
     /// B, row by row: displacements of the contact components.
@@ -91,7 +95,8 @@ impl Delassus {
 
     /// Computes the operator again for other columns C, without allocating.
     ///
-    /// `add_structure` adds B C to the values, which have `soil`. Without `columns`, products use the values.
+    /// `add_structure` adds B C to the entries of `soil`. If the number of `columns` has changed, products use all
+    /// entries.
     pub(crate) fn refill(
         &mut self,
         soil: &CompressedMatrix,

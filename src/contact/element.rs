@@ -4,7 +4,9 @@ use super::fixed_modes::{JUMP_ROUNDING_FACTOR, TRACTION_ROUNDING_FACTOR};
 use super::problem::{ContactInput, ContactResponse, LawResult};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
-/// Solves element `e` with all other tractions fixed, and returns its mode; the present mode is tried first.
+/// Solves element `e` with all other tractions fixed, and returns its mode.
+///
+/// It tries the present mode first, and keeps it if no mode is admissible.
 pub(super) fn local_mode(
     response: &mut ContactResponse,
     input: &ContactInput<'_>,
@@ -13,9 +15,9 @@ pub(super) fn local_mode(
 ) -> LawResult<Mode> {
     let layout = response.layout;
     let size = layout.len();
-    let [n, t] = layout.places(e);
+    let [n, t] = layout.indices_of(e);
     let rows = [n, t].map(|i| &input.delassus[i * size..(i + 1) * size]);
-    // Jump without the change of traction of this element.
+    // Jump without the change of traction on this element.
     let mut jump = [0.0; 2];
     for ((jump, row), i) in jump.iter_mut().zip(rows).zip([n, t]) {
         let jump_change = crate::linalg::dot(row, &response.traction);
@@ -57,7 +59,9 @@ pub(super) fn local_mode(
     Ok(present_mode)
 }
 
-/// Change of traction of one element that satisfies its two conditions; `None` if they are dependent.
+/// Change of traction of one element that satisfies its two conditions.
+///
+/// `None` if they are dependent.
 fn solve_element(
     conditions: [Condition; 2],
     jump: [f64; 2],

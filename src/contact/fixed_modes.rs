@@ -17,7 +17,7 @@ pub(super) const TRACTION_ROUNDING_FACTOR: f64 = 1e-12;
 pub(super) struct ContactModeSolver {
     /// Tractions, jumps and states of the last solution.
     pub(super) response: ContactResponse,
-    /// Conditions of the last solution, two per element.
+    /// Conditions of the present modes, two per element.
     conditions: Vec<[Condition; 2]>,
     /// Conditions of the stored factors. The factors are independent of [`Condition::value`].
     factored_conditions: Vec<[Condition; 2]>,
@@ -64,7 +64,9 @@ impl ContactModeSolver {
         self.has_valid_factor = false;
     }
 
-    /// Condition number of the system with all elements in their modes of rest; infinite if it is singular.
+    /// Condition number of the system with all elements in their modes of rest.
+    ///
+    /// It is infinite if the system is singular. The mode of rest is the first in the list of a law.
     pub(super) fn condition_number_at_rest(
         &mut self,
         delassus: &Delassus,
@@ -151,7 +153,7 @@ impl ContactModeSolver {
             for (component, column) in columns.iter_mut().enumerate() {
                 if !fixed_components.contains(&Some(component)) {
                     *column = Some(self.dofs.len());
-                    self.dofs.push(self.response.layout.place(component, element));
+                    self.dofs.push(self.response.layout.index_of(component, element));
                 }
             }
             for (condition, fixed_component) in fixed_components.iter().enumerate() {
@@ -162,7 +164,9 @@ impl ContactModeSolver {
         }
     }
 
-    /// Computes the matrix of the reduced system with scaled rows; `false` if a row is zero or not finite.
+    /// Computes the matrix of the reduced system with scaled rows.
+    ///
+    /// Returns `false` if a row is zero or not finite.
     fn fill_matrix(&mut self, input: &ContactInput<'_>) -> bool {
         let Self { response, conditions, rows, dofs, matrix, .. } = self;
         let layout = response.layout;
@@ -171,7 +175,7 @@ impl ContactModeSolver {
         for row in rows {
             let condition = &conditions[row.element][row.condition];
             let [gaps, slips] =
-                layout.places(row.element).map(|place| &input.delassus[place * size..][..size]);
+                layout.indices_of(row.element).map(|place| &input.delassus[place * size..][..size]);
             let row_start = matrix.len();
             // Most conditions contain a gap or a slip alone.
             let gap = condition.gap;
@@ -210,7 +214,7 @@ impl ContactModeSolver {
         for (e, element_conditions) in self.conditions.iter().enumerate() {
             for condition in element_conditions {
                 if let Some(component) = condition.fixed_component() {
-                    let i = layout.place(component, e);
+                    let i = layout.index_of(component, e);
                     let total_traction = condition.value / (condition.pressure + condition.shear);
                     traction[i] = total_traction - input.static_traction[i];
                 }
@@ -224,7 +228,7 @@ impl ContactModeSolver {
         self.rhs.clear();
         for row in &self.rows {
             let condition = self.conditions[row.element][row.condition];
-            let [n, t] = layout.places(row.element);
+            let [n, t] = layout.indices_of(row.element);
             let fixed_traction_term = condition.gap * jump[n] - condition.slip * jump[t]
                 + condition.pressure * (input.static_traction[n] + traction[n])
                 + condition.shear * (input.static_traction[t] + traction[t]);

@@ -1,4 +1,6 @@
-//! Settlements at which laws are linearised whose pressure is a curve over the settlement of yielding soil.
+//! Linearisation of laws whose pressure grows along a curve over the settlement.
+//!
+//! These are the laws of yielding soil.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -22,15 +24,21 @@ use crate::interface::Limits;
 ///
 /// Laws put their state variables on the curve, so that this error does not grow from step to step.
 const CURVE_TOLERANCE: f64 = 1e-8;
-/// Distance from the curve up to which an element's line meets it near enough to the solution, relative to the pressure.
+/// Largest distance from the curve at which the next tangent touches at the solution.
+///
+/// It is relative to the pressure. At larger distances the element is solved alone.
 const SMALL_DISTANCE: f64 = 1e-2;
 /// Largest number of linearisations of a step.
 const MAX_LINEARISATIONS: usize = 80;
 /// Number of linearisations after which steps are halved.
-const WHOLE_STEPS: usize = 15;
-/// Largest number of tangents in the solution of one element: a curve that bends within 1e-12 of the settlement takes 40.
+const MAX_WHOLE_STEPS: usize = 15;
+/// Largest number of tangents in the solution of one element.
+///
+/// A curve that bends within 1e-12 of the settlement needs 40.
 const MAX_LOCAL_TANGENTS: usize = 60;
-/// Relative change of a settlement that ends the solution of one element: the other elements still move.
+/// Relative change of a settlement that ends the solution of one element.
+///
+/// More exact solutions gain nothing while the other elements still move.
 const LOCAL_TOLERANCE: f64 = 3e-2;
 
 /// Solution of an element with the tangent of its law.
@@ -43,14 +51,16 @@ pub(super) struct TangentSolution {
     pub(super) yields: bool,
     /// ρ.
     pub(super) stiffness: f64,
-    /// Error of the pressure, Pa, and of the settlement, m, with which solutions are accepted.
+    /// Error of the pressure in an accepted solution, Pa.
     pub(super) pressure_rounding: f64,
+    /// Error of the settlement in an accepted solution, m.
     pub(super) settlement_rounding: f64,
 }
 
-/// Distance from the curves of the worst element, and how often the step has been linearised.
+/// Number of linearisations of a step, and the element farthest from its curve.
 pub(super) struct Linearisation {
     count: usize,
+    /// The element farthest from its curve, and its distance relative to the tolerance.
     worst: Option<(usize, f64)>,
 }
 
@@ -65,14 +75,14 @@ impl Linearisation {
         self.worst = None;
     }
 
-    /// Whether steps are whole.
+    /// Whether the next settlements are taken whole, not halfway.
     pub(super) fn is_whole(&self) -> bool {
-        self.count <= WHOLE_STEPS
+        self.count <= MAX_WHOLE_STEPS
     }
 
-    /// Compares a solution with the curve; returns the next point of its element, unless it is near enough.
+    /// Compares a solution with the curve; returns the next point of its element.
     ///
-    /// `trial_settlement`: the present one, m.
+    /// Returns `None` if the solution is near enough. `trial_settlement`: the present one, m.
     pub(super) fn compare(
         &mut self,
         input: &ContactInput<'_>,
@@ -122,8 +132,9 @@ impl Linearisation {
     }
 }
 
-/// The point in which the line p + ρ v = constant through a solution meets the law's curve; not below a settlement of zero.
+/// Point of the law's curve for an element that is solved alone.
 ///
+/// There the line p + ρ v = constant through the solution meets the curve. The settlement is not below zero.
 /// `limits`: a tangent of the curve.
 pub(super) fn point_on_curve(
     input: &ContactInput<'_>,

@@ -28,8 +28,9 @@ pub(crate) use solver::ContactSolver;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum ContactSearch {
-    /// Active set, then Gauss–Seidel, then path following; if there are at most 65 536 sets of modes, then
-    /// all sets. The default.
+    /// Active set, then Gauss–Seidel, then path following. The default.
+    ///
+    /// If there are at most 65 536 sets of modes, all sets follow.
     #[default]
     Robust,
     /// Only the flow chart in the Appendix of Patel & Spyrakos.

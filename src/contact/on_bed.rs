@@ -13,10 +13,13 @@ use crate::linalg::{
     scale_by, transposed_multiply_add,
 };
 
-/// Largest diagonal entry without modes, relative to the largest of W: rounding.
+/// Largest diagonal entry that needs no further mode, relative to the largest of W.
+///
+/// It is the rounding error of the entries.
 pub(super) const MODE_TOLERANCE: f64 = 1e-14;
-/// Largest difference between products with L Lᵀ and with the structure's compliance, relative to the largest number: a
-/// larger one shows an asymmetry.
+/// Largest relative difference between products with L Lᵀ and the structure's compliance.
+///
+/// A larger difference shows that the compliance is not symmetric.
 const PRODUCT_TOLERANCE: f64 = 1e-8;
 
 /// W in terms of its diagonal D and its modes L.
@@ -186,7 +189,7 @@ mod tests {
     use crate::linalg::dense_condition;
     use basemat_testkit::random::Random;
 
-    /// A random soil with the areas of its elements, and the entries of a structure's compliance of this rank.
+    /// A random soil with areas, and a structure's compliance of this rank.
     fn random_parts(random: &mut Random, size: usize, rank: usize) -> ([Vec<f64>; 2], Vec<f64>) {
         let soil: Vec<f64> = (0..size).map(|_| random.log_within(1e-2, 1.0)).collect();
         let areas: Vec<f64> = (0..size).map(|_| random.within(0.5, 2.0)).collect();

@@ -26,14 +26,17 @@ const MAX_CHANGES_PER_ELEMENT: usize = 60;
 const MIN_PATH_PARAMETER: f64 = -1e4;
 /// Number of attempts that begin with nearly equal gaps, or nearly equal pressures.
 const EVEN_ATTEMPTS: usize = 8;
-/// Largest ratio of the initial gaps or pressures of later attempts: elements then change mode in another order.
+/// Largest ratio of the initial gaps or pressures of later attempts.
+///
+/// Elements then change their modes in another order.
 const MAX_SPREAD_FACTOR: f64 = 1e3;
 /// Number of bisections that locate a change of mode to the last bit.
 const MAX_BISECTIONS: usize = 120;
 /// The golden ratio minus one: the fractional parts of its multiples are spread evenly.
 const GOLDEN_FRACTION: f64 = 0.618_033_988_749_895;
-/// Steps of λ to the first admissible state. The laws' tolerances shift a change of mode, so the next mode may become
-/// admissible a little later.
+/// Steps of λ that are tried for the first admissible state.
+///
+/// The laws' tolerances shift a change of mode, so the next mode may become admissible a little later.
 const MIN_PATH_STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
 
 /// Path follower: the family of problems, and the states on the path.
@@ -42,8 +45,9 @@ pub(crate) struct Path {
     covering_jump: Vec<f64>,
     /// j(λ).
     jump: Vec<f64>,
-    /// States at the current point, and their rates of change with λ.
+    /// States at the current point.
     states: Vec<ContactState>,
+    /// Rates of change of the states with λ.
     rates: Vec<ContactState>,
 }
 
@@ -146,7 +150,9 @@ impl Path {
         }
     }
 
-    /// Begins with all elements open or in active soil, and without tractions; d only widens the gaps.
+    /// Begins with all elements open or in active soil, and without tractions.
+    ///
+    /// d only widens the gaps.
     fn begin_open(
         &mut self,
         input: &ContactInput<'_>,
@@ -173,7 +179,9 @@ impl Path {
         }
     }
 
-    /// Begins with all elements in the mode of rest, with pressures well above all pressures of the step.
+    /// Begins with all elements in the mode of rest, under high pressures.
+    ///
+    /// These are well above all pressures of the step.
     fn begin_closed(
         &mut self,
         input: &ContactInput<'_>,
@@ -184,7 +192,7 @@ impl Path {
         let size = layout.len();
         let mut max_pressure = 0.0_f64;
         for e in 0..modes.len() {
-            for i in layout.places::<COMPONENTS_IN_PLANE>(e) {
+            for i in layout.indices_of::<COMPONENTS_IN_PLANE>(e) {
                 let pressure = input.free_jump[i].abs() / input.delassus[i * (size + 1)];
                 max_pressure = max_pressure.max(pressure);
             }
@@ -217,7 +225,7 @@ impl Path {
                 *mode = next_mode;
                 target = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..target };
             }
-            let [n, t] = layout.places(e);
+            let [n, t] = layout.indices_of(e);
             change[n] += target.pressure;
             change[t] += target.shear;
             self.covering_jump[n] = target.gap;
@@ -229,7 +237,9 @@ impl Path {
         }
     }
 
-    /// Computes states at `lambda` and their rates, for fixed modes; `false` if the modes are singular.
+    /// Computes states at `lambda` and their rates, for fixed modes.
+    ///
+    /// `false` if the modes are singular.
     fn update_states(
         &mut self,
         solver: &mut ContactModeSolver,
@@ -260,10 +270,10 @@ impl Path {
         Ok(true)
     }
 
-    /// Largest step of λ in `direction` until a law rejects a mode, and the element of that law.
+    /// Largest step of λ until a law rejects a mode, and its element.
     ///
-    /// The states that a law admits in one mode form a convex set (an intersection of half-spaces), so bisection finds its
-    /// boundary.
+    /// `direction`: sign of the change of λ. The states that a law admits in one mode form a convex set (an
+    /// intersection of half-spaces), so bisection finds its boundary.
     fn reach(
         &self,
         input: &ContactInput<'_>,

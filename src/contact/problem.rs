@@ -1,4 +1,4 @@
-//! The contact problem of a step, condensed to the tractions of the elements, and its response to tractions.
+//! The contact problem of a step, condensed to the tractions of the elements.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -51,7 +51,9 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
-    /// Lines in place of the laws' curves, one per element; empty for the tangents at a settlement of zero.
+    /// Lines in place of the laws' curves, one per element.
+    ///
+    /// If empty, the tangents at a settlement of zero hold.
     pub(crate) trial_lines: &'a [Cell<TrialLine>],
     /// In space, whether laws act without friction and cohesion, as while the weight is applied.
     pub(crate) frictionless: bool,
@@ -68,7 +70,9 @@ impl ContactInput<'_> {
         self.bonds.get(element).copied().unwrap_or(Bond::Free)
     }
 
-    /// Start of the step for an element's law; a bond that breaks in the step is already broken.
+    /// Start of the step for an element's law.
+    ///
+    /// A bond that breaks in the step is already broken.
     #[inline]
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.element(element);
@@ -145,7 +149,9 @@ impl ContactInput<'_> {
         Err(LawError { element, mode: mode.word(), reason })
     }
 
-    /// Traction by which a trial exceeds the strength of an element's bond; `None` without a bond.
+    /// Traction by which a trial exceeds the strength of an element's bond.
+    ///
+    /// `None` without a bond.
     pub(super) fn overload(&self, element: usize, trial: &ContactState) -> LawResult<Option<f64>> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {
@@ -158,7 +164,7 @@ impl ContactInput<'_> {
     }
 }
 
-/// Tractions of the elements in a trial or solution, and the jumps and states due to them.
+/// Tractions of a trial or solution, with the jumps and states due to them.
 pub(crate) struct ContactResponse {
     pub(super) layout: ContactLayout,
     /// Change of traction from the static state, Pa, for each contact component.
@@ -193,10 +199,10 @@ impl ContactResponse {
         let is_plan = layout.is_plan();
         for (e, state) in states.iter_mut().enumerate() {
             let total_traction = |component| {
-                let i = layout.place(component, e);
+                let i = layout.index_of(component, e);
                 input.static_traction[i] + traction[i]
             };
-            let jump = |component| jump[layout.place(component, e)];
+            let jump = |component| jump[layout.index_of(component, e)];
             *state = ContactState::from_components(jump, total_traction, is_plan);
         }
     }

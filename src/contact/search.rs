@@ -2,10 +2,11 @@
 //!
 //! 1. Active set: solve for the modes, determine the next mode of every law, repeat (the flow chart in the Appendix of
 //!    Patel & Spyrakos; a primal–dual active set method, Hüeber, Stadler & Wohlmuth 2008).
-//! 2. If a set of modes occurs again: Gauss–Seidel over the elements. Each element is solved exactly by trying its modes
+//! 2. If a set of modes occurs again: Gauss–Seidel over the elements. Each element is solved exactly by trying its
+//!    modes
 //!    with the other tractions fixed. Then all elements are solved together in the resulting modes.
-//! 3. If Gauss–Seidel does not converge: follow the solution from a load under which every element is open, one change
-//!    of mode at a time (see [`super::path`]).
+//! 3. If Gauss–Seidel does not converge: follow the solution from a load under which every element is open, or every
+//!    element is closed, one change of mode at a time (see [`super::path`]).
 //! 4. If the path does not reach the solution, and there are few elements: try all sets of modes.
 //!
 //! Laws with bonds that break are not monotone, so these methods could cycle between broken and intact bonds. Bonds
@@ -29,19 +30,23 @@ use crate::interface::Mode;
 
 /// Largest number of trials of the active set; a search that needs more counts as cycling.
 const ACTIVE_SET_TRIALS: usize = 60;
-/// Largest number of Gauss–Seidel sweeps; paths follow.
+/// Largest number of Gauss–Seidel sweeps; then the search follows paths.
 const MAX_SWEEPS: usize = 400;
-/// Largest number of paths. At infinite friction and c₁Δt/l from 13 to 60, one run in 5000 has a step that
-/// needs more than eight paths, and one in 100 000 a step that needs more than sixty.
+/// Largest number of paths.
+///
+/// At infinite friction, one run in 5000 has a step that needs more than eight paths, and one in 100 000 a step that
+/// needs more than sixty. These runs have time steps in which waves cross 13 to 60 elements (c₁Δt/l).
 const MAX_PATHS: usize = 128;
 /// Largest number of sets of modes that an enumeration tries.
 const MAX_MODE_SETS: usize = 1 << 16;
-/// Smallest overload of a bond that breaks, relative to the largest: mirror images break together in spite of rounding.
+/// Smallest overload of a bond that breaks, relative to the largest.
+///
+/// Mirror images then break together in spite of rounding.
 const BREAKING_OVERLOAD_RATIO: f64 = 0.5;
 
 /// Search for the modes of a step in the plane.
 pub(crate) struct ModeSearch {
-    /// Solver for fixed modes; it stores the solution of a search.
+    /// Solver for prescribed modes; it stores the solution of a search.
     pub(super) solver: ContactModeSolver,
     /// Sets of modes that the active set has tried.
     visited_modes: Vec<Mode>,
@@ -156,7 +161,9 @@ impl ModeSearch {
         }
     }
 
-    /// Breaks the most overloaded of the intact bonds in the last solution; `false` if none is overloaded.
+    /// Breaks the most overloaded of the intact bonds in the last solution.
+    ///
+    /// `false` if none is overloaded.
     fn break_overloaded_bonds(
         &mut self,
         input: &ContactInput<'_>,
@@ -199,7 +206,9 @@ impl ModeSearch {
         Ok(is_found.then_some(SearchMethod::Path))
     }
 
-    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`]; returns whether one is admissible.
+    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`].
+    ///
+    /// Returns whether one is admissible.
     fn enumerate(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         let set_count =
             (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(input.modes(e).len()));
@@ -264,7 +273,9 @@ impl ModeSearch {
         Ok(self.solver.solve_for_modes(input, modes)? && self.update_next_modes(input, modes)?)
     }
 
-    /// Updates the next modes of all elements after a trial; returns whether all equal `modes`.
+    /// Updates the next modes of all elements after a trial.
+    ///
+    /// Returns whether all equal `modes`.
     fn update_next_modes(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> LawResult<bool> {
         let tolerance = self.solver.tolerance(input);
         let mut is_admissible = true;
@@ -276,7 +287,9 @@ impl ModeSearch {
         Ok(is_admissible)
     }
 
-    /// Replaces modes by the next modes of the laws until they stay the same; `false` if a set of modes occurs again.
+    /// Replaces modes by the next modes of the laws until they stay the same.
+    ///
+    /// Returns `false` if a set of modes occurs again, a set is singular, or there are too many trials.
     fn active_set(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         self.visited_modes.clear();
         let max_trials = match self.method {
@@ -338,7 +351,7 @@ impl ModeSearch {
             for e in 0..modes.len() {
                 modes[e] = local_mode(&mut self.solver.response, input, e, modes[e])?;
             }
-            // Modes that stay the same in a sweep are solved exactly; the interval doubles after each failure.
+            // Modes that stay the same in a sweep are solved for together; the interval doubles after each failure.
             if modes == self.previous_modes.as_slice() && sweep >= next_trial {
                 if self.are_admissible(input, modes)? {
                     return Ok(true);

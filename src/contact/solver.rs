@@ -1,4 +1,4 @@
-//! The solver of the contact problem of a step: by modes in the plane, by forces in space.
+//! The solver of the contact problem of a step, in the plane and in space.
 
 use super::cone::ForceSearch;
 use super::delassus::Delassus;
@@ -56,9 +56,9 @@ impl ContactSolver {
         }
     }
 
-    /// Smallest friction coefficient that replaced the law's larger one on a sliding element in the last solution.
+    /// Smallest friction coefficient that replaced the law's larger one.
     ///
-    /// `None` if none was replaced.
+    /// On the sliding elements of the last solution; `None` if none was replaced.
     pub(crate) fn substituted_friction(&self) -> Option<f64> {
         match self {
             Self::Plane(_) => None,
@@ -74,9 +74,9 @@ impl ContactSolver {
         }
     }
 
-    /// Condition number of the system with all elements in their modes of rest; infinite if it is singular.
+    /// Condition number of the system with all elements in their modes of rest.
     ///
-    /// In space it is the condition number of W.
+    /// It is infinite if the system is singular. In space it is the condition number of W.
     pub(crate) fn condition_number_at_rest(
         &mut self,
         delassus: &Delassus,

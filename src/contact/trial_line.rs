@@ -1,4 +1,4 @@
-//! Lines on which yielding elements of the plane are solved in place of the curves of their laws.
+//! Lines in place of the curves of laws, for yielding elements in the plane.
 //!
 //! The slope of a line is that of the curve, rounded. The matrix of a trial is then the same in several trials and steps,
 //! with its factors. The lines follow from the state at the start of the step alone, so that a resumed run has the same
@@ -14,7 +14,7 @@ const SLOPE_MANTISSA_BITS: u32 = 2;
 /// Line on which a yielding element is solved in place of its law's curve.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TrialLine {
-    /// Settlement in the step at which it meets the curve, m.
+    /// Settlement in the step at which the line meets the curve, m.
     pub(super) settlement: f64,
     /// Pressure there, Pa.
     pressure: f64,
@@ -70,7 +70,7 @@ impl TrialLine {
 pub(super) struct CurvePoint {
     /// Settlement in the step, m.
     pub(super) settlement: f64,
-    /// Pa.
+    /// Pressure, Pa.
     pub(super) pressure: f64,
     /// Slope, Pa/m.
     pub(super) hardening: f64,
@@ -91,7 +91,7 @@ pub(super) enum LineMotion {
     None,
     /// Lines of yielding elements have shifted: the matrix of the trial is the same.
     Shifted,
-    /// Slopes have changed, or lines of elements that do not yield.
+    /// Slopes have changed, or lines of elements that do not yield have moved.
     Turned,
 }
 

@@ -41,8 +41,9 @@ pub struct SimulationBuilder {
     pub(crate) gravity: f64,
     pub(crate) gravity_stage: GravityStage,
     pub(crate) loads: Vec<Load>,
-    /// Displacement and velocity of the degrees of freedom at t = 0; empty for zero.
+    /// Displacement of the degrees of freedom at t = 0; empty for zero.
     pub(crate) initial_displacement: Vec<f64>,
+    /// Velocity of the degrees of freedom at t = 0; empty for zero.
     pub(crate) initial_velocity: Vec<f64>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) moment_center: Option<f64>,
@@ -147,7 +148,7 @@ impl SimulationBuilder {
 
     /// Adds a joint: contact between two lines of nodes of the structure.
     ///
-    /// Only in the plane. [`State::joints`](crate::coupled::State::joints) has its results.
+    /// Joints exist only in the plane. [`State::joints`](crate::coupled::State::joints) has its results.
     #[must_use]
     pub fn joint(mut self, joint: Joint) -> Self {
         self.joints.push(joint);
@@ -302,10 +303,10 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the rotation of a base (rad, about a horizontal axis) at which a run ends; default 1.
+    /// Sets the rotation of a base at which a run ends, rad; default 1.
     ///
-    /// The geometry is valid for small rotations only, and an overturned base would rotate without end. With an infinite
-    /// limit, runs end by their number of steps only.
+    /// The rotation is about a horizontal axis. The geometry is valid for small rotations only, and an overturned base
+    /// would rotate without end. With an infinite limit, runs end by their number of steps only.
     ///
     /// ```
     /// use basemat::Simulation;

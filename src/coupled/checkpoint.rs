@@ -19,7 +19,7 @@ use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; increase it when the order of its numbers changes.
 const CHECKPOINT_FORMAT: u32 = 13;
-/// Largest number of steps of a checkpoint: no run has more.
+/// Largest number of steps of a checkpoint; no run has more.
 const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
@@ -51,7 +51,7 @@ pub struct Checkpoint {
     /// Internal variables of the structure.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
-    /// For each load: one if its force was set, otherwise zero; then the force that was set.
+    /// Two numbers for each load: whether its force was set (1 or 0), and that force.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     set_loads: Vec<f64>,
     /// Check sum over all fields above; formats before the eighth have none.
@@ -254,7 +254,7 @@ impl Simulation {
 const LAW_VARIABLES_NAME: &str = "state variables of the interface laws";
 
 impl Checkpoint {
-    /// Error for another format, another check sum, or an impossible number.
+    /// Returns an error for another format, another check sum, or an impossible number.
     fn check(&self) -> Result<()> {
         if self.format != CHECKPOINT_FORMAT {
             return Err(

@@ -52,9 +52,10 @@ const SINGULAR_CONDITION: f64 = 1e18;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Conditioning {
-    /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
+    /// Condition of the effective stiffness `K_eff` at the static state.
     ///
-    /// It is one for a structure in modal coordinates, in which the matrix is diagonal.
+    /// `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u) for the θ-method. The condition is one for a structure in modal
+    /// coordinates, in which the matrix is diagonal.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub effective_stiffness: f64,
     /// Condition of the ground's step compliance G¹.
@@ -62,9 +63,10 @@ pub struct Conditioning {
     /// It has no limit, since no step solves with G¹ alone.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub ground: f64,
-    /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A for the interface at rest.
+    /// Condition of the Delassus operator W for the interface at rest.
     ///
-    /// Without friction it is the condition of the normal part. The compliance of a thin layer is included.
+    /// W = G¹ + B K_eff⁻¹ Bᵀ A. Without friction it is the condition of the normal part. The compliance of a
+    /// thin layer is included.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub delassus: f64,
 }

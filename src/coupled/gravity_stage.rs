@@ -26,7 +26,9 @@ pub enum GravityStage {
     /// the weight alone is open at the start.
     #[default]
     Frictionless,
-    /// The interface law acts while the weight is applied in one step, as it does under the loads.
+    /// The interface law acts while the weight is applied, as under the loads.
+    ///
+    /// The weight is applied in one step.
     Frictional,
     /// The structure replaces soil at rest, for comparisons.
     ///
@@ -37,9 +39,9 @@ pub enum GravityStage {
     /// under laws that never open are bonded from the start. On the surface this stage is
     /// [`Frictionless`](Self::Frictionless).
     WishedInPlace,
-    /// There is no static state: the base starts without pressure, and weight and loads act from t = 0 on.
+    /// There is no static state: weight and loads act from t = 0 on.
     ///
-    /// Use this stage for a structure that is dropped, or tilted and released.
+    /// The base starts without pressure. Use this stage for a structure that is dropped, or tilted and released.
     ///
     /// ```
     /// use basemat::Simulation;

@@ -10,13 +10,14 @@ use crate::geometry::ContactLayout;
 ///
 /// In the trial step waves cross few elements and dashpots hardly move. Only an elastic part then has a compliance.
 const TRIAL_STEP_DIVISOR: f64 = 64.0;
-/// Smallest ratio of the step compliances of trial step and time step of a ground with an elastic part.
+/// Smallest ratio of the trial step's to the time step's compliance of an elastic part.
 const ELASTIC_COMPLIANCE_RATIO: f64 = 0.8;
-/// Ratio of the displacements due to past and present tractions, up to which tractions act in mid-step.
+/// Largest ratio of displacements due to past and present tractions in mid-step.
 ///
-/// An elastic part whose tractions act in mid-step has the ratio −1; without history it has 0. A bed of springs k and
-/// dashpots c with tractions in mid-step has (c/δ − k/2)/(c/δ + k/2) in a trial step δ. Above −¼ this means c/δ > 0.3 k.
-/// The bed's ratio of step compliances is then below 0.63, so that the bed never counts as first order.
+/// Up to this ratio tractions act in mid-step. An elastic part whose tractions act in mid-step has the ratio −1;
+/// without history it has 0. A bed of springs k and dashpots c with tractions in mid-step has (c/δ − k/2)/(c/δ + k/2)
+/// in a trial step δ. Above −¼ this means c/δ > 0.3 k. The bed's ratio of step compliances is then below 0.63, so that
+/// the bed never counts as first order.
 const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 
 /// Whether an elastic part of the ground applies each traction at the end of its step.
@@ -59,7 +60,9 @@ pub(crate) fn is_first_order(
         .any(|k| is_elastic[k] && past_response[k] > PAST_DISPLACEMENT_RATIO * trial_response[k]))
 }
 
-/// Sum over the elements of each displacement component (m) at the end of a first step with tractions of 1 Pa.
+/// Displacements at the end of a first step with tractions of 1 Pa, m.
+///
+/// Each component is summed over the elements.
 fn uniform_response(
     ground: &mut dyn Ground,
     time_step: f64,

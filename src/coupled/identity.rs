@@ -15,7 +15,9 @@ const IDENTITY_TOLERANCE: f64 = 1e-9;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Change {
-    /// Other parameters of the interface laws, and another label; the number of state variables must be the same.
+    /// Other parameters of the interface laws, and another label.
+    ///
+    /// The number of state variables must be the same.
     InterfaceLaw,
     /// Another ground motion, and another label.
     GroundMotion,
@@ -46,7 +48,9 @@ pub(crate) struct Identity {
     /// Whether the scene has an energy balance.
     energy_balance: bool,
     probes: Vec<String>,
-    /// Ends of the state variables of each element's law; empty if no law has any.
+    /// Ends of the state variables of each element's law.
+    ///
+    /// Empty if no law has any.
     laws: Vec<usize>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -112,7 +116,7 @@ impl Identity {
         }
     }
 
-    /// Error that names the first difference outside the intended `changes`.
+    /// Returns an error that names the first difference outside the intended `changes`.
     pub(crate) fn check(
         &self,
         scene: &Self,

@@ -5,7 +5,9 @@ use crate::error::{Error, Result, not_negative, require};
 use crate::interface::{Bonded, ContactScene, InterfaceLaw, Mode, SharedLaw, check_list};
 use crate::structure::BaseNode;
 
-/// Contact between two lines of nodes of a structure: a joint in a wall, a column under a cap, towers side by side.
+/// Contact between two lines of nodes of a structure.
+///
+/// Examples are a joint in a wall, a column under a cap, and towers side by side.
 ///
 /// The upper side presses on the lower side as a base presses on the ground: with the same laws, modes and results, in the
 /// same search. The nodes are those of the structure's own degrees of freedom, so that any
@@ -13,8 +15,8 @@ use crate::structure::BaseNode;
 /// another part by joints; it then moves with the ground under that part.
 ///
 /// Both sides are straight and parallel lines, listed in the same sense. The lower side lies on the right-hand side of that
-/// sense: of a horizontal joint listed from left to right it is the side below, of a vertical joint listed upwards the side
-/// on the right. The elements are equal parts of the length that both sides share. Positive slip is that of the upper side
+/// sense: below a horizontal joint that is listed from left to right, to the right of a vertical joint that is listed
+/// upwards. The elements are equal parts of the length that both sides share. Positive slip is that of the upper side
 /// in the sense of the list.
 ///
 /// * Tractions act between the means of both sides over an element. A rigid body on n equal elements rocks about the
@@ -66,8 +68,8 @@ short_debug! { Joint; self; elements: self.line.elements().len(), laws: self.law
 impl Joint {
     /// Bonded joint between two lines of nodes, with equal contact elements.
     ///
-    /// `upper` and `lower` list two or more nodes each, with their displacements in the structure's degrees of freedom. As
-    /// many elements as nodes allow is one for each segment of a line that bends.
+    /// `upper` and `lower` list two or more nodes each, with their displacements in the structure's degrees of freedom. A
+    /// line that bends needs at least one element for each segment between its nodes.
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than two nodes or no elements; [`Error::Input`] for coordinates that are not finite, and

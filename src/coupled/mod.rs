@@ -47,14 +47,17 @@
 //!
 //! # Mode search
 //!
-//! The search starts from the modes of the previous step. It solves the linear system for these modes, evaluates
-//! the next mode of each [`crate::interface::InterfaceLaw`], and repeats this until no mode changes. If a mode
-//! vector recurs, the search has a cycle. It then uses Gauss–Seidel over the elements, each solved exactly by
+//! In the plane the search starts from the modes of the previous step. It solves the linear system for these modes,
+//! evaluates the next mode of each [`crate::interface::InterfaceLaw`], and repeats this until no mode changes. If a
+//! mode vector recurs, the search has a cycle. It then uses Gauss–Seidel over the elements, each solved exactly by
 //! trying its modes. If this does not converge either, it follows a path of solutions from a solved state.
-//! [`State::method`] is the last method used, [`State::trials`] the number of linear solutions. If no method converges,
-//! the step returns an [`crate::Error::Step`] and the simulation stays at the last accepted step.
+//! [`State::method`] is the last method used, [`State::trials`] the number of trials. If no method converges, the step
+//! returns an [`crate::Error::Step`] and the simulation stays at the last accepted step.
 //!
-//! # Preload
+//! In plan the search finds the forces of the elements by sweeps and Newton's method, since a shear may have any direction
+//! ([`crate::contact::SearchMethod`]).
+//!
+//! # Static state
 //!
 //! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state that is computed in stages:
 //! first the weight, as [`GravityStage`] defines, then all other loads at t = 0 with the interface laws, in increments

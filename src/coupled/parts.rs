@@ -35,7 +35,11 @@ pub(crate) struct Parts {
     ///
     /// Around soil at rest it has no pressures at rest.
     pub(crate) description: GroundDescription,
-    /// Mass of soil at rest on each degree of freedom, whose weight does not act, kg; `None` without such soil.
+    /// Mass of soil at rest on each degree of freedom, kg.
+    ///
+    /// `None` without such soil.
+    ///
+    /// The weight of this soil does not act on the structure.
     pub(crate) mass_at_rest: Option<Vec<f64>>,
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) builder: SimulationBuilder,
@@ -47,7 +51,7 @@ pub(crate) struct Parts {
     pub(crate) coefficients: SchemeCoefficients,
     /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) step_compliance: Arc<CompressedMatrix>,
-    /// Whether the ground's damping is of first order in the time step.
+    /// Whether an elastic part of the ground is of first order in the time step.
     pub(crate) is_first_order_ground: bool,
     /// Free-field displacement at t = 0 (m); 2Q entries, 3Q in plan, for Q elements.
     pub(crate) initial_free_field: Vec<f64>,
@@ -176,9 +180,9 @@ fn lines(joints: &[Joint]) -> Vec<JointLine> {
     joints.iter().map(|joint| joint.line().clone()).collect()
 }
 
-/// Appends the laws of the joints to a list with a law for each element of the ground; only in the plane.
+/// Appends the laws of the joints to those of the ground's elements; only in the plane.
 ///
-/// Returns the laws of the elements of floor and joints.
+/// The ground's elements then have one law each. Returns the laws of the elements of floor and joints.
 fn add_joint_laws(
     builder: &mut SimulationBuilder,
     elements: &Patch,
@@ -199,7 +203,7 @@ fn add_joint_laws(
     Ok(SharedLaw::boxed(&laws))
 }
 
-/// Returns an error for a stage or a law with which the start of soil at rest would be wrong.
+/// Checks that gravity stage and laws suit soil at rest.
 fn check_soil_at_rest(builder: &SimulationBuilder) -> Result<()> {
     require_part(
         "gravity stage of soil at rest",

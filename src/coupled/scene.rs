@@ -16,7 +16,7 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{CompressedMatrix, mixing_sum};
 use crate::structure::Probe;
 
@@ -36,15 +36,17 @@ pub(crate) struct Scene {
     pub(crate) static_state: StaticState,
     /// External loads in addition to the load of the structure.
     pub(crate) loads: Vec<SteppedLoad>,
-    /// Weight as a load, in stepping coordinates, if the run starts without a static state; otherwise empty.
+    /// Weight as a load, in stepping coordinates.
+    ///
+    /// Empty if the run starts from a static state.
     pub(crate) weight: Vec<f64>,
     /// For each part, whether the nonlinear force connects it with other parts.
     pub(crate) is_connected_by_force: Vec<bool>,
     /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) step_compliance: Arc<CompressedMatrix>,
-    /// Displacement of the free field at t = 0 (m), which is subtracted from the free field of every step.
+    /// Displacement of the free field at t = 0, m.
     ///
-    /// It has 2Q entries, or 3Q in plan.
+    /// It is subtracted from the free field of every step. It has 2Q entries, or 3Q in plan.
     pub(crate) initial_free_field: Vec<f64>,
     /// The probes in stepping coordinates.
     pub(crate) stepped_probes: Vec<SteppedProbe>,
@@ -62,7 +64,9 @@ pub(crate) struct Scene {
 pub(crate) struct SteppedProbe {
     /// Weights of displacement, velocity and acceleration.
     pub(crate) weights: [Weights; 3],
-    /// Displacement of an absolute probe for a translation of each part by 1 m `[right, up, away]`; otherwise empty.
+    /// Displacements of an absolute probe for translations of each part by 1 m.
+    ///
+    /// For each part `[right, up, along_y]`; empty for other probes.
     pub(crate) rigid_displacements: Vec<[f64; 3]>,
 }
 
@@ -73,9 +77,9 @@ impl SteppedProbe {
         if probe.absolute {
             for part in model.influence.parts() {
                 rigid_displacements.push(
-                    part.vectors
-                        .each_ref()
-                        .map(|vector| weights[0].value(&spread(vector, model.coordinate_count))),
+                    part.vectors.each_ref().map(|vector| {
+                        weights[0].value(&dense_vector(vector, model.coordinate_count))
+                    }),
                 );
             }
         }
@@ -119,6 +123,11 @@ impl Scene {
             pressure_depths: std::mem::take(&mut parts.description.depth_of_pressure_at_rest),
             friction: std::mem::take(&mut builder.safety_friction_coefficients),
             footings,
+            joint_elements: base
+                .joints()
+                .iter()
+                .map(|joint| joint.line.elements().to_vec())
+                .collect(),
         };
         Self {
             time_step,

@@ -42,7 +42,7 @@ pub struct Simulation {
     pub(crate) conditioning: Conditioning,
     /// Warnings of the scene and of the steps so far.
     pub(crate) warnings: Vec<Warning>,
-    /// Overburden pressure at each element of walls without a bearing pressure, Pa; empty without walls.
+    /// Pressure of the soil above each element of unlimited walls, Pa, else infinite.
     pub(crate) pressures_above: Vec<f64>,
     /// Damping of a rigid translation along the ground over the moving mass, 1/s.
     pub(crate) translation_damping_rate: f64,
@@ -103,7 +103,7 @@ impl Simulation {
         Ok(increment.evaluate_laws(scene, state)?)
     }
 
-    /// The state at the end of the last accepted step; before the first step, the static state.
+    /// The state after the last accepted step; at first the static state.
     pub fn state(&self) -> &State {
         &self.state
     }

@@ -1,4 +1,4 @@
-//! Step compliance of a ground under a structure: a matrix, or a diagonal for a bed of springs.
+//! Step compliance of a ground: a matrix, or a diagonal for a bed of springs.
 
 use crate::bem::Ground;
 use crate::contact::MAX_STRUCTURE_RANK;
@@ -8,7 +8,7 @@ use crate::geometry::{Patch, check_count, lattice_cells};
 use crate::linalg::{CompressedMatrix, indefinite_pivot};
 use crate::structure::Structure;
 
-/// Number of contact elements from which the step compliance of a bed of springs is not stored as a matrix.
+/// Number of contact elements from which a bed of springs is not stored as a matrix.
 ///
 /// With fewer elements, matrices take less time.
 const MIN_BED_ELEMENTS: usize = 64;
@@ -37,7 +37,9 @@ pub(crate) fn step_compliance(
     compliance_matrix(ground, elements)
 }
 
-/// Diagonal of the step compliance of a bed, for tractions inside the outline; `None` for other scenes.
+/// Diagonal of the step compliance of a bed; `None` for other scenes.
+///
+/// It is for tractions inside the outline.
 fn bed_compliance(
     ground: &dyn Ground,
     structure: &dyn Structure,
@@ -57,7 +59,9 @@ fn bed_compliance(
     diagonal_inside_outline(STEP_COMPLIANCE_NAME, compliance.in_step, elements).map(Some)
 }
 
-/// Diagonal compliance for tractions inside the outline; an error unless it is finite and positive.
+/// Diagonal compliance for tractions inside the outline.
+///
+/// Returns an error unless it is finite and positive.
 pub(crate) fn diagonal_inside_outline(
     quantity: &'static str,
     mut diagonal: Vec<f64>,
@@ -83,7 +87,8 @@ fn compliance_matrix(ground: &dyn Ground, elements: &Patch) -> Result<Compressed
     ground.step_compliance(&mut compliance)?;
     elements.refer_inside(&mut compliance);
     all_finite(STEP_COMPLIANCE_NAME, &compliance)?;
-    let row_areas: Vec<f64> = (0..order).map(|row| areas[layout.origin(row)[1]]).collect();
+    let row_areas: Vec<f64> =
+        (0..order).map(|row| areas[layout.component_and_element(row)[1]]).collect();
     let mut scale = vec![1.0; order];
     for row in 0..order {
         let root = (row_areas[row] * compliance[row * (order + 1)].abs()).sqrt();

@@ -268,7 +268,7 @@ impl Branches {
                 self.add_piece(branch, [middle, high], weight, sum, halvings + 1);
                 return;
             }
-            None => gauss::largest(),
+            None => gauss::largest_rule(),
         };
         let center = 0.5 * (low + high);
         let half_length = 0.5 * (high - low);

@@ -143,8 +143,9 @@ impl ConvolutionHistory for DirectHistory {
                     if first_step < chunk_end && factor != 0.0 {
                         let lag_range = lags.len() - (past_steps + 1 - first_step)
                             ..lags.len() - (past_steps + 1 - chunk_end);
-                        let tractions = &self.tractions[layout.place(term.components[1], source)];
-                        displacement[layout.place(term.components[0], receiver)] +=
+                        let tractions =
+                            &self.tractions[layout.index_of(term.components[1], source)];
+                        displacement[layout.index_of(term.components[0], receiver)] +=
                             factor * dot(&lags[lag_range], &tractions[first_step..chunk_end]);
                     }
                 }

@@ -286,8 +286,8 @@ impl PairClasses {
         self.each(|[receiver, source], pair, terms| {
             let values = pair_values([receiver, source], pair);
             for Term { kind, components: [displacement, traction], factor } in terms {
-                let row = layout.place(*displacement, receiver);
-                let column = layout.place(*traction, source);
+                let row = layout.index_of(*displacement, receiver);
+                let column = layout.index_of(*traction, source);
                 matrix[row * layout.len() + column] = values[*kind] * *factor;
             }
         });
@@ -343,7 +343,7 @@ impl PairClasses {
         self.scatter(&mut matrix, pair_values);
         let mut scales = Vec::with_capacity(layout.len());
         for matrix_index in 0..layout.len() {
-            let [component, element] = layout.origin(matrix_index);
+            let [component, element] = layout.component_and_element(matrix_index);
             // Class 0 of a lattice is a cell on itself.
             let self_pair = self.pairs.get(element * (self.elements.len() + 1));
             scales.push(1.0 / diagonal(self_pair.map_or(0, |pair| pair.class), component).sqrt());

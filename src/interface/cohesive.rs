@@ -91,7 +91,7 @@ impl Cohesive {
     }
 }
 
-/// Whether an element's bond is intact at the start of the step and has not broken in it.
+/// Whether an element's bond is intact at the start of the step and in it.
 fn is_bonded(start: &PreviousContact) -> bool {
     !start.has_opened && start.state_variables.first().is_some_and(|bonded| *bonded > 0.0)
 }

@@ -59,7 +59,9 @@ impl Condition {
         .find(|(_, number)| !number.is_finite())
     }
 
-    /// The gap that this condition prescribes at a pressure; `None` if other quantities occur in it.
+    /// The gap that this condition prescribes at a pressure.
+    ///
+    /// `None` if other quantities occur in it.
     pub(crate) fn gap_at(&self, pressure: f64) -> Option<f64> {
         (self.gap != 0.0 && self.slip == 0.0 && self.shear == 0.0)
             .then(|| (self.value - self.pressure * pressure) / self.gap)

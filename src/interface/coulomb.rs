@@ -9,10 +9,12 @@ use crate::error::{Result, not_negative, require};
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum UnilateralCondition {
-    /// Gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
+    /// Signorini's conditions for the gap at the end of the step.
+    ///
+    /// They are g ≥ 0, p ≥ 0, p·g = 0.
     #[default]
     Position,
-    /// Change of the gap (Moreau 1988; Jean 1999).
+    /// Conditions for the change of the gap (Moreau 1988; Jean 1999).
     ///
     /// An element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg = 0; any
     /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that step.
@@ -57,7 +59,7 @@ validated! {
     => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_unilateral_condition(condition)
 }
 
-/// Error unless `friction` is a valid coefficient.
+/// Returns an error unless `friction` is a valid coefficient.
 pub(super) fn check_friction(friction: f64) -> Result<()> {
     let needed = "zero or more (infinite: no sliding)";
     require("friction coefficient", friction, friction >= 0.0, needed).map(drop)
@@ -135,7 +137,9 @@ impl Coulomb {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
-    /// Gap of a closed element at the end of the step, m; `None` if the element cannot close.
+    /// Gap (m) of a closed element at the end of the step.
+    ///
+    /// `None` if the element cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.condition {
             UnilateralCondition::Position => Some(0.0),

@@ -191,7 +191,9 @@ impl Backbone {
         }
     }
 
-    /// Pressure F(h₀ + v) and its slope after a further settlement v (m), with F(h₀) = `threshold`.
+    /// Pressure F(h₀ + v) and its slope after a further settlement v (m).
+    ///
+    /// `threshold` is F(h₀).
     ///
     /// With x = F(h₀)/q, F(h₀ + v) = q (x w_r + (1 − x) v)/(w_r + (1 − x) v). The slope is
     /// q w_r (1 − x)²/(w_r + (1 − x) v)².
@@ -287,7 +289,7 @@ impl InterfaceLaw for CyclicYielding {
         Some(self.friction())
     }
 
-    /// As by default; the backbone is evaluated only where the soil yields.
+    /// The default conditions; the backbone is evaluated only where the soil yields.
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let limits =
             if mode.is_yield() { self.limits(start) } else { self.limits_without_yield(start) };
@@ -297,8 +299,9 @@ impl InterfaceLaw for CyclicYielding {
         )
     }
 
-    /// As by default. Whether yielding soil continues to yield depends on its settlement alone, not on its pressure, so
-    /// that the backbone is evaluated only for soil that does not yield.
+    /// The default next mode; the backbone is evaluated only for soil that does not yield.
+    ///
+    /// Whether yielding soil continues to yield depends on its settlement alone, not on its pressure.
     fn next_mode(
         &self,
         mode: Mode,

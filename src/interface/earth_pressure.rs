@@ -63,9 +63,9 @@ validated! {
 }
 
 impl EarthPressure {
-    /// Law with an active and a passive pressure (Pa), and a friction coefficient of zero or more.
+    /// Law with an active and a passive pressure (Pa), and friction.
     ///
-    /// If the coefficient is infinite, nothing ever slides.
+    /// `friction` is the friction coefficient, zero or more. If it is infinite, nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`] for an active pressure that is not finite or below zero, a passive pressure that is not finite
@@ -168,12 +168,16 @@ impl InterfaceLaw for EarthPressure {
         Some(self.friction())
     }
 
-    /// No error: [`EarthPressure::new`] has checked the numbers, and soil with an active pressure has no limits.
+    /// Never returns an error.
+    ///
+    /// [`EarthPressure::new`] has checked the numbers, and soil with an active pressure has no limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
-    /// Limits of soil whose active pressure is zero; an error for other soil, which acts only in the plane.
+    /// Limits of soil whose active pressure is zero.
+    ///
+    /// Returns an error for other soil, which acts only in the plane.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let needed = "an active pressure of zero, to act by limits alone";
         if self.can_open() {

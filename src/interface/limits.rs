@@ -1,4 +1,4 @@
-//! Limits of an element's tractions, and the modes and conditions in the plane that follow from them.
+//! Limits of an element's tractions, and modes and conditions that follow from them.
 
 use super::{Condition, ContactState, Mode, PreviousContact, Tolerance};
 use crate::error::{Error, Result, finite, not_negative, require};
@@ -44,9 +44,13 @@ pub struct Limits {
     pub shear_strength: f64,
     /// Tensile strength, Pa.
     pub tension: f64,
-    /// Largest pressure of soil that does not settle in the step, Pa; infinite if there is no bound.
+    /// Largest pressure of soil that does not settle in the step, Pa.
+    ///
+    /// It is infinite if there is no bound.
     pub pressure_cap: f64,
-    /// Growth of the largest pressure with the settlement of the soil in the step, Pa/m; zero or more.
+    /// Growth of the largest pressure with the settlement in the step, Pa/m.
+    ///
+    /// It is zero or more.
     #[cfg_attr(feature = "serde", serde(default))]
     pub hardening: f64,
     /// Gap of a closed element, m; −∞ if the element cannot close in this step.
@@ -71,7 +75,9 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// These limits without friction, attraction and shear strength, as they act in a frictionless gravity stage.
+    /// These limits without friction, attraction and shear strength.
+    ///
+    /// They act in a frictionless gravity stage.
     pub(crate) fn frictionless(self) -> Self {
         Self { friction: 0.0, attraction: 0.0, shear_strength: 0.0, ..self }
     }
@@ -88,7 +94,7 @@ impl Limits {
         Self::missing(std::any::type_name::<Law>())
     }
 
-    /// Error for a law without limits; `type_name`: its path.
+    /// Returns an error for a law without limits; `type_name`: its path.
     pub(super) fn missing(type_name: &'static str) -> Result<Self> {
         let quantity = type_name.rsplit("::").next().unwrap_or(type_name);
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
@@ -110,7 +116,7 @@ impl Limits {
         if self.are_valid() { Ok(self) } else { self.with_invalid_named() }
     }
 
-    /// The error that names an invalid limit.
+    /// Returns an error that names the first invalid limit, or these limits if all are valid.
     #[cold]
     fn with_invalid_named(self) -> Result<Self> {
         for (quantity, value) in
@@ -181,7 +187,9 @@ impl Limits {
         }
     }
 
-    /// Condition τ = ±R of a sliding element, in a form that remains finite for infinite friction.
+    /// Condition τ = ±R of a sliding element.
+    ///
+    /// Its form remains finite for infinite friction.
     ///
     /// `direction`: 1 to the right, −1 to the left. For infinite friction the condition is p + attraction = 0 with any
     /// shear traction. Without this mode the incremental problem need not have a solution: an element that is about to

@@ -79,7 +79,9 @@ pub struct ContactState {
     pub shear_across: f64,
 }
 
-/// Column of a contact state in files: word, SI unit, whether only grounds in plan have it, and its value.
+/// Column of a contact state in files.
+///
+/// It has a word, an SI unit, whether only grounds in plan have it, and its value.
 type ContactColumn = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
 
 impl ContactState {
@@ -154,7 +156,9 @@ pub struct ContactScene {
     pub time_step: f64,
 }
 
-/// Checks that there is one law, or one for each element, and that each law has modes.
+/// Returns an error unless there is one law, or one for each element.
+///
+/// Each law must have modes.
 pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], element_count: usize) -> Result<()> {
     if laws.len() != 1 {
         same_length("list of interface laws", laws.len(), element_count)?;
@@ -163,7 +167,9 @@ pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], element_count: usize) -
     require_part("interface law", all_have_modes, "`modes` must name at least one mode")
 }
 
-/// Law of an element, from a list of one law for all elements or one law for each.
+/// Law of an element.
+///
+/// `laws`: one law for all elements, or one for each.
 pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn InterfaceLaw {
     laws[if laws.len() == 1 { 0 } else { element }].as_ref()
 }

@@ -27,9 +27,9 @@ pub enum Mode {
     /// Closed, no slip; the soil follows a wall that moves away, at the soil's active pressure
     /// ([`EarthPressure`](super::EarthPressure)).
     Active,
-    /// Closed; the soil follows the wall at its active pressure, and the structure slides to the left.
+    /// [`Active`](Mode::Active) soil over which the structure slides to the left.
     ActiveLeft,
-    /// Closed; the soil follows the wall at its active pressure, and the structure slides to the right.
+    /// [`Active`](Mode::Active) soil over which the structure slides to the right.
     ActiveRight,
 }
 
@@ -146,9 +146,9 @@ impl Mode {
         }
     }
 
-    /// The modes of a law with this friction coefficient, on soil that yields and follows a wall.
+    /// The modes on soil that yields and follows a wall.
     ///
-    /// Elements do not open.
+    /// `friction`: friction coefficient. Elements do not open.
     pub(super) fn with_following(friction: f64) -> &'static [Self] {
         if friction == 0.0 {
             &[Self::SlipRight, Self::ActiveRight, Self::YieldRight]

@@ -109,7 +109,9 @@ pub trait PlaneLaw: Send {
         None
     }
 
-    /// Returns the cause of a condition that is not finite, if the law can determine it; none by default.
+    /// Returns an error with the cause of a condition that is not finite.
+    ///
+    /// The law may be unable to determine it. Default: no error.
     ///
     /// # Errors
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part).

@@ -26,7 +26,9 @@ pub struct PreviousContact<'a> {
     pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
-    /// Settlement of the yielding soil in the present trial of the step, m; zero in its first trial.
+    /// Settlement of the yielding soil in the present trial of the step, m.
+    ///
+    /// It is zero in the first trial of a step.
     ///
     /// A law whose pressure is a curve over the settlement returns the curve's tangent at this settlement, as
     /// [`Limits::pressure_cap`](super::Limits::pressure_cap) and [`Limits::hardening`](super::Limits::hardening). The step
@@ -113,14 +115,16 @@ pub struct PreviousContacts {
     contacts: Vec<PreviousContact<'static>>,
     /// State variables of all elements, one after the other.
     state_variables: Vec<f64>,
-    /// End of each element's range in `state_variables`; empty if no law has any.
+    /// End of each element's range in `state_variables`; empty without state variables.
     variable_ends: Vec<usize>,
 }
 
-/// Memory for a state variable: in the state, its increment, and a copy of each, eight bytes.
+/// Bytes of a state variable: its value, its increment, and a copy of both.
 const BYTES_PER_STATE_VARIABLE: f64 = 32.0;
 
-/// End of each element's range in the list of all state variables; empty if no law has any.
+/// End of each element's range in the list of all state variables.
+///
+/// The list is empty if no law has state variables.
 pub(crate) fn state_variable_ends(
     laws: &[Box<dyn InterfaceLaw>],
     element_count: usize,
@@ -216,7 +220,9 @@ impl PreviousContacts {
         self.variable_ends.get(element).copied().unwrap_or(0)
     }
 
-    /// End of each element's range in the list of all state variables; empty if no law has any.
+    /// End of each element's range in the list of all state variables.
+    ///
+    /// The list is empty if no law has state variables.
     pub(crate) fn state_variable_ends(&self) -> &[usize] {
         &self.variable_ends
     }

@@ -35,7 +35,9 @@ impl SharedLaw {
         laws.iter().map(|law| Box::new(law.clone()) as Box<dyn InterfaceLaw>).collect()
     }
 
-    /// The law; a law changes nothing, so that one that has panicked is still whole.
+    /// The law, locked.
+    ///
+    /// Evaluations do not change a law, so that it is still valid after a panic.
     fn law(&self) -> MutexGuard<'_, Box<dyn InterfaceLaw>> {
         self.law.lock().unwrap_or_else(PoisonError::into_inner)
     }

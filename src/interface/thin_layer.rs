@@ -15,12 +15,12 @@ use super::coulomb::check_friction;
 use super::{
     Condition, ContactScene, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
-use crate::error::{Error, Result, not_negative, positive, require, require_part};
+use crate::error::{Result, not_negative, positive, require, require_part};
 use crate::soil::Soil;
 
 /// Thickness of the layer over the height of the adjacent element [PS, eq. 13].
 const DEFAULT_THICKNESS_RATIO: f64 = 0.1;
-/// Fraction of the stiffness that remains in debonding, so that the stiffness matrix of debonded elements is regular.
+/// Fraction of the stiffness that keeps the stiffness matrix of debonded elements regular.
 const DEFAULT_DEBONDED_RATIO: f64 = 1e-3;
 
 /// Pressure from which a thin layer computes its friction limit.
@@ -36,7 +36,7 @@ pub enum FrictionLimit {
     Lagged,
     /// The pressure of the static state, throughout the run.
     Static,
-    /// The magnitude of the pressure change due to the shaking, at the end of the previous step.
+    /// The magnitude of the change of pressure from the static state to the end of the previous step.
     Dynamic,
 }
 
@@ -139,12 +139,13 @@ validated! {
 }
 
 impl ThinLayer {
-    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements of height `neighbour_height` (m).
+    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements.
     ///
-    /// The friction coefficient is zero or more; if it is infinite, nothing ever slides.
+    /// `neighbour_height`: height of these elements, m. The friction coefficient is zero or more; if it is infinite,
+    /// nothing ever slides.
     ///
     /// # Errors
-    /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient that is NaN or negative.
+    /// [`Error::Input`](crate::Error::Input) unless the height is finite and above zero, and `friction` not negative.
     pub fn new(soil: Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
         positive("height of the element beside the thin layer", neighbour_height)?;
         let shear_modulus = soil.shear_modulus();
@@ -159,7 +160,7 @@ impl ThinLayer {
     /// Creates a layer from its stiffnesses k_n and k_s (Pa/m) at a thickness ratio of one.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite and above zero, and `friction` is not negative.
+    /// [`Error::Input`](crate::Error::Input) unless both are finite and above zero, and `friction` is not negative.
     pub fn from_stiffness(k_n: f64, k_s: f64, friction: f64) -> Result<Self> {
         positive("normal stiffness of the thin layer", k_n)?;
         positive("shear stiffness of the thin layer", k_s)?;
@@ -178,7 +179,7 @@ impl ThinLayer {
     /// Sets the thickness, as a fraction of the height of the adjacent element.
     ///
     /// # Errors
-    /// [`Error::Input`] unless the ratio is finite and above zero, and the resulting stiffness is finite.
+    /// [`Error::Input`](crate::Error::Input) unless the ratio is finite and above zero, and the stiffness finite.
     pub fn with_thickness_ratio(mut self, ratio: f64) -> Result<Self> {
         self.thickness_ratio = positive("thickness ratio of the thin layer", ratio)?;
         for stiffness in self.stiffness() {
@@ -190,7 +191,7 @@ impl ThinLayer {
     /// Sets the fraction of the stiffness that remains in debonding; the default is 0.001.
     ///
     /// # Errors
-    /// [`Error::Input`] outside 0 to 1.
+    /// [`Error::Input`](crate::Error::Input) outside 0 to 1.
     pub fn with_debonded_ratio(mut self, ratio: f64) -> Result<Self> {
         self.debonded_ratio = fraction_of_one("ratio of stiffness left in debonding", ratio)?;
         Ok(self)
@@ -215,7 +216,7 @@ impl ThinLayer {
     /// It resists the slip of each step like a viscosity. The default is zero.
     ///
     /// # Errors
-    /// [`Error::Input`] outside 0 to 1.
+    /// [`Error::Input`](crate::Error::Input) outside 0 to 1.
     pub fn with_slip_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
         self.slip_stiffness_ratio =
             fraction_of_one("ratio of shear stiffness left in slip", ratio)?;
@@ -227,7 +228,7 @@ impl ThinLayer {
         self.reference_stiffness.map(|stiffness| stiffness / self.thickness_ratio)
     }
 
-    /// Friction limit of the shear traction, Pa; `None` if it is infinite or depends on the pressure in the step.
+    /// Friction limit, Pa; `None` if it is infinite or depends on the pressure in the step.
     fn prescribed_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.friction_limit {
             FrictionLimit::Total => return None,
@@ -268,13 +269,11 @@ impl ThinLayer {
         trial: &ContactState,
         tolerance: f64,
     ) -> bool {
-        let slip_increment = trial.slip - start.state.slip;
+        let increment = trial.slip - start.state.slip;
+        let elastic_increment = (trial.shear - start.state.shear) / self.stiffness()[1];
         match self.slip_sense {
-            SlipSense::Inelastic => {
-                let elastic_increment = (trial.shear - start.state.shear) / self.stiffness()[1];
-                direction * (slip_increment - elastic_increment) < -tolerance
-            }
-            SlipSense::Velocity => direction * slip_increment < -tolerance,
+            SlipSense::Inelastic => direction * (increment - elastic_increment) < -tolerance,
+            SlipSense::Velocity => direction * increment < -tolerance,
             // The velocity of the previous step does not change with the trial, so that it needs no tolerance.
             SlipSense::LastVelocity => direction * start.slip_rate < 0.0,
         }
@@ -341,18 +340,15 @@ impl InterfaceLaw for ThinLayer {
                 mode
             }
         };
+        let has_last_velocity = self.slip_sense == SlipSense::LastVelocity;
         match mode {
             Mode::SlipRight => mode_after_sliding(1.0),
             Mode::SlipLeft => mode_after_sliding(-1.0),
             // The shear limit is NaN for infinite friction without pressure.
             _ if self.friction == f64::INFINITY => Mode::Stick,
             _ if trial.shear.abs() <= shear_limit + traction_tolerance => Mode::Stick,
-            _ if self.slip_sense == SlipSense::LastVelocity && start.slip_rate < 0.0 => {
-                Mode::SlipLeft
-            }
-            _ if self.slip_sense == SlipSense::LastVelocity && start.slip_rate > 0.0 => {
-                Mode::SlipRight
-            }
+            _ if has_last_velocity && start.slip_rate < 0.0 => Mode::SlipLeft,
+            _ if has_last_velocity && start.slip_rate > 0.0 => Mode::SlipRight,
             _ if trial.shear > 0.0 => Mode::SlipRight,
             _ => Mode::SlipLeft,
         }
@@ -366,24 +362,19 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// No error: the constructors have checked the numbers. The default would reject a layer without limits.
+    /// Never returns an error; the default would reject a layer without limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
-    /// Limits in plan.
-    ///
-    /// Only a layer without traction in debonding has limits, and only with inelastic [`SlipSense`] and zero slip stiffness.
+    /// Limits in plan, for inelastic [`SlipSense`] without slip stiffness and traction in debonding.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let quantity = "thin layer in plan";
-        if self.debonded_ratio > 0.0 {
-            let needed = "`with_debonded_ratio(0.0)`: an open element in plan has no traction";
-            return Err(Error::Scene { quantity, needed });
-        }
-        if self.slip_sense != SlipSense::Inelastic || self.slip_stiffness_ratio > 0.0 {
-            let needed = "slip that is inelastic, without a stiffness in slip";
-            return Err(Error::Scene { quantity, needed });
-        }
+        let needed = "`with_debonded_ratio(0.0)`: an open element in plan has no traction";
+        require_part(quantity, self.debonded_ratio == 0.0, needed)?;
+        let has_inelastic_slip = self.slip_sense == SlipSense::Inelastic;
+        let is_plastic = has_inelastic_slip && self.slip_stiffness_ratio == 0.0;
+        require_part(quantity, is_plastic, "slip that is inelastic, without a stiffness in slip")?;
         Ok(match self.prescribed_limit(start) {
             Some(limit) => Limits { shear_strength: limit, ..Limits::default() },
             None => Limits { friction: self.friction, ..Limits::default() },
@@ -401,8 +392,8 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn check(&self, scene: &ContactScene) -> Result<()> {
-        let quantity = "friction limited by the static pressure";
         let has_pressure = self.friction_limit != FrictionLimit::Static || scene.gravity != 0.0;
-        require_part(quantity, has_pressure, "there is none without gravity")
+        let needed = "there is none without gravity";
+        require_part("friction limited by the static pressure", has_pressure, needed)
     }
 }

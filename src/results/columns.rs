@@ -11,7 +11,7 @@ pub(super) const CONTACT_COLUMNS: [&str; 3] =
     ["contact_time_s", "contact_mode", "contact_mode_words"];
 
 /// Function that returns a number of an element's contact state.
-type ContactNumber = fn(&ContactState) -> f64;
+pub(super) type ContactNumber = fn(&ContactState) -> f64;
 
 /// Columns of motion frames.
 pub(super) const MOTION_COLUMNS: [&str; 5] = [
@@ -22,35 +22,50 @@ pub(super) const MOTION_COLUMNS: [&str; 5] = [
     "motion_free_field_across_m",
 ];
 
+/// Ends of elements, with their heights if these are asked for: names and values of columns.
+pub(super) fn element_ends(
+    elements: &[ContactElement],
+    with_heights: bool,
+) -> Vec<(&'static str, Vec<f64>)> {
+    let end_names = [["left_m", "right_m"], ["front_m", "back_m"]];
+    let mut columns = Vec::new();
+    for axis in ContactLayout::for_elements(elements).axes() {
+        for end in [0, 1] {
+            let values = elements.iter().map(|element| element.ends()[axis][end]);
+            columns.push((end_names[axis][end], values.collect()));
+        }
+    }
+    if with_heights {
+        for (end, name) in ["bottom_m", "top_m"].into_iter().enumerate() {
+            let values = elements.iter().map(|element| element.heights()[end]);
+            columns.push((name, values.collect()));
+        }
+    }
+    columns
+}
+
+/// Columns of contact frames with a number per element, and their values.
+pub(super) fn contact_numbers(in_plan: bool) -> Vec<(String, ContactNumber)> {
+    let mut columns = Vec::new();
+    for (word, unit, is_in_plan_only, value) in ContactState::NUMBER_COLUMNS {
+        if in_plan || !is_in_plan_only {
+            columns.push((column(word, unit), value));
+        }
+    }
+    columns
+}
+
 impl TimeSeries {
-    /// Ends of the elements, with their heights if there are walls.
-    pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
-        let end_names = [["left_m", "right_m"], ["front_m", "back_m"]];
-        let mut columns = Vec::new();
-        for axis in ContactLayout::for_elements(self.elements()).axes() {
-            for end in [0, 1] {
-                let values = self.elements().iter().map(|element| element.ends()[axis][end]);
-                columns.push((end_names[axis][end], values.collect()));
-            }
-        }
-        if ContactElement::any_wall(self.elements()) {
-            for (end, name) in ["bottom_m", "top_m"].into_iter().enumerate() {
-                let values = self.elements().iter().map(|element| element.heights()[end]);
-                columns.push((name, values.collect()));
-            }
-        }
-        columns
+    /// Ends of the elements of the base, with their heights if there are walls: names and values of columns.
+    pub(super) fn base_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
+        element_ends(self.elements(), ContactElement::any_wall(self.elements()))
     }
 
-    /// Columns of contact frames with a number per element, and their values.
-    pub(super) fn contact_numbers(&self) -> Vec<(String, ContactNumber)> {
-        let mut columns = Vec::new();
-        for (word, unit, is_in_plan_only, value) in ContactState::NUMBER_COLUMNS {
-            if self.in_plan() || !is_in_plan_only {
-                columns.push((column(word, unit), value));
-            }
-        }
-        columns
+    /// Names of the arrays of contact with a number per element, of a base or joint with these ends.
+    fn contact_arrays(&self, ends: Vec<(&'static str, Vec<f64>)>) -> Vec<String> {
+        let ends = ends.into_iter().map(|(name, _)| format!("element_{name}"));
+        let numbers = contact_numbers(self.in_plan()).into_iter();
+        ends.chain(numbers.map(|(name, _)| format!("contact_{name}"))).collect()
     }
 
     /// Names of time, scalars and probes; a probe's name differs from all other names in any file.
@@ -70,10 +85,12 @@ impl TimeSeries {
         used_names.extend(EnergyTerm::ALL_TERMS.into_iter().map(|term| term.column(in_plan)));
         used_names
             .extend(CONTACT_COLUMNS.iter().chain(&MOTION_COLUMNS).map(|&name| name.to_owned()));
-        used_names
-            .extend(self.element_ends().into_iter().map(|(name, _)| format!("element_{name}")));
-        used_names
-            .extend(self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}")));
+        used_names.extend(self.contact_arrays(self.base_ends()));
+        for (joint, elements) in self.joint_elements().iter().enumerate() {
+            let mut arrays = self.contact_arrays(element_ends(elements, true));
+            arrays.push("contact_mode".to_owned());
+            used_names.extend(arrays.into_iter().map(|name| format!("joint_{joint}_{name}")));
+        }
         columns.extend(distinct(&used_names, self.probes.iter().map(Probe::column)));
         columns
     }
@@ -81,8 +98,8 @@ impl TimeSeries {
     /// Values of the columns.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::recorded(self.in_plan()).map(|quantity| self.series(quantity));
-        let foundations = self.foundations.lists().iter().map(Vec::as_slice);
-        let joints = self.joints.lists().iter().map(Vec::as_slice);
+        let foundations = self.foundations.lists.all().iter().map(Vec::as_slice);
+        let joints = self.joints.lists.all().iter().map(Vec::as_slice);
         let probes = self.probe_values.iter().map(Vec::as_slice);
         std::iter::once(self.times())
             .chain(scalars)

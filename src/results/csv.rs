@@ -2,14 +2,15 @@
 
 use std::fmt::Write;
 
-use super::{ElementEnvelope, Run, TimeSeries};
+use super::columns::{ContactNumber, contact_numbers};
+use super::{ContactFrame, ElementEnvelope, Run, TimeSeries};
 use crate::coupled::EnergyTerm;
 use crate::motion::SpectralOrdinate;
 use crate::text::column::{NumberCell, cell_line, column};
 use crate::text::csv::Csv;
 
 /// Joins a heading and lines; each line has a text, followed by numbers.
-fn csv_lines<N: IntoIterator<Item = f64>>(
+pub(super) fn csv_lines<N: IntoIterator<Item = f64>>(
     heading: &str,
     rows: impl IntoIterator<Item = (String, N)>,
 ) -> Csv {
@@ -65,26 +66,34 @@ impl TimeSeries {
     /// In plan the line continues with front and back ends, and ends with slip and shear along y. With walls it
     /// continues with the heights of both ends, `bottom_m` and `top_m`.
     pub fn contact_csv(&self) -> Csv {
-        let ends = self.element_ends();
-        let numbers = self.contact_numbers();
-        let mut heading = vec!["time_s", "element"];
-        heading.extend(ends.iter().map(|(name, _)| *name));
-        heading.push("mode");
-        heading.extend(numbers.iter().map(|(name, _)| name.as_str()));
-        let mut text = format!("{}\n", heading.join(","));
-        for frame in self.contact_frames() {
-            for (element, (state, mode)) in frame.states.iter().zip(frame.modes).enumerate() {
-                let end_cells: Vec<_> = ends
-                    .iter()
-                    .map(|(_, coordinates)| NumberCell(coordinates[element]).to_string())
-                    .collect();
-                let time = NumberCell(frame.time);
-                let _ = write!(text, "{time},{element},{},{mode},", end_cells.join(","));
-                text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
-            }
-        }
-        Csv(text)
+        let numbers = contact_numbers(self.in_plan());
+        contact_csv(&self.base_ends(), &numbers, self.contact_frames())
     }
+}
+
+/// Frames of elements with these ends as CSV in long form, with these numbers of each element.
+pub(super) fn contact_csv<'a>(
+    ends: &[(&'static str, Vec<f64>)],
+    numbers: &[(String, ContactNumber)],
+    frames: impl Iterator<Item = ContactFrame<'a>>,
+) -> Csv {
+    let mut heading = vec!["time_s", "element"];
+    heading.extend(ends.iter().map(|(name, _)| *name));
+    heading.push("mode");
+    heading.extend(numbers.iter().map(|(name, _)| name.as_str()));
+    let mut text = format!("{}\n", heading.join(","));
+    for frame in frames {
+        for (element, (state, mode)) in frame.states.iter().zip(frame.modes).enumerate() {
+            let end_cells: Vec<_> = ends
+                .iter()
+                .map(|(_, coordinates)| NumberCell(coordinates[element]).to_string())
+                .collect();
+            let time = NumberCell(frame.time);
+            let _ = write!(text, "{time},{element},{},{mode},", end_cells.join(","));
+            text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
+        }
+    }
+    Csv(text)
 }
 
 /// Column of an envelope.

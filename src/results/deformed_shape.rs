@@ -1,6 +1,7 @@
 //! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
 use super::shape_cell::{ShapeCell, drawn_cells};
+use crate::coupled::Joint;
 use crate::error::{Result, at_least, finite, in_bounds, positive};
 use crate::fem::Direction;
 use crate::structure::{
@@ -234,6 +235,26 @@ impl DeformedShape {
             point.position[1] -= depth;
         }
         Ok(self)
+    }
+
+    /// Adds both sides of a joint, each as lines between its nodes.
+    ///
+    /// The joint is one of the structure of this shape. A gap, an opening or a slip shows as a distance between both sides.
+    #[must_use]
+    pub fn with_joint(mut self, joint: &Joint) -> Self {
+        for side in joint.line().sides() {
+            let first_point = self.points.len();
+            for node in side {
+                let horizontal = node.horizontal.clone();
+                let vertical = node.vertical.clone();
+                self.points.push(ShapePoint::in_plane([node.x, node.z], horizontal, vertical));
+            }
+            for end in first_point + 1..self.points.len() {
+                self.cells.push(vec![end - 1, end]);
+                self.grid.push(ShapeCell::flat(vec![end - 1, end]));
+            }
+        }
+        self
     }
 
     /// The points.

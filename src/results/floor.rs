@@ -25,7 +25,7 @@ impl TimeSeries {
         let keeps_every_step = self.recorder.every == 1;
         require_part(quantity, keeps_every_step, "the recorder must keep every step")?;
         let recorded_duration = (self.times().len().max(1) - 1) as f64 * self.time_step;
-        let run_duration = self.sequence.end() - self.times()[0];
+        let run_duration = self.sequence.last_time() - self.times()[0];
         // A missing step makes a difference of at least one time step.
         let is_complete = (recorded_duration - run_duration).abs() <= 0.5 * self.time_step;
         require_part(quantity, is_complete, "every step of the run must have been recorded")?;

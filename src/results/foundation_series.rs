@@ -1,6 +1,7 @@
 //! Time series of each foundation.
 
 use super::Quantity;
+use super::item_lists::ItemLists;
 use crate::coupled::State;
 use crate::error::{Result, in_bounds, require_part};
 
@@ -18,9 +19,8 @@ pub(super) struct FoundationSeries {
     count: usize,
     /// Whether the only foundation has the moments of the whole base.
     is_whole_base: bool,
-    /// Lists of all quantities of the first foundation, then of the next one; empty unless kept.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
-    lists: Vec<Vec<f64>>,
+    /// Lists of each foundation; empty unless kept.
+    pub(super) lists: ItemLists,
 }
 
 impl FoundationSeries {
@@ -33,29 +33,18 @@ impl FoundationSeries {
                 let [min_end, max_end] = footings[0].ends[axis];
                 footings[0].center[axis].abs() <= SAME_POINT_TOLERANCE * (max_end - min_end)
             });
-        let list_count = if is_kept { count * quantity_count } else { 0 };
-        Self { count, is_whole_base, lists: vec![Vec::new(); list_count] }
+        let lists = ItemLists::new(if is_kept { count } else { 0 }, quantity_count);
+        Self { count, is_whole_base, lists }
     }
 
     /// Number of foundations whose scalars are kept.
     pub(super) fn kept_count(&self) -> usize {
-        if self.lists.is_empty() { 0 } else { self.count }
-    }
-
-    /// Lists of all quantities of the first foundation, then of the next one.
-    pub(super) fn lists(&self) -> &[Vec<f64>] {
-        &self.lists
-    }
-
-    /// Mutable access to the lists.
-    pub(super) fn lists_mut(&mut self) -> &mut [Vec<f64>] {
-        &mut self.lists
+        if self.lists.all().is_empty() { 0 } else { self.count }
     }
 
     /// Appends the values of a kept step.
     pub(super) fn store(&mut self, state: &State) {
-        let quantity_count = self.lists.len() / self.count.max(1);
-        for (foundation, lists) in self.lists.chunks_mut(quantity_count.max(1)).enumerate() {
+        for (foundation, lists) in self.lists.items_mut(self.count).enumerate() {
             state.append_values(Some(foundation), lists);
         }
     }
@@ -65,14 +54,13 @@ impl FoundationSeries {
     /// The series is empty in the plane for quantities that exist only in plan.
     pub(super) fn find(&self, foundation: usize, quantity: Quantity) -> Result<Option<&[f64]>> {
         in_bounds("foundation", foundation, self.count)?;
-        let quantity_count = self.lists.len() / self.count;
-        if quantity_count == 0 {
+        let lists = self.lists.of_item(foundation, self.count);
+        if lists.is_empty() {
             let needed = "kept: set `foundations` of the recorder, since there are several foundations or a \
                           moment center is set";
             require_part("time series of a foundation", self.is_whole_base, needed)?;
             return Ok(None);
         }
-        let lists = &self.lists[foundation * quantity_count..(foundation + 1) * quantity_count];
         Ok(Some(lists.get(quantity as usize).map_or(&[], Vec::as_slice)))
     }
 
@@ -82,7 +70,7 @@ impl FoundationSeries {
         let needed_lists = self.kept_count().saturating_mul(quantity_count);
         crate::error::same_length(
             "list of scalars of the foundations",
-            self.lists.len(),
+            self.lists.all().len(),
             needed_lists,
         )?;
         Ok(())

@@ -1,11 +1,12 @@
-//! Snapshots of the base and of the structure at regular steps.
+//! Snapshots of the base, of joints and of the structure at regular steps.
 
 use std::collections::TryReserveError;
+use std::ops::Range;
 
 use crate::coupled::State;
 use crate::interface::{ContactState, Mode};
 
-/// The base at one instant.
+/// The base, or a joint, at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ContactFrame<'a> {
@@ -34,7 +35,9 @@ pub struct MotionFrame<'a> {
     pub free_field_across: f64,
 }
 
-/// Frames of the base, one after the other in each list.
+/// Frames of the base and its joints, one after the other in each list.
+///
+/// A frame has the elements of the base, then those of the joints.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -56,6 +59,10 @@ impl ContactFrames {
         self.times.push(state.time);
         self.states.extend_from_slice(&state.contact);
         self.modes.extend_from_slice(&state.modes);
+        for joint in &state.joints {
+            self.states.extend_from_slice(&joint.contact);
+            self.modes.extend_from_slice(&joint.modes);
+        }
     }
 
     /// Reserves memory for `frame_count` more frames of `element_count` elements each.
@@ -81,13 +88,15 @@ impl ContactFrames {
         self.every > 0 && [self.states.len(), self.modes.len()].map(Some) == [needed_length; 2]
     }
 
-    /// Frames of `element_count` elements each.
+    /// Some elements of each frame, out of `element_count`.
     pub(super) fn frames(
         &self,
+        elements: Range<usize>,
         element_count: usize,
     ) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
         self.times.iter().enumerate().map(move |(k, &time)| {
-            let range = k * element_count..(k + 1) * element_count;
+            let frame_start = k * element_count;
+            let range = frame_start + elements.start..frame_start + elements.end;
             ContactFrame { time, states: &self.states[range.clone()], modes: &self.modes[range] }
         })
     }

@@ -1,5 +1,10 @@
 //! Time series of each joint.
 
+use std::fmt;
+use std::ops::Range;
+
+use super::item_lists::ItemLists;
+use crate::bem::ContactElement;
 use crate::coupled::{JointState, State};
 use crate::error::{Result, in_bounds};
 use crate::text::column::column;
@@ -26,18 +31,18 @@ pub enum JointQuantity {
     ContactEnergy,
 }
 
-/// Name, SI unit and value of a quantity.
+/// Word, SI unit and value of a quantity.
 type JointQuantityRow = (&'static str, &'static str, fn(&JointState) -> f64);
 
 /// Rows of all quantities, in the order of columns.
 const JOINT_QUANTITY_ROWS: [JointQuantityRow; 7] = [
-    ("normal force", "N/m", |joint| joint.normal_force),
-    ("shear force", "N/m", |joint| joint.shear_force),
+    ("normal_force", "N/m", |joint| joint.normal_force),
+    ("shear_force", "N/m", |joint| joint.shear_force),
     ("moment", "N·m/m", |joint| joint.moment),
-    ("open fraction", "", |joint| joint.open_fraction),
-    ("mean slip", "m", |joint| joint.mean_slip),
-    ("largest gap", "m", |joint| joint.largest_gap),
-    ("contact energy", "J/m", |joint| joint.contact_energy),
+    ("open_fraction", "", |joint| joint.open_fraction),
+    ("mean_slip", "m", |joint| joint.mean_slip),
+    ("largest_gap", "m", |joint| joint.largest_gap),
+    ("contact_energy", "J/m", |joint| joint.contact_energy),
 ];
 
 impl JointQuantity {
@@ -52,47 +57,71 @@ impl JointQuantity {
         Self::ContactEnergy,
     ];
 
+    /// SI unit of its values; empty for a ratio.
+    pub fn unit(self) -> &'static str {
+        JOINT_QUANTITY_ROWS[self as usize].1
+    }
+
     /// Value in the state of a joint.
     pub fn value(self, joint: &JointState) -> f64 {
         JOINT_QUANTITY_ROWS[self as usize].2(joint)
     }
 }
 
-/// Scalars of each joint at the kept steps.
+impl fmt::Display for JointQuantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(JOINT_QUANTITY_ROWS[*self as usize].0)
+    }
+}
+
+/// Elements of each joint, and its scalars at the kept steps.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct JointSeries {
-    /// Lists of all quantities of the first joint, then of the next one.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
-    lists: Vec<Vec<f64>>,
+    /// Contact elements of each joint.
+    pub(super) elements: Vec<Vec<ContactElement>>,
+    /// Lists of each joint.
+    pub(super) lists: ItemLists,
 }
 
 impl JointSeries {
     /// Makes empty lists for the joints of a state.
     pub(super) fn new(state: &State) -> Self {
-        Self { lists: vec![Vec::new(); state.joints.len() * JOINT_QUANTITY_ROWS.len()] }
+        let elements = state.context.joint_elements.clone();
+        let lists = ItemLists::new(elements.len(), JOINT_QUANTITY_ROWS.len());
+        Self { elements, lists }
     }
 
     /// Number of joints.
     pub(super) fn count(&self) -> usize {
-        self.lists.len() / JOINT_QUANTITY_ROWS.len()
+        self.elements.len()
     }
 
-    /// Lists of all quantities of the first joint, then of the next one.
-    pub(super) fn lists(&self) -> &[Vec<f64>] {
-        &self.lists
+    /// Number of elements of all joints.
+    pub(super) fn element_count(&self) -> usize {
+        self.elements.iter().map(Vec::len).sum()
     }
 
-    /// Mutable access to the lists.
-    pub(super) fn lists_mut(&mut self) -> &mut [Vec<f64>] {
-        &mut self.lists
+    /// Elements of a joint among the elements of all joints.
+    pub(super) fn element_range(&self, joint: usize) -> Result<Range<usize>> {
+        let index = in_bounds("joint", joint, self.count())?;
+        let start: usize = self.elements[..index].iter().map(Vec::len).sum();
+        Ok(start..start + self.elements[index].len())
+    }
+
+    /// Returns an error unless there are lists of all quantities of each joint.
+    #[cfg(feature = "serde")]
+    pub(super) fn check(&self) -> Result<()> {
+        let needed_lists = self.count().saturating_mul(JOINT_QUANTITY_ROWS.len());
+        let quantity = "list of scalars of the joints";
+        crate::error::same_length(quantity, self.lists.all().len(), needed_lists)?;
+        Ok(())
     }
 
     /// Appends the values of a kept step.
     pub(super) fn store(&mut self, state: &State) {
-        let joint_lists = self.lists.chunks_exact_mut(JOINT_QUANTITY_ROWS.len());
-        for (lists, joint) in joint_lists.zip(&state.joints) {
+        for (lists, joint) in self.lists.items_mut(self.elements.len()).zip(&state.joints) {
             for (list, (.., value)) in lists.iter_mut().zip(JOINT_QUANTITY_ROWS) {
                 list.push(value(joint));
             }
@@ -102,7 +131,8 @@ impl JointSeries {
     /// Series of a quantity of a joint.
     pub(super) fn find(&self, joint: usize, quantity: JointQuantity) -> Result<&[f64]> {
         let index = in_bounds("joint", joint, self.count())?;
-        Ok(&self.lists[index * JOINT_QUANTITY_ROWS.len() + quantity as usize])
+        let lists = self.lists.of_item(index, self.count());
+        Ok(lists.get(quantity as usize).map_or(&[], Vec::as_slice))
     }
 
     /// Names of columns, joint by joint.
@@ -110,7 +140,7 @@ impl JointSeries {
         (0..self.count()).flat_map(|joint| {
             JOINT_QUANTITY_ROWS
                 .into_iter()
-                .map(move |(name, unit, _)| format!("joint_{joint}_{}", column(name, unit)))
+                .map(move |(word, unit, _)| format!("joint_{joint}_{}", column(word, unit)))
         })
     }
 }

@@ -73,6 +73,8 @@ mod deformed_shape;
 mod floor;
 mod foundation_series;
 mod frames;
+mod item_lists;
+mod joint_results;
 mod joint_series;
 #[cfg(feature = "npz")]
 mod npz;

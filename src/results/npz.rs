@@ -10,8 +10,8 @@ use std::path::Path;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::TimeSeries;
-use super::columns::{CONTACT_COLUMNS, MOTION_COLUMNS};
+use super::columns::{CONTACT_COLUMNS, MOTION_COLUMNS, contact_numbers, element_ends};
+use super::{ContactFrame, TimeSeries};
 use crate::coupled::EnergyTerm;
 use crate::error::Result;
 use crate::interface::Mode;
@@ -72,6 +72,34 @@ impl Archive {
         self.add_array(name, "<f8", shape, &bytes)
     }
 
+    /// Adds the ends of elements; names begin with `prefix`.
+    fn add_ends(&mut self, prefix: &str, ends: Vec<(&str, Vec<f64>)>) -> io::Result<()> {
+        for (name, values) in ends {
+            let name = format!("{prefix}element_{name}");
+            self.add_numbers(&name, &[values.len()], values.into_iter())?;
+        }
+        Ok(())
+    }
+
+    /// Adds numbers and modes of each element in these frames; names begin with `prefix`.
+    fn add_frames(
+        &mut self,
+        prefix: &str,
+        element_count: usize,
+        in_plan: bool,
+        frames: &[ContactFrame<'_>],
+    ) -> io::Result<()> {
+        let shape = [frames.len(), element_count];
+        for (name, value) in contact_numbers(in_plan) {
+            let numbers = frames.iter().flat_map(|frame| frame.states.iter().map(value));
+            self.add_numbers(&format!("{prefix}contact_{name}"), &shape, numbers)?;
+        }
+        let modes = frames.iter().flat_map(|frame| frame.modes);
+        let mode_codes: Vec<u8> = modes.map(|mode| *mode as u8).collect();
+        let [_, mode_name, _] = CONTACT_COLUMNS;
+        self.add_array(&format!("{prefix}{mode_name}"), "|u1", &shape, &mode_codes)
+    }
+
     /// Adds a list of texts, with four bytes for each character, padded to the longest text.
     fn add_words(&mut self, name: &str, words: &[String]) -> io::Result<()> {
         let max_characters = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
@@ -114,6 +142,8 @@ impl TimeSeries {
     /// | in plan `contact_slip_across_m`, `contact_shear_across_pa` | frames × elements | along y |
     /// | `contact_mode`, integers | frames × elements | indices into `contact_mode_words` |
     /// | `contact_mode_words` | modes | texts |
+    /// | `joint_0_normal_force_n_per_m` …, the scalars of each joint | kept steps | |
+    /// | `joint_0_element_left_m`, `joint_0_contact_gap_m` …, of each joint as of the base | elements, frames × elements | |
     /// | `motion_time_s` | frames | with [`Recorder::motion`](super::Recorder::motion) |
     /// | `motion_displacement`, `motion_velocity` | frames × degrees of freedom | as in [`MotionFrame`](super::MotionFrame) |
     /// | `motion_free_field_m` | frames × 2 | to the right, up |
@@ -133,35 +163,34 @@ impl TimeSeries {
             archive.add_numbers(&term.column(self.in_plan()), &[step_count], values)?;
         }
         self.add_contact(&mut archive)?;
+        self.add_joints(&mut archive)?;
         self.add_motion(&mut archive)?;
         out.write_all(archive.0.finish()?.get_ref())
     }
 
     fn add_contact(&self, archive: &mut Archive) -> io::Result<()> {
-        let elements = self.elements();
-        let [time_name, mode_name, words_name] = CONTACT_COLUMNS;
-        for (name, ends) in self.element_ends() {
-            let name = format!("element_{name}");
-            archive.add_numbers(&name, &[elements.len()], ends.into_iter())?;
-        }
+        archive.add_ends("", self.base_ends())?;
         if self.recorder.contact.is_none() {
             return Ok(());
         }
-        let frame_count = self.contact_frames().count();
-        let shape = [frame_count, elements.len()];
-        archive.add_numbers(
-            time_name,
-            &[frame_count],
-            self.contact_frames().map(|frame| frame.time),
-        )?;
-        for (name, value) in self.contact_numbers() {
-            let numbers = self.contact_frames().flat_map(|frame| frame.states.iter().map(value));
-            archive.add_numbers(&format!("contact_{name}"), &shape, numbers)?;
-        }
-        let modes = self.contact_frames().flat_map(|frame| frame.modes);
-        let mode_codes: Vec<u8> = modes.map(|mode| *mode as u8).collect();
-        archive.add_array(mode_name, "|u1", &shape, &mode_codes)?;
+        let [time_name, _, words_name] = CONTACT_COLUMNS;
+        let frames: Vec<_> = self.contact_frames().collect();
+        archive.add_numbers(time_name, &[frames.len()], frames.iter().map(|frame| frame.time))?;
+        archive.add_frames("", self.elements().len(), self.in_plan(), &frames)?;
         archive.add_words(words_name, &Mode::ALL.map(|mode| mode.to_string()))
+    }
+
+    fn add_joints(&self, archive: &mut Archive) -> io::Result<()> {
+        for (joint, elements) in self.joint_elements().iter().enumerate() {
+            let prefix = format!("joint_{joint}_");
+            archive.add_ends(&prefix, element_ends(elements, true))?;
+            if self.recorder.contact.is_some() {
+                let frames = self.joint_frames(joint).map_err(io::Error::other)?;
+                let frames: Vec<_> = frames.collect();
+                archive.add_frames(&prefix, elements.len(), self.in_plan(), &frames)?;
+            }
+        }
+        Ok(())
     }
 
     fn add_motion(&self, archive: &mut Archive) -> io::Result<()> {

@@ -33,7 +33,7 @@ impl Recorder {
         Self { every: steps, ..self }
     }
 
-    /// Keeps contact frames at every `steps`th step: 49 bytes per element and frame.
+    /// Keeps contact frames of base and joints at every `steps`th step: 49 bytes per element and frame.
     #[must_use]
     pub fn contact(self, steps: usize) -> Self {
         Self { contact: Some(steps), ..self }

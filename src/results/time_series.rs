@@ -1,10 +1,11 @@
 //! Time series of a run, and its motion and contact frames, which an observer stores.
 
 use std::collections::TryReserveError;
+use std::ops::Range;
 
 use super::foundation_series::FoundationSeries;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, reserve};
-use super::joint_series::{JointQuantity, JointSeries};
+use super::joint_series::JointSeries;
 use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
@@ -81,16 +82,18 @@ validated! {
         crate::error::same_length("list of scalars", scalars.len(), quantity_count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), step_count)?;
-        let lists = scalars.iter().chain(&probe_values).chain(foundations.lists());
-        for values in lists.chain(joints.lists()) {
+        let lists = scalars.iter().chain(&probe_values).chain(foundations.lists.all());
+        for values in lists.chain(joints.lists.all()) {
             crate::error::same_length("time series", values.len(), step_count)?;
         }
         foundations.check(quantity_count)?;
-        let are_whole = contact.as_ref().is_none_or(|frames| frames.is_whole(elements.len()))
+        joints.check()?;
+        let element_count = elements.len() + joints.element_count();
+        let are_whole = contact.as_ref().is_none_or(|frames| frames.is_whole(element_count))
             && motion.as_ref().is_none_or(|frames| frames.is_whole(dofs));
         crate::error::same_length("list of whole frames", usize::from(are_whole), 1)?;
         crate::error::same_length("list of times", usize::from(step_count > 0), 1)?;
-        let sequence = StateSequence::ended(end);
+        let sequence = StateSequence::closed_at(end);
         Ok(Self {
             recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
             scalars, foundations, joints, probe_values, energy_balances, contact, motion,
@@ -185,6 +188,17 @@ impl TimeSeries {
         Ok(())
     }
 
+    /// Lists of all scalars and probes.
+    fn scalar_lists(&self) -> impl Iterator<Item = &Vec<f64>> {
+        let scalars = self.scalars.iter().chain(self.foundations.lists.all());
+        scalars.chain(self.joints.lists.all()).chain(&self.probe_values)
+    }
+
+    /// Number of elements in a contact frame, of the base and of joints.
+    fn frame_element_count(&self) -> usize {
+        self.elements.len() + self.joints.element_count()
+    }
+
     /// Number of kept steps among the next `steps`, if every `interval`th is kept.
     fn kept_steps(&self, interval: usize, steps: usize) -> usize {
         self.steps.saturating_add(steps) / interval - self.steps / interval
@@ -192,13 +206,11 @@ impl TimeSeries {
 
     /// Memory that `steps` more steps would take, bytes.
     fn needed_bytes(&self, steps: usize) -> f64 {
-        let joint_count = self.joints.lists().len();
-        let scalar_count = self.scalars.len() + self.foundations.lists().len() + joint_count;
-        let number_count = 1 + scalar_count + self.probe_values.len();
+        let number_count = 1 + self.scalar_lists().count();
         let step_bytes = number_count * size_of::<f64>() + size_of::<EnergyBalance>();
         let mut bytes = self.kept_steps(self.recorder.every, steps) as f64 * step_bytes as f64;
         if let Some(frames) = &self.contact {
-            let frame_bytes = ContactFrames::frame_bytes(self.elements.len());
+            let frame_bytes = ContactFrames::frame_bytes(self.frame_element_count());
             bytes += self.kept_steps(frames.every, steps) as f64 * frame_bytes as f64;
         }
         if let Some(frames) = &self.motion {
@@ -238,8 +250,9 @@ impl TimeSeries {
 
     fn try_reserve_steps(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
         let step_count = self.kept_steps(self.recorder.every, steps);
-        let scalars = self.scalars.iter_mut().chain(self.foundations.lists_mut());
-        let scalars = scalars.chain(self.joints.lists_mut());
+        let element_count = self.frame_element_count();
+        let scalars = self.scalars.iter_mut().chain(self.foundations.lists.all_mut());
+        let scalars = scalars.chain(self.joints.lists.all_mut());
         for list in scalars.chain(&mut self.probe_values).chain([&mut self.times]) {
             reserve(list, step_count)?;
         }
@@ -247,7 +260,7 @@ impl TimeSeries {
         let frame_counts = [self.recorder.contact, self.recorder.motion]
             .map(|every| every.map_or(0, |every| self.kept_steps(every, steps)));
         if let Some(frames) = &mut self.contact {
-            frames.reserve(frame_counts[0], self.elements.len())?;
+            frames.reserve(frame_counts[0], element_count)?;
         }
         if let Some(frames) = &mut self.motion {
             frames.reserve(frame_counts[1], self.dofs)?;
@@ -292,14 +305,6 @@ impl TimeSeries {
         self.scalars.get(quantity as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// Time series of a quantity of a joint at [`TimeSeries::times`]; joints count from 0, the builder's first.
-    ///
-    /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for a joint that does not exist.
-    pub fn joint_series(&self, joint: usize, quantity: JointQuantity) -> Result<&[f64]> {
-        self.joints.find(joint, quantity)
-    }
-
     /// Time series of the probe called `name` at [`TimeSeries::times`].
     ///
     /// # Errors
@@ -340,7 +345,16 @@ impl TimeSeries {
 
     /// Snapshots of the base; none unless [`Recorder::contact`] was set.
     pub fn contact_frames(&self) -> impl Iterator<Item = ContactFrame<'_>> {
-        self.contact.iter().flat_map(|frames| frames.frames(self.elements.len()))
+        self.frames_of(0..self.elements.len())
+    }
+
+    /// Snapshots of some elements, numbered through the base and then the joints.
+    pub(super) fn frames_of(
+        &self,
+        elements: Range<usize>,
+    ) -> impl Iterator<Item = ContactFrame<'_>> {
+        let frames = self.contact.iter();
+        frames.flat_map(move |frames| frames.frames(elements.clone(), self.frame_element_count()))
     }
 
     /// Forces on a face at each snapshot of the base, as [`State::face`]; none unless [`Recorder::contact`] was set.
@@ -365,9 +379,7 @@ impl TimeSeries {
 
     /// Memory that time series and frames use now, bytes.
     pub fn bytes(&self) -> usize {
-        let series = self.scalars.iter().chain(self.foundations.lists()).chain(&self.probe_values);
-        let number_count =
-            series.chain(self.joints.lists()).map(Vec::len).sum::<usize>() + self.times.len();
+        let number_count = self.scalar_lists().map(Vec::len).sum::<usize>() + self.times.len();
         size_of::<f64>() * number_count
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)

@@ -1,4 +1,4 @@
-//! Bearing capacity factors of drained soil (EN 1997-1:2004, Annex D).
+//! Bearing capacity factors (EN 1997-1:2004, Annex D).
 
 use std::f64::consts::PI;
 
@@ -44,12 +44,12 @@ impl BearingFactors {
 
     /// Factors for the friction angle of `strength`.
     pub(super) fn of(strength: &SoilStrength) -> Result<Self> {
-        let slope = strength.friction_angle().tan();
+        let tan_phi = strength.friction_angle().tan();
         // ln tan(π/4 + φ/2) = asinh(tan φ): no digits are lost in N_q − 1 at small angles.
-        let surcharge_minus_one = (PI * slope + 2.0 * slope.asinh()).exp_m1();
+        let surcharge_minus_one = (PI * tan_phi + 2.0 * tan_phi.asinh()).exp_m1();
         let cohesion =
-            if slope > 0.0 { surcharge_minus_one / slope } else { UNDRAINED_COHESION_FACTOR };
-        let unit_weight = 2.0 * surcharge_minus_one * slope;
+            if tan_phi > 0.0 { surcharge_minus_one / tan_phi } else { UNDRAINED_COHESION_FACTOR };
+        let unit_weight = 2.0 * surcharge_minus_one * tan_phi;
         finite("bearing capacity factor of the unit weight", unit_weight)?;
         Ok(Self { cohesion, surcharge: 1.0 + surcharge_minus_one, unit_weight })
     }

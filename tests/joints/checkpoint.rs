@@ -1,11 +1,11 @@
 //! Checkpoints, series and warnings of a scene with joints.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::{Joint, SimulationBuilder, Warning};
+use basemat::coupled::{Joint, SimulationBuilder, State, Warning};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Cohesive, Coulomb};
 use basemat::motion::el_centro_1940;
-use basemat::results::{JointQuantity, Recorder};
+use basemat::results::{JointQuantity, Recorder, TimeSeries};
 use basemat::structure::{FemModel, RigidBlock, StructureGroup};
 use basemat::{Result, Simulation, Soil};
 
@@ -59,6 +59,61 @@ fn a_resumed_run_has_the_same_bits() -> Result<()> {
     );
     // Another number of elements is another scene.
     assert!(block_on_wall(3)?.build()?.resume(&saved).is_err());
+    Ok(())
+}
+
+/// REFERENCE: the states of the run.
+#[test]
+fn frames_and_envelopes_of_a_joint_follow_its_elements() -> Result<()> {
+    let mut simulation = block_on_wall(4)?.build()?;
+    let mut series = Recorder::new().contact(5).start(&simulation)?;
+    let mut states = vec![simulation.state().clone()];
+    let run = simulation.run(400, |state| {
+        states.push(state.clone());
+        series.record(state)
+    })?;
+    let frames: Vec<_> = series.joint_frames(0)?.collect();
+    assert_eq!(frames.len(), 81);
+    for (frame, state) in frames.iter().zip(states.iter().step_by(5)) {
+        assert_eq!((frame.time, frame.states), (state.time, &state.joints[0].contact[..]));
+        assert_eq!(frame.modes, state.joints[0].modes);
+    }
+    // Frames of the base have the elements of the base alone.
+    for (frame, state) in series.contact_frames().zip(states.iter().step_by(5)) {
+        assert_eq!((frame.states, frame.modes), (&state.contact[..], &state.modes[..]));
+    }
+    let [elements] = series.joint_elements() else { panic!("one joint") };
+    let ends: Vec<_> = elements.iter().map(|element| [element.left(), element.right()]).collect();
+    assert_eq!(ends, [[-1.0, -0.5], [-0.5, 0.0], [0.0, 0.5], [0.5, 1.0]]);
+    assert!(elements.iter().all(|element| element.heights() == [3.0; 2]));
+
+    let [envelopes] = &run.joint_envelopes[..] else { panic!("one joint") };
+    for (element, envelope) in envelopes.iter().enumerate() {
+        let contact = states.iter().map(|state| &state.joints[0].contact[element]);
+        let largest_gap = contact.clone().fold(0.0, |max: f64, contact| max.max(contact.gap));
+        let highest = contact.fold(f64::MIN, |max, contact| max.max(contact.pressure));
+        assert_eq!((envelope.gap.value, envelope.pressure.highest.value), (largest_gap, highest));
+        let is_open = |state: &&State| !state.joints[0].modes[element].is_closed();
+        let open_time = 0.005 * states[1..].iter().filter(is_open).count() as f64;
+        assert!((envelope.open - open_time).abs() < 1e-9, "{} of {open_time}", envelope.open);
+    }
+    assert!(envelopes.iter().any(|envelope| envelope.open > 0.0));
+    assert!(run.to_string().contains("\nJoint "), "{run}");
+
+    let heading =
+        "time_s,element,left_m,right_m,bottom_m,top_m,mode,gap_m,slip_m,pressure_pa,shear_pa";
+    let csv = series.joint_csv(0)?;
+    assert_eq!(csv.lines().next(), Some(heading));
+    assert_eq!(csv.lines().count(), 1 + 81 * 4);
+    let csv = run.joint_envelope_csv(0)?;
+    assert!(csv.starts_with("element,left_m,right_m,bottom_m,top_m,static_pressure_pa,"), "{csv}");
+    assert_eq!(csv.lines().count(), 5);
+    assert!(series.joint_frames(1).is_err() && run.joint_envelope_csv(1).is_err());
+
+    let text = serde_json::to_string(&series).unwrap();
+    let read: TimeSeries = serde_json::from_str(&text).unwrap();
+    assert_eq!(read.joint_frames(0)?.collect::<Vec<_>>(), frames);
+    assert_eq!(read.bytes(), series.bytes());
     Ok(())
 }
 

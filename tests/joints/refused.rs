@@ -34,6 +34,38 @@ fn lines_that_are_not_opposite_each_other() {
     assert!(joint.with_gap(-0.1).is_err());
 }
 
+/// A block whose middle is beyond the edge of the block under it falls; the block under it stands.
+#[test]
+fn a_block_that_falls_is_named_by_its_joint() -> Result<()> {
+    let lower = RigidBlock::new(4.0, 2.0, 2000.0)?;
+    let upper = RigidBlock::new(2.0, 1.0, 2000.0)?;
+    let top = lower.contact_nodes(&[[-2.0, 2.0], [2.0, 2.0]])?;
+    let scene = |shift: f64| -> Result<Simulation> {
+        let bottom = upper.contact_nodes(&[[-1.0, 0.0], [1.0, 0.0]])?;
+        let group = StructureGroup::new()
+            .with(lower.clone(), 0.0)?
+            .with_above(upper.clone(), [0.0, 2.0])?
+            .with_above(upper.clone(), [shift, 2.0])?;
+        let joint = |member: usize| -> Result<Joint> {
+            let upper_side = group.contact_nodes(member, bottom.clone())?;
+            Joint::between(upper_side, group.contact_nodes(0, top.clone())?, 4)
+        };
+        let builder = Simulation::builder(0.01)
+            .ground(SpringGround::under(&group, 4, 1e9, 1e9)?)
+            .interface(Coulomb::new(0.5)?)
+            .joint(joint(1)?.with_law(Coulomb::new(0.5)?))
+            .joint(joint(2)?.with_law(Coulomb::new(0.5)?));
+        builder.structure(group).build()
+    };
+    assert!(scene(1.5).is_ok());
+    let error = scene(2.3).unwrap_err();
+    println!("{error}");
+    // The far end of the joint opens.
+    assert!(matches!(error, Error::Preload { joint_element: Some([1, 0]), .. }), "{error}");
+    assert!(error.to_string().contains("element 0 of joint 1 moves most"));
+    Ok(())
+}
+
 #[test]
 fn scenes_without_support_or_in_plan() -> Result<()> {
     let lower = RigidBlock::new(4.0, 2.0, 2000.0)?;

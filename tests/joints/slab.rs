@@ -1,4 +1,8 @@
 //! A block on a heavy rigid slab, which is bonded to stiff ground, and the same block on the ground.
+//!
+//! The joint is hard, but the ground of the reference has a compliance. Two impacts of the block magnify its effect: on
+//! 10¹⁹ Pa/m the reference has a rotation that differs by 7e-6 of its peak from that on hard ground, and the difference falls in
+//! proportion to the compliance. Rounding has no part in it: a motion scaled by 1 + 10⁻¹² changes the rotation by 6e-10.
 
 use basemat::bem::SpringGround;
 use basemat::coupled::{Joint, Theta};
@@ -9,8 +13,8 @@ use basemat::{Result, Simulation};
 
 use super::assert_same_responses;
 
-/// Stiffness of the ground per area, Pa/m: no part of a motion in a step.
-const GROUND_STIFFNESS: f64 = 1e19;
+/// Stiffness of the ground per area, Pa/m: as good as hard after all impacts.
+const GROUND_STIFFNESS: f64 = 1e21;
 const ELEMENT_COUNT: usize = 8;
 const FRICTION_COEFFICIENT: f64 = 0.45;
 
@@ -42,7 +46,7 @@ fn responses(is_on_slab: bool) -> Result<[Vec<f64>; 2]> {
             .build()?
     };
     let mut responses = [Vec::new(), Vec::new()];
-    let run = simulation.run(2800, |state| {
+    let run = simulation.run(6000, |state| {
         let (slip, rotation) = match &state.joints[..] {
             [joint] => (joint.mean_slip, state.displacement()[5]),
             _ => (state.mean_slip, state.displacement()[2]),

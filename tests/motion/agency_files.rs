@@ -132,7 +132,10 @@ fn components_of_a_station_are_read_at_once() {
     assert_eq!((single.len(), single[0].0.as_str()), (1, "HNE"));
     for component in [0, 4] {
         let error = refusal(&bytes("afad_three.txt"), &AfadFormat { component });
-        assert_eq!(error.fault, value("requested channel", &component.to_string(), "from 1 to 3"));
+        assert_eq!(
+            error.fault,
+            value("requested component", &component.to_string(), "from 1 to 3")
+        );
     }
     let format = ColumnFormat::equally_spaced(GRAVITY_UNIT, 0.01);
     let columns = read_all("three_components.txt", &format);

@@ -60,7 +60,7 @@ impl ComplexBlock {
         &self.values[column * self.row_count..][..self.row_count]
     }
 
-    /// Entries of a column.
+    /// Mutable entries of a column.
     #[inline]
     pub fn column_mut(&mut self, column: usize) -> &mut [Complex64] {
         &mut self.values[column * self.row_count..][..self.row_count]
@@ -68,7 +68,7 @@ impl ComplexBlock {
 
     /// Largest magnitude of a real or imaginary part.
     pub fn largest(&self) -> f64 {
-        // Several maxima at once: each comparison waits for the one before.
+        // Several maxima at once, because comparisons with a single one would wait for each other.
         let mut maxima = [0.0_f64; MAXIMA_AT_ONCE];
         let (chunks, rest) = self.values.as_chunks::<MAXIMA_AT_ONCE>();
         for values in chunks {
@@ -82,7 +82,9 @@ impl ComplexBlock {
             .fold(0.0, f64::max)
     }
 
-    /// Subtracts Cᵀ M⁻¹ C from this symmetric matrix: eliminates the rows of the symmetric `pivot` M.
+    /// Subtracts Cᵀ M⁻¹ C from this symmetric matrix.
+    ///
+    /// This eliminates the rows of the symmetric `pivot` M.
     ///
     /// `coupling`: the block C, with the rows of M and the columns of this matrix. The result is symmetric to the last
     /// bit.

@@ -1,7 +1,8 @@
-//! LU factors of unsymmetric matrices with a symmetric pattern, in the order of elimination of a Cholesky factor.
+//! LU factors of unsymmetric matrices with a symmetric pattern.
 //!
-//! The multifrontal method (Duff & Reid 1983, ACM Trans. Math. Softw. 9, 302–325). Columns with one pattern form a front, a
-//! dense matrix of the pivots and of the rows below them:
+//! The order of elimination is that of a Cholesky factor. The method is multifrontal (Duff & Reid 1983, ACM Trans.
+//! Math. Softw. 9, 302–325). Columns with one pattern form a front, a dense matrix of the pivots and of the rows below
+//! them:
 //!
 //! ```text
 //! | F11 F12 |      P F11 = L11 U11,  U12 = L11⁻¹ P F12,  L21 = F21 U11⁻¹
@@ -33,7 +34,9 @@ struct LuFront {
     first_value: usize,
     /// Entries of the matrix: index among its values, and index in the front.
     entries: Vec<[usize; 2]>,
-    /// Fronts whose remaining matrices are added, with the place in this front of each of their rows below.
+    /// Fronts whose remaining matrices are added to this front.
+    ///
+    /// Each has the place in this front of each of its rows below.
     children: Vec<(usize, Vec<usize>)>,
 }
 
@@ -62,7 +65,9 @@ pub(crate) struct BlockLu {
 }
 
 impl BlockLu {
-    /// Fronts of a pattern; `None` unless the pattern is symmetric and the symbolic factor has dense blocks.
+    /// Fronts of a pattern.
+    ///
+    /// `None` unless the pattern is symmetric and the symbolic factor has dense blocks.
     pub(crate) fn new(symbolic: &SymbolicCholesky<usize>, pattern: &SparseMatrix) -> Option<Self> {
         let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
             return None;
@@ -143,7 +148,9 @@ impl BlockLu {
         Some(())
     }
 
-    /// Factors a matrix of the pattern; a matrix without such factors gives values that are not finite.
+    /// Factors a matrix of the pattern.
+    ///
+    /// A matrix without such factors gives values that are not finite.
     pub(crate) fn factor(&mut self, matrix_values: &[f64]) {
         let Self {
             fronts, values, pivot_rows, inverse_pivot_rows, pivot_values, workspace, ..
@@ -324,7 +331,9 @@ struct SolveVectors<'a> {
 }
 
 impl LuFront {
-    /// Place of a position among the rows of the front; `None` if it is not one of them.
+    /// Place of a position among the rows of the front.
+    ///
+    /// `None` if it is not one of them.
     fn place(&self, position: usize) -> Option<usize> {
         let pivot_place = position.checked_sub(self.first_position)?;
         if pivot_place < self.pivot_count {

@@ -1,4 +1,4 @@
-//! Complex numbers: Laplace variables, moduli, and arguments of closed forms.
+//! Complex numbers: Laplace variables, complex moduli of soil, and arguments of closed-form functions.
 //!
 //! Small functions are `#[inline]`, because other crates call them in loops.
 
@@ -6,7 +6,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use basemat_fourier::num_complex::Complex64;
 
-/// Complex number: a Laplace variable s (1/s), or a modulus at s.
+/// Complex number, such as a Laplace variable s (unit 1/s) or a soil's complex modulus at s.
 ///
 /// ```
 /// use basemat::Complex;
@@ -25,7 +25,7 @@ pub struct Complex {
     pub im: f64,
 }
 
-/// Smallest squared distance from the poles of artanh: the function is finite at the poles.
+/// Lower bound of squared distances from the poles of artanh, so that [`Complex::atanh`] stays finite there.
 const MIN_POLE_DISTANCE_SQUARE: f64 = 1e-30;
 
 impl Complex {
@@ -87,9 +87,9 @@ impl Complex {
         if square.is_normal() {
             return self.conj().scale(1.0 / square);
         }
-        let magnitude = self.re.abs().max(self.im.abs());
-        let scaled = self.scale(1.0 / magnitude);
-        scaled.conj().scale(1.0 / scaled.squared_modulus()).scale(1.0 / magnitude)
+        let larger_part = self.re.abs().max(self.im.abs());
+        let scaled = self.scale(1.0 / larger_part);
+        scaled.conj().scale(1.0 / scaled.squared_modulus()).scale(1.0 / larger_part)
     }
 
     /// Square root with a real part not below zero.
@@ -154,7 +154,7 @@ impl Complex {
         Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - self.squared_modulus()))
     }
 
-    /// This number in the type of transforms and matrices.
+    /// Converts to the type that transforms and matrices use.
     #[doc(hidden)]
     #[inline]
     pub fn to_complex64(self) -> Complex64 {

@@ -9,10 +9,10 @@ use super::Complex;
 pub trait ComplexArithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + 'static
 {
-    /// `value` in all lanes; as many lanes as `self`.
+    /// Number with as many lanes as `self`, and `value` in each of them.
     fn like(self, value: Complex) -> Self;
 
-    /// A real number in all lanes; as many lanes as `self`.
+    /// Number with as many lanes as `self`, and the real `value` in each of them.
     #[inline]
     fn like_real(self, value: f64) -> Self {
         self.like(Complex::real(value))

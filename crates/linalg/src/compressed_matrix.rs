@@ -1,13 +1,17 @@
-//! Square matrix whose products use its diagonal, its nonzero entries or Fourier transforms, if these are cheaper.
+//! Square matrix with cheap products.
+//!
+//! Products use the diagonal, the nonzero entries or Fourier transforms, if these are cheaper.
 
 use std::ops::Deref;
 
 use super::{LatticeProduct, LatticeScratch, SparseMatrix, Triplets, dense_multiply_add};
 
-/// Smallest number of elements on a lattice for which products by Fourier transforms are faster than dense products.
+/// Smallest number of elements on a lattice for products by Fourier transforms.
+///
+/// For fewer elements, dense products are faster.
 const MIN_LATTICE_ELEMENTS: usize = 36;
 
-/// Smallest number of entries for each nonzero entry for which a sparse copy is used.
+/// Smallest ratio of all entries to nonzero entries for which a sparse copy is used.
 ///
 /// A product with a sparse entry costs about as much as products with four dense entries.
 const MIN_ENTRIES_PER_NONZERO: usize = 8;
@@ -29,7 +33,9 @@ pub struct CompressedMatrix {
 }
 
 impl CompressedMatrix {
-    /// Matrix of these entries, row by row; products use a sparse copy if most entries are zero.
+    /// Matrix of these entries, row by row.
+    ///
+    /// Products use a sparse copy if most entries are zero.
     pub fn new(values: Vec<f64>, order: usize) -> Self {
         let nonzeros = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
         let mut sparse = None;
@@ -51,7 +57,9 @@ impl CompressedMatrix {
         Self { is_diagonal: true, ..Self::dense(diagonal) }
     }
 
-    /// The diagonal of a matrix that is stored as a diagonal; `None` for other matrices.
+    /// The diagonal of a matrix that is stored as a diagonal.
+    ///
+    /// `None` for other matrices.
     #[inline]
     pub fn as_diagonal(&self) -> Option<&[f64]> {
         self.is_diagonal.then_some(&self.values)
@@ -109,7 +117,7 @@ impl CompressedMatrix {
         self.lattice.as_ref().map(LatticeProduct::scratch).unwrap_or_default()
     }
 
-    /// Number of entries that a product reads.
+    /// Number of entries that a product without Fourier transforms reads.
     pub fn entry_count(&self) -> usize {
         self.sparse.as_ref().map_or(self.values.len(), SparseMatrix::entry_count)
     }

@@ -1,14 +1,15 @@
 //! Condition numbers from factors.
 //!
-//! The matrix A is first scaled by the roots of its diagonal to S A S with sᵢ = |aᵢᵢ|^−½. The condition number of S A S
+//! The matrix A is first scaled by its diagonal to S A S with sᵢ = |aᵢᵢ|^−½. The condition number of S A S
 //! does not depend on units (a degree of freedom may be a length or an angle). For a positive definite matrix of order
-//! n it is at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969). It bounds the
-//! error of a Cholesky solve, with and without scaling (Higham 2002, theorem 10.6 with § 10.1.1).
+//! n it is, in the 2-norm, at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969).
+//! It bounds the error of a Cholesky solve, with and without scaling (Higham 2002, theorem 10.6 with § 10.1.1).
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
-/// Largest number of iterations of the estimator, as in LAPACK's dlacn2: further iterations seldom improve the
-/// estimate.
+/// Largest number of iterations of the estimator, as in LAPACK's dlacn2.
+///
+/// Further iterations seldom improve the estimate.
 const MAX_ESTIMATOR_ITERATIONS: usize = 5;
 
 /// Estimate of the norm ‖B‖₁ of a matrix from its products.
@@ -37,11 +38,12 @@ fn estimated_one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) 
         signs.iter_mut().zip(&x).for_each(|(s, x)| *s = x.signum());
         x.copy_from_slice(&signs);
         multiply(&mut x, true);
-        let largest_index = (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
-        if largest_index == unit_index {
+        let index_of_largest =
+            (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
+        if index_of_largest == unit_index {
             break;
         }
-        unit_index = largest_index;
+        unit_index = index_of_largest;
         x.fill(0.0);
         x[unit_index] = 1.0;
     }
@@ -73,7 +75,7 @@ pub fn scale_by(values: &mut [f64], factors: &[f64]) {
 
 /// Condition number of a dense row-major matrix scaled by its diagonal, in the 1-norm.
 ///
-/// Infinite if the matrix is singular.
+/// The norm of the inverse is an estimate. Infinite if the matrix is singular.
 pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     if order == 0 {
         return 1.0;
@@ -94,7 +96,9 @@ pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     })
 }
 
-/// Condition number of a matrix A with this diagonal, scaled by it, in the 1-norm; both norms are estimates.
+/// Condition number of a matrix A scaled by its `diagonal`, in the 1-norm.
+///
+/// The norms of the matrix and of its inverse are estimates.
 ///
 /// `multiply(b, is_transposed)` overwrites b with A b or Aᵀ b, and `solve(b, is_transposed)` with A⁻¹ b or A⁻ᵀ b.
 pub fn condition_by_products(
@@ -117,6 +121,8 @@ pub fn condition_by_products(
 }
 
 /// Condition number of a sparse matrix scaled by its diagonal, from its factors, in the 1-norm.
+///
+/// The norm of the inverse is an estimate.
 pub fn sparse_condition(matrix: &SparseMatrix, factor: &SparseFactor) -> f64 {
     let order = matrix.order();
     let roots = roots_of_diagonal(matrix.diagonal().into_iter());
@@ -143,22 +149,26 @@ mod tests {
     use basemat_testkit::random::Random;
 
     #[test]
-    fn estimates_are_within_a_factor_of_three_of_the_inverse() {
+    fn estimates_are_within_a_factor_of_three_of_the_exact_condition_number() {
         let mut random = Random(3);
         let mut max_ratio = 1.0_f64;
         for case in 0..400 {
             let n = 1 + case % 12;
             // The condition number and the units vary over many decades.
-            let smallest_part = random.log_within(1e-10, 1.0);
+            let diagonal_shift = random.log_within(1e-10, 1.0);
             let units: Vec<f64> = (0..n).map(|_| random.log_within(1e-6, 1e6)).collect();
-            let root: Vec<f64> = (0..n * n).map(|_| random.within(-1.0, 1.0)).collect();
+            let random_entries: Vec<f64> = (0..n * n).map(|_| random.within(-1.0, 1.0)).collect();
             let skew = if case % 3 == 0 { 0.5 } else { 0.0 };
             let mut matrix = vec![0.0; n * n];
             for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
-                // The product is singular; the smallest part makes the matrix regular.
-                let product: f64 = (1..n).map(|k| root[i * n + k] * root[j * n + k]).sum();
-                let addition =
-                    if i == j { smallest_part } else { skew * root[i.min(j) * n + i.max(j)] };
+                // The product is singular; the shift of its diagonal makes the matrix regular.
+                let product: f64 =
+                    (1..n).map(|k| random_entries[i * n + k] * random_entries[j * n + k]).sum();
+                let addition = if i == j {
+                    diagonal_shift
+                } else {
+                    skew * random_entries[i.min(j) * n + i.max(j)]
+                };
                 let sign = if i < j { -1.0 } else { 1.0 };
                 matrix[i * n + j] = (product + sign * addition) * units[i] * units[j];
                 if i == j {
@@ -183,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn singular_and_diagonal_matrices_have_their_conditions() {
+    fn condition_number_of_a_diagonal_matrix_is_one_and_of_a_singular_matrix_infinite() {
         assert!((dense_condition(&[1e-9, 0.0, 0.0, 1e9], 2) - 1.0).abs() < 1e-15);
         assert_eq!(dense_condition(&[1.0, 2.0, 2.0, 4.0], 2), f64::INFINITY);
         assert_eq!(dense_condition(&[0.0; 4], 2), f64::INFINITY);

@@ -1,6 +1,9 @@
 //! Factors of dense matrices: LU, and pivoted Cholesky factors of low rank.
 
-#![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
+#![allow(
+    clippy::inline_always,
+    reason = "inlined functions are compiled for the instruction set of their caller"
+)]
 
 use super::matrix_scalar::{LuFactors, MatrixScalar};
 use super::product::{ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, add_rows, vectorized};
@@ -19,7 +22,7 @@ pub struct DenseFactor<T = f64> {
     pub(super) exchange_count: usize,
     buffer: MemBuffer,
     /// Right-hand side of a small solve, with permuted rows.
-    permuted_side: Vec<T>,
+    permuted_rhs: Vec<T>,
 }
 
 impl<T: MatrixScalar> DenseFactor<T> {
@@ -37,7 +40,7 @@ impl<T: MatrixScalar> DenseFactor<T> {
             inverse_permutation: Vec::with_capacity(capacity),
             exchange_count: 0,
             buffer: MemBuffer::new(T::lu_scratch(capacity, column_count)),
-            permuted_side: Vec::with_capacity(capacity),
+            permuted_rhs: Vec::with_capacity(capacity),
         }
     }
 
@@ -130,10 +133,10 @@ impl DenseFactor {
     /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes
     /// ten times as long.
     pub fn solve_small(&mut self, rhs: &mut [f64]) {
-        self.permuted_side.clear();
-        self.permuted_side.extend(self.row_permutation.iter().map(|&row| rhs[row]));
-        vectorized(Substitution { lu_columns: &self.values, x: &mut self.permuted_side });
-        rhs.copy_from_slice(&self.permuted_side);
+        self.permuted_rhs.clear();
+        self.permuted_rhs.extend(self.row_permutation.iter().map(|&row| rhs[row]));
+        vectorized(Substitution { lu_columns: &self.values, x: &mut self.permuted_rhs });
+        rhs.copy_from_slice(&self.permuted_rhs);
     }
 }
 
@@ -152,24 +155,32 @@ impl WithSimd for Substitution<'_> {
         let Self { lu_columns, x } = self;
         let order = x.len();
         let column = |k: usize| &lu_columns[k * order..][..order];
-        // The forward substitution ends with an incomplete block, the backward substitution with an incomplete block at
-        // the top: no further rows need an update from them.
+        // The incomplete block comes last: at the bottom in the forward substitution, at the top in the backward
+        // substitution. No further rows need an update from it.
         let incomplete_len = order % COLUMNS_AT_ONCE;
-        let lower_end = order - incomplete_len;
-        for k in (0..lower_end).step_by(COLUMNS_AT_ONCE) {
+        let complete_blocks_end = order - incomplete_len;
+        for k in (0..complete_blocks_end).step_by(COLUMNS_AT_ONCE) {
             let (block, rows_below) = x[k..].split_at_mut(COLUMNS_AT_ONCE);
             let columns: [&[f64]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| &column(k + j)[k..]);
             solve_lower(|j| columns[j], block);
-            let factors = std::array::from_fn(|j| -block[j]);
-            add_rows(simd, factors, columns.map(|column| &column[COLUMNS_AT_ONCE..]), rows_below);
+            let multipliers = std::array::from_fn(|j| -block[j]);
+            add_rows(
+                simd,
+                multipliers,
+                columns.map(|column| &column[COLUMNS_AT_ONCE..]),
+                rows_below,
+            );
         }
-        solve_lower(|j| &column(lower_end + j)[lower_end..], &mut x[lower_end..]);
+        solve_lower(
+            |j| &column(complete_blocks_end + j)[complete_blocks_end..],
+            &mut x[complete_blocks_end..],
+        );
         for k in (incomplete_len..order).step_by(COLUMNS_AT_ONCE).rev() {
             let (rows_above, block) = x[..k + COLUMNS_AT_ONCE].split_at_mut(k);
             let columns: [&[f64]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| column(k + j));
             solve_upper(|j| &columns[j][k..], block);
-            let factors = std::array::from_fn(|j| -block[j]);
-            add_rows(simd, factors, columns.map(|column| &column[..k]), rows_above);
+            let multipliers = std::array::from_fn(|j| -block[j]);
+            add_rows(simd, multipliers, columns.map(|column| &column[..k]), rows_above);
         }
         solve_upper(column, &mut x[..incomplete_len]);
     }
@@ -198,44 +209,47 @@ fn solve_upper<'a>(column: impl Fn(usize) -> &'a [f64], x: &mut [f64]) {
     }
 }
 
-/// Largest magnitude of a negative remainder of the diagonal that counts as rounding, relative to the tolerance.
-const MAX_NEGATIVE_FACTOR: f64 = 10.0;
-
-/// Columns of L with V = L Lᵀ for a positive semi-definite matrix V of low rank.
+/// Largest magnitude of a negative entry on the diagonal of V − L Lᵀ, relative to the tolerance.
 ///
-/// Cholesky's method with pivots (Higham 2002, § 10.3), from the diagonal of V. `write_column(j, column)` overwrites
-/// `column` with column j of V. The diagonal of V − L Lᵀ is at most `tolerance`. `None` if L has more than `max_rank`
-/// columns, or V is not positive semi-definite.
+/// For a semi-definite V, rounding errors make no entry more negative than this.
+const NEGATIVE_RESIDUAL_TOLERANCE_FACTOR: f64 = 10.0;
+
+/// Columns of L with V = L Lᵀ, for a positive semi-definite V of low rank.
+///
+/// Cholesky factorization with diagonal pivoting (Higham 2002, § 10.3), from the diagonal of V. `write_column(j, column)`
+/// overwrites `column` with column j of V. The diagonal of V − L Lᵀ is at most `tolerance`. `None` if L has more than
+/// `max_rank` columns, or V is empty or not positive semi-definite.
 pub fn pivoted_cholesky(
     diagonal: Vec<f64>,
     tolerance: f64,
     max_rank: usize,
     mut write_column: impl FnMut(usize, &mut [f64]),
 ) -> Option<Vec<Vec<f64>>> {
-    let mut remainders = diagonal;
+    let mut residual_diagonal = diagonal;
     let mut columns: Vec<Vec<f64>> = vec![];
     loop {
-        let pivot =
-            (0..remainders.len()).max_by(|a, b| remainders[*a].total_cmp(&remainders[*b]))?;
-        if remainders[pivot] <= tolerance {
-            let min_remainder = -MAX_NEGATIVE_FACTOR * tolerance;
-            let is_semi_definite = remainders.iter().all(|remainder| *remainder >= min_remainder);
+        let pivot = (0..residual_diagonal.len())
+            .max_by(|a, b| residual_diagonal[*a].total_cmp(&residual_diagonal[*b]))?;
+        if residual_diagonal[pivot] <= tolerance {
+            let min_residual = -NEGATIVE_RESIDUAL_TOLERANCE_FACTOR * tolerance;
+            let is_semi_definite =
+                residual_diagonal.iter().all(|residual| *residual >= min_residual);
             return is_semi_definite.then_some(columns);
         }
         if columns.len() == max_rank {
             return None;
         }
-        let root = remainders[pivot].sqrt();
-        let mut column = vec![0.0; remainders.len()];
+        let root = residual_diagonal[pivot].sqrt();
+        let mut column = vec![0.0; residual_diagonal.len()];
         write_column(pivot, &mut column);
         for (i, value) in column.iter_mut().enumerate() {
-            let projection: f64 = columns.iter().map(|other| other[i] * other[pivot]).sum();
-            *value = (*value - projection) / root;
+            let product: f64 = columns.iter().map(|other| other[i] * other[pivot]).sum();
+            *value = (*value - product) / root;
         }
-        for (remainder, value) in remainders.iter_mut().zip(&column) {
-            *remainder -= value * value;
+        for (residual, value) in residual_diagonal.iter_mut().zip(&column) {
+            *residual -= value * value;
         }
-        remainders[pivot] = 0.0;
+        residual_diagonal[pivot] = 0.0;
         columns.push(column);
     }
 }
@@ -246,7 +260,7 @@ mod tests {
     use crate::dense_multiply_add;
 
     #[test]
-    fn dense_factor_solves_and_reports_singular() {
+    fn dense_factor_solves_and_reports_singular_matrices() {
         let matrix = [0.0, 2.0, 1.0, 1.0, 0.0, 3.0, 4.0, 1.0, 0.0];
         let x = [1.0, -2.0, 0.5];
         let mut rhs = [0.0; 3];

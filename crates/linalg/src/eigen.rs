@@ -12,7 +12,9 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, MatRef, Par, Side, Spec};
 
-/// Row at which a symmetric row-major matrix fails to be positive definite; `None` for a positive definite matrix.
+/// Row at which a symmetric row-major matrix fails to be positive definite.
+///
+/// `None` for a positive definite matrix.
 pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order);
     match matrix.llt(Side::Lower) {
@@ -32,7 +34,7 @@ pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Optio
     let mut reduced = dense_copy(stiffness);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
-    let SymmetricEigen { values, mut vectors } = symmetric_eigen(&reduced)?;
+    let FaerEigenpairs { values, mut vectors } = symmetric_eigen(&reduced)?;
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
     let vectors = row_major(&vectors);
     let is_finite = values.iter().chain(&vectors).all(|x| x.is_finite());
@@ -44,7 +46,7 @@ pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Optio
 /// Eigenvectors are columns of the returned row-major matrix. `None` if the iteration fails.
 pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<Eigenpairs> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order).to_owned();
-    let SymmetricEigen { values, vectors } = symmetric_eigen(&matrix)?;
+    let FaerEigenpairs { values, vectors } = symmetric_eigen(&matrix)?;
     Some(Eigenpairs { values, vectors: row_major(&vectors) })
 }
 
@@ -53,23 +55,23 @@ pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<Eigenpairs> {
 pub struct Eigenpairs {
     /// Eigenvalues, ascending.
     pub values: Vec<f64>,
-    /// Row-major matrix of the eigenvectors: rows or columns, see the function that returns it.
+    /// Row-major matrix whose rows or columns are the eigenvectors, as the function that returns it says.
     pub vectors: Vec<f64>,
 }
 
-/// Eigenvalues, ascending, and eigenvectors by columns.
-struct SymmetricEigen {
+/// Eigenvalues, ascending, and eigenvectors as columns of a faer matrix.
+struct FaerEigenpairs {
     values: Vec<f64>,
     vectors: Mat<f64>,
 }
 
 /// Dense copy of a sparse matrix.
 fn dense_copy(matrix: &SparseMatrix) -> Mat<f64> {
-    let mut dense_copy = Mat::<f64>::zeros(matrix.order(), matrix.order());
+    let mut dense = Mat::<f64>::zeros(matrix.order(), matrix.order());
     for (row, column, value) in matrix.entries() {
-        dense_copy[(row, column)] = value;
+        dense[(row, column)] = value;
     }
-    dense_copy
+    dense
 }
 
 /// The entries of a matrix, row-major.
@@ -79,16 +81,16 @@ fn row_major(matrix: &Mat<f64>) -> Vec<f64> {
 }
 
 /// Eigenvalues and eigenvectors of a symmetric matrix; `None` if the iteration fails.
-fn symmetric_eigen(matrix: &Mat<f64>) -> Option<SymmetricEigen> {
+fn symmetric_eigen(matrix: &Mat<f64>) -> Option<FaerEigenpairs> {
     let n = matrix.nrows();
     // faer does not accept an empty matrix.
     if n == 0 {
-        return Some(SymmetricEigen { values: Vec::new(), vectors: Mat::zeros(0, 0) });
+        return Some(FaerEigenpairs { values: Vec::new(), vectors: Mat::zeros(0, 0) });
     }
     let mut values = Diag::<f64>::zeros(n);
     let mut vectors = Mat::<f64>::zeros(n, n);
-    // From order 128 on, faer uses divide and conquer by default. Its residuals reach 6e-7 of the largest force at
-    // order 308. The residuals of the QR iteration are rounding errors.
+    // From order 128 on, faer uses divide and conquer by default. For a structure of order 308, the residuals of its
+    // eigenpairs reached 6e-7 of the largest force. The residuals of the QR iteration are rounding errors.
     let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
     parameters.recursion_threshold = usize::MAX;
     let scratch =
@@ -103,5 +105,5 @@ fn symmetric_eigen(matrix: &Mat<f64>) -> Option<SymmetricEigen> {
     )
     .ok()?;
     let values = (0..n).map(|j| values.column_vector()[j]).collect();
-    Some(SymmetricEigen { values, vectors })
+    Some(FaerEigenpairs { values, vectors })
 }

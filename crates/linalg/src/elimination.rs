@@ -73,7 +73,9 @@ impl Elimination {
         Some(order.ending_with(last_rows))
     }
 
-    /// Symbolic factor in the shared order, or in the order of minimum degree before an order is chosen.
+    /// Symbolic factor in the shared order.
+    ///
+    /// Before an order is chosen, it is in the order of minimum degree.
     ///
     /// The first factor with many entries determines the shared order: nested dissection if it gives fewer entries,
     /// else minimum degree.
@@ -216,7 +218,9 @@ pub(super) fn column_indices(matrix: &SparseMatrix) -> Vec<usize> {
     matrix.entries().map(next).collect()
 }
 
-/// Position, in storage by columns, of the first entry of each column, then the number of entries.
+/// Position of the first entry of each column, in storage by columns.
+///
+/// The number of entries follows at the end.
 fn column_starts(matrix: &SparseMatrix) -> Vec<usize> {
     let mut starts = vec![0; matrix.order() + 1];
     matrix.entries().for_each(|(_, column, _)| starts[column + 1] += 1);
@@ -297,7 +301,7 @@ mod tests {
         let last_displacement: Vec<f64> = last_rows.iter().map(|row| displacement[*row]).collect();
         let computed = SparseMatrix::from_dense(400, condensed.clone()).times(&last_displacement);
         assert!(computed.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
-        // Another condensed matrix, which couples all last_rows rows.
+        // Another condensed matrix, which couples all last rows.
         let shift = |k: usize| if k.is_multiple_of(401) { 0.5 } else { 1e-3 };
         let shifted = condensed.iter().enumerate().map(|(k, value)| value + shift(k));
         let shifted: Vec<f64> = shifted.collect();
@@ -311,7 +315,7 @@ mod tests {
         factor.with_condensed(&last_rows, &shifted).unwrap().solve(&mut solution);
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
         let factor = SparseFactor::with_elimination("cube", &matrix, &ending_elimination).unwrap();
-        // Other rows are not the last_rows ones, and for too many rows condensation costs more than a solve.
+        // Other rows are not the last ones, and for too many rows condensation costs more than a solve.
         assert!(factor.condensed(&last_rows[1..]).is_none_or(|matrix| matrix.len() == 399 * 399));
         assert!(factor.condensed(&[last_rows[0]]).is_none());
         assert!(factor.with_condensed(&last_rows, &vec![0.0; 160_000]).is_none());
@@ -319,7 +323,9 @@ mod tests {
         assert!(Elimination::default().ending_with(&last_rows).is_none());
     }
 
-    /// Three uncoupled cubes with alternating rows: the order of three coupled cubes eliminates them one by one.
+    /// The order of three coupled cubes eliminates three uncoupled cubes one by one.
+    ///
+    /// The rows of the cubes alternate.
     #[test]
     fn uncoupled_parts_are_eliminated_one_after_the_other() {
         let single_cube = cube(13, 2.0);

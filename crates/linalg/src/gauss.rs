@@ -98,7 +98,9 @@ impl Rule {
     }
 }
 
-/// Points with their weights on the square [−1, 1]², from 2 to 8 (`order`) along each side.
+/// Points with their weights on the square [−1, 1]².
+///
+/// `order`: number of points along each side, from 2 to 8.
 #[inline]
 pub fn square(order: usize) -> impl Iterator<Item = ([f64; 2], f64)> {
     let points = rule(order).points();
@@ -107,7 +109,9 @@ pub fn square(order: usize) -> impl Iterator<Item = ([f64; 2], f64)> {
         .flat_map(move |(x, v)| points.clone().map(move |(y, w)| ([x, y], v * w)))
 }
 
-/// Points with their weights on the cube [−1, 1]³, from 2 to 8 (`order`) along each side.
+/// Points with their weights on the cube [−1, 1]³.
+///
+/// `order`: number of points along each side, from 2 to 8.
 #[inline]
 pub fn cube(order: usize) -> impl Iterator<Item = ([f64; 3], f64)> {
     square(order)
@@ -120,7 +124,9 @@ fn rules() -> &'static [Rule] {
     RULES.get_or_init(|| CACHED_ORDERS.iter().map(|&order| Rule::new(order)).collect())
 }
 
-/// Index of the largest rule for a piece (16 points): two halves with smaller rules cost less than a larger rule.
+/// Index of the largest rule for a piece, which has 16 points.
+///
+/// Two halves with smaller rules cost less than a larger rule.
 const LARGEST_PIECE_RULE: usize = 10;
 
 /// The rule with `order` points, from 2 to 8.
@@ -128,8 +134,8 @@ pub fn rule(order: usize) -> &'static Rule {
     &rules()[order.clamp(2, 8) - 2]
 }
 
-/// The rule for polynomials up to degree 51.
-pub fn largest() -> &'static Rule {
+/// The cached rule with the most points, 26: it is exact for polynomials up to degree 51.
+pub fn largest_rule() -> &'static Rule {
     &rules()[CACHED_ORDERS.len() - 1]
 }
 
@@ -142,9 +148,9 @@ pub fn rule_for(ellipse_size: f64) -> Option<&'static Rule> {
         .find(|rule| rule.min_ellipse_size <= ellipse_size)
 }
 
-/// Size of the ellipse through a point of the complex plane with foci at the ends of an interval.
+/// Size of the ellipse through a point, with foci at the ends of an interval.
 ///
-/// (|p − a| + |p − b|)/(b − a) for the point p and the interval [a, b].
+/// It is (|p − a| + |p − b|)/(b − a) for the point p of the complex plane and the interval [a, b].
 #[inline]
 pub fn ellipse_size(point: [f64; 2], low: f64, high: f64) -> f64 {
     if point[1] == 0.0 {

@@ -21,15 +21,21 @@ pub struct Lanes<S: Simd> {
     im: S::f64s,
 }
 
-/// 1.5 · 2⁵²: after adding it to a number below 2⁵¹, the lowest bits are the rounded integer.
+/// 1.5 · 2⁵².
+///
+/// Its sum with a number below 2⁵¹ has the rounded integer in its lowest bits.
 const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
-/// 1.5 · 2²⁰: after adding it to an integer, the lowest bits of the upper 32 bits are the integer.
+/// 1.5 · 2²⁰.
+///
+/// Its sum with an integer has the integer in the lowest of its upper 32 bits.
 const INTEGER_TO_UPPER_HALF: f64 = 1_572_864.0;
 /// Number of bits of the mantissa in the upper 32 bits, below the exponent.
 const UPPER_MANTISSA_BITS: u32 = 20;
 /// Bits of the exponent of 2⁰.
 const EXPONENT_BIAS_BITS: u64 = 1023 << 52;
-/// Parts of π: the first two have 26 bits, so that products with integers up to 2²⁷ are exact.
+/// Parts of π, whose sum is π.
+///
+/// The first two have 26 bits, so that products with integers up to 2²⁷ are exact.
 const PI_PARTS: [f64; 3] =
     [3.141_592_621_803_283_7, 3.178_650_942_459_171_3e-8, 1.224_646_799_147_353_2e-16];
 /// Largest angle whose reduction is exact: it has fewer than 2²⁷ half turns.
@@ -138,7 +144,9 @@ impl<S: Simd> Lanes<S> {
         sum
     }
 
-    /// e^x for real x; NaN above the range of x, and the smallest value of the range below it.
+    /// e^x for real x.
+    ///
+    /// NaN above the range of x, and the smallest value of the range below it.
     #[inline(always)]
     fn real_exp(simd: S, x: S::f64s) -> S::f64s {
         let min_exponent = simd.splat_f64s(EXPONENT_RANGE[0]);

@@ -12,10 +12,14 @@ use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexPlanner, Fft};
 use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 
-/// Largest difference of blocks of equal offset, relative to the largest entry: rounding errors of an integral.
+/// Largest difference of blocks of equal offset, relative to the largest entry.
+///
+/// It is above rounding errors of an integral.
 const OFFSET_BLOCK_TOLERANCE: f64 = 1e-14;
 
-/// Matrix of 3 × 3 blocks between cells, times a factor of each source; cells of equal offset have equal blocks.
+/// Matrix of 3 × 3 blocks between cells, times a factor of each source.
+///
+/// Cells of equal offset have equal blocks.
 pub struct LatticeProduct {
     /// Column and row of each cell.
     cells: Vec<[usize; 2]>,
@@ -98,7 +102,9 @@ impl LatticeProduct {
         Some(product)
     }
 
-    /// Transforms the blocks of all offsets to ĝ; `None` if the matrix of the blocks is not symmetric.
+    /// Transforms the blocks of all offsets to ĝ.
+    ///
+    /// `None` if the matrix of the blocks is not symmetric.
     ///
     /// `tolerance`: largest rounding error of a block's entry.
     fn transform_blocks(&mut self, blocks: &[Option<[[f64; 3]; 3]>], tolerance: f64) -> Option<()> {
@@ -241,14 +247,18 @@ impl LatticeProduct {
 
 /// Blocks of all offsets between cells.
 struct OffsetBlocks {
-    /// The block of each offset on the padded lattice, row by row; `None` for an offset that does not occur.
+    /// The block of each offset on the padded lattice, row by row.
+    ///
+    /// `None` for an offset that does not occur.
     blocks: Vec<Option<[[f64; 3]; 3]>>,
     /// Largest magnitude of an entry.
     max_entry: f64,
 }
 
 impl OffsetBlocks {
-    /// Collects the blocks of all pairs of cells; `None` if blocks of equal offset differ.
+    /// Collects the blocks of all pairs of cells.
+    ///
+    /// `None` if blocks of equal offset differ.
     fn new(
         cells: &[[usize; 2]],
         [x_length, y_length]: [usize; 2],

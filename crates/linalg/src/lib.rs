@@ -63,7 +63,7 @@ pub use matrix_scalar::MatrixScalar;
 pub use partition::Partition;
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
-    dense_multiply_add, dot, largest, magnitude, mixing_sum, row_products, symmetric_products,
+    dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products, symmetric_products,
     transposed_multiply_add, vectorized, weighted_dot,
 };
 pub use sparse::{ChangingFactor, SparseFactor, indefinite_row};

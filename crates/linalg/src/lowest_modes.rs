@@ -1,10 +1,11 @@
-//! Lowest modes of a large sparse structure: shift-invert block Lanczos.
+//! Lowest modes K φ = λ M φ of a large sparse structure: shift-invert block Lanczos.
 //!
 //! | symbol | meaning |
 //! |---|---|
+//! | K, M | stiffness and mass |
 //! | A | K⁻¹ M, symmetric in the inner product x·M y; its largest eigenvalues θ are 1/λ |
 //! | V | basis, M-orthonormal, a row per vector |
-//! | H | Vᵀ M A V |
+//! | H | V M A Vᵀ |
 //!
 //! Every new vector is orthogonalised with respect to all earlier vectors, twice unless a large residual is allowed
 //! (Parlett 1998, § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it
@@ -19,30 +20,44 @@ use crate::SparseMatrix;
 /// Number of vectors of one block: the largest number of equal frequencies in practice.
 const VECTORS_PER_BLOCK: usize = 16;
 
-/// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ: far below errors of a structural model.
+/// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
+///
+/// It is far below errors of a structural model.
 const DEFAULT_RESIDUAL_TOLERANCE: f64 = 1e-9;
 
-/// Largest error of the basis' orthonormality, relative to the residual's tolerance: it must not limit residuals.
-const BASIS_ROUNDING_FACTOR: f64 = 1e-9;
+/// Largest error of V M Vᵀ without a second orthogonalisation, relative to the residual tolerance.
+///
+/// At [`DEFAULT_RESIDUAL_TOLERANCE`] it is below rounding errors: every vector is orthogonalised twice.
+const ORTHOGONALITY_TOLERANCE_FACTOR: f64 = 1e-9;
 
-/// Between two searches for modes the basis grows by its size over this divisor: fewer searches cost less.
-const SEARCH_INTERVAL_DIVISOR: usize = 8;
+/// The basis grows by its size over this divisor between two computations of Ritz pairs.
+///
+/// Each computation costs the cube of the size.
+const RITZ_INTERVAL_DIVISOR: usize = 8;
 
-/// Largest size of the basis in a search for modes up to a limit: the caller then has a cheaper method.
+/// Largest size of the basis in a search for modes up to a limit.
+///
+/// For more modes the caller has a cheaper method.
 const MAX_LIMITED_BASIS_SIZE: usize = 800;
 
-/// Fraction of a vector's length that must remain after its orthogonalisation: less is a rounding error.
+/// Fraction of a vector's length that must remain after its orthogonalisation.
+///
+/// Less is a rounding error.
 const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
-/// Limit at which a search for modes ends, even if it has found fewer modes than requested.
+/// Limit at which a search for modes ends.
+///
+/// It then may have found fewer modes than requested.
 #[derive(Debug, Clone, Copy)]
 pub struct ModeLimit {
-    /// The search ends at the first eigenvalue λ above this one, which is the last returned eigenvalue.
+    /// Eigenvalue λ above which the search ends.
+    ///
+    /// The first eigenvalue above it is the last returned one.
     pub eigenvalue: f64,
     /// Largest residual of a converged mode, relative to θ.
     ///
-    /// It may be large if the caller uses only the space that the modes span, because the error of that space is the
-    /// square of the modes' error.
+    /// It may be large if the caller uses only the space that the modes span, because errors of responses in that space
+    /// depend on the square of the residual.
     pub residual_tolerance: f64,
 }
 
@@ -61,34 +76,35 @@ pub fn lowest_modes(
 ) -> Option<Eigenpairs> {
     let tolerance = limit.map_or(DEFAULT_RESIDUAL_TOLERANCE, |limit| limit.residual_tolerance);
     let max_eigenvalue = limit.map_or(f64::INFINITY, |limit| limit.eigenvalue);
-    let basis = OrthonormalRows::new(mass, BASIS_ROUNDING_FACTOR * tolerance);
+    let basis = OrthonormalRows::new(mass, ORTHOGONALITY_TOLERANCE_FACTOR * tolerance);
     let mut krylov =
         KrylovSpace { stiffness, order: mass.order(), basis, columns: Vec::new(), random_state: 1 };
     let count = count.min(krylov.order);
-    let mut next_search_size = if max_eigenvalue.is_finite() { 0 } else { count };
+    let mut next_ritz_size = if max_eigenvalue.is_finite() { 0 } else { count };
     loop {
-        let applied_count = krylov.columns.len();
-        if applied_count == krylov.basis.count() {
+        // Number of vectors to which A was applied.
+        let image_count = krylov.columns.len();
+        if image_count == krylov.basis.count() {
             // The iteration begins, or A yields no new vector. In the second case all modes in the basis are exact, but
             // modes are missing if a frequency has more of them than a block has vectors.
             krylov.extend_at_random();
-            if applied_count == krylov.basis.count() {
-                return krylov.modes(&krylov.approximations(count, max_eigenvalue)?);
+            if image_count == krylov.basis.count() {
+                return krylov.modes(&krylov.ritz_pairs(count, max_eigenvalue)?);
             }
         }
         krylov.extend();
-        let applied_count = krylov.columns.len();
-        if applied_count >= next_search_size {
-            let approximations = krylov.approximations(count, max_eigenvalue)?;
+        let image_count = krylov.columns.len();
+        if image_count >= next_ritz_size {
+            let ritz_pairs = krylov.ritz_pairs(count, max_eigenvalue)?;
             let exceeds_limit =
-                approximations.theta.last().is_some_and(|theta| theta * max_eigenvalue < 1.0);
-            if (exceeds_limit || applied_count >= count) && approximations.residual <= tolerance {
-                return krylov.modes(&approximations);
+                ritz_pairs.theta.last().is_some_and(|theta| theta * max_eigenvalue < 1.0);
+            if (exceeds_limit || image_count >= count) && ritz_pairs.residual <= tolerance {
+                return krylov.modes(&ritz_pairs);
             }
-            if max_eigenvalue.is_finite() && applied_count > MAX_LIMITED_BASIS_SIZE {
+            if max_eigenvalue.is_finite() && image_count > MAX_LIMITED_BASIS_SIZE {
                 return None;
             }
-            next_search_size = applied_count + applied_count / SEARCH_INTERVAL_DIVISOR;
+            next_ritz_size = image_count + image_count / RITZ_INTERVAL_DIVISOR;
         }
     }
 }
@@ -99,7 +115,9 @@ struct KrylovSpace<'a> {
     order: usize,
     /// V.
     basis: OrthonormalRows<'a>,
-    /// Columns of H, one for each vector to which A was applied, with a row for each vector of the basis at that time.
+    /// Columns of H, one for each vector to which A was applied.
+    ///
+    /// Each has a row for each vector that the basis had at that time.
     columns: Vec<Vec<f64>>,
     random_state: u64,
 }
@@ -132,8 +150,10 @@ impl KrylovSpace<'_> {
         self.columns.extend(products.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
-    /// Approximations of the lowest `count` modes in this space, up to the first mode with λ above `max_eigenvalue`.
-    fn approximations(&self, count: usize, max_eigenvalue: f64) -> Option<Approximations> {
+    /// Ritz pairs: the lowest modes in this space.
+    ///
+    /// At most `count`; the first one with λ above `max_eigenvalue` is the last.
+    fn ritz_pairs(&self, count: usize, max_eigenvalue: f64) -> Option<RitzPairs> {
         let m = self.columns.len();
         // H, with zeros for the rows that a column does not have.
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
@@ -142,8 +162,7 @@ impl KrylovSpace<'_> {
         let matrix: Vec<f64> = index_pairs.map(|(i, j)| entry(i.min(j), i.max(j))).collect();
         let Eigenpairs { values, vectors } = symmetric_modes(&matrix, m)?;
         let max_theta = values.last().copied().unwrap_or(0.0);
-        let mut approximations =
-            Approximations { theta: vec![], coordinates: vec![], residual: 0.0 };
+        let mut ritz_pairs = RitzPairs { theta: vec![], coordinates: vec![], residual: 0.0 };
         for k in (0..m).rev().take(count) {
             let theta = values[k];
             if !(theta.is_finite() && theta > f64::EPSILON * max_theta) {
@@ -154,32 +173,32 @@ impl KrylovSpace<'_> {
                 .map(|row| (0..m).map(|j| entry(row, j) * y[j]).sum::<f64>().powi(2))
                 .sum();
             let residual = residual_square.sqrt() / theta;
-            approximations.residual = approximations.residual.max(residual);
-            approximations.theta.push(theta);
-            approximations.coordinates.push(y);
+            ritz_pairs.residual = ritz_pairs.residual.max(residual);
+            ritz_pairs.theta.push(theta);
+            ritz_pairs.coordinates.push(y);
             if theta * max_eigenvalue < 1.0 {
                 break;
             }
         }
-        Some(approximations)
+        Some(ritz_pairs)
     }
 
-    /// λ and φ of the approximations; `None` if they are not finite.
-    fn modes(&self, approximations: &Approximations) -> Option<Eigenpairs> {
+    /// λ and φ of Ritz pairs; `None` if they are not finite.
+    fn modes(&self, ritz_pairs: &RitzPairs) -> Option<Eigenpairs> {
         let n = self.order;
         let m = self.columns.len();
-        let mut modes = vec![0.0; approximations.theta.len() * n];
+        let mut modes = vec![0.0; ritz_pairs.theta.len() * n];
         let weights: Vec<f64> =
-            (0..m).flat_map(|i| approximations.coordinates.iter().map(move |y| y[i])).collect();
+            (0..m).flat_map(|i| ritz_pairs.coordinates.iter().map(move |y| y[i])).collect();
         add_combined_rows(&weights, &self.basis.vectors()[..m * n], n, 1.0, &mut modes);
         let is_finite = modes.iter().all(|x| x.is_finite());
-        let values = approximations.theta.iter().map(|theta| 1.0 / theta).collect();
+        let values = ritz_pairs.theta.iter().map(|theta| 1.0 / theta).collect();
         is_finite.then_some(Eigenpairs { values, vectors: modes })
     }
 }
 
-/// Approximations of modes: eigenpairs of H.
-struct Approximations {
+/// Ritz pairs: approximate modes from the eigenpairs of H.
+struct RitzPairs {
     /// Eigenvalues θ, descending.
     theta: Vec<f64>,
     /// Coordinates of each mode in the basis.
@@ -207,9 +226,9 @@ mod tests {
         }
     }
 
-    /// Equal chains of springs k = 1 and masses m = 1, fixed at one end, and massless degrees of freedom.
+    /// Equal chains with one fixed end, and massless degrees of freedom.
     ///
-    /// The eigenvalues λ_j = 4 sin²((2j−1)π/(4n+2)) of a chain of n masses occur once for each copy.
+    /// Springs have k = 1, and masses m = 1. Each [`exact_eigenvalue`] occurs once for each copy.
     fn chains(length: usize, copies: usize, massless_count: usize) -> Chains {
         let n = length * copies + massless_count;
         let mut stiffness = Triplets::new(n);
@@ -237,7 +256,7 @@ mod tests {
         }
     }
 
-    /// Eigenvalue λ_j of a chain.
+    /// Eigenvalue λ_j = 4 sin²((2j−1)π/(4n+2)) of a chain of n masses.
     fn exact_eigenvalue(length: usize, j: usize) -> f64 {
         let n = length as f64;
         let angle = (2.0 * j as f64 - 1.0) * std::f64::consts::PI / (4.0 * n + 2.0);
@@ -256,10 +275,11 @@ mod tests {
                 let expected = exact_eigenvalue(length, k / copies + 1);
                 assert!((value / expected - 1.0).abs() < 1e-11, "{copies} copies, mode {k}");
                 let mode = &modes[k * n..(k + 1) * n];
-                let mut force = vec![0.0; n];
-                stiffness.multiply_add(1.0, mode, &mut force);
-                mass.multiply_add(-value, mode, &mut force);
-                assert!(largest(&force) < 1e-8 * value.max(1e-3), "{:e}", largest(&force));
+                let mut residual = vec![0.0; n];
+                stiffness.multiply_add(1.0, mode, &mut residual);
+                mass.multiply_add(-value, mode, &mut residual);
+                let max_residual = largest(&residual);
+                assert!(max_residual < 1e-8 * value.max(1e-3), "{max_residual:e}");
                 for (other, row) in modes.chunks_exact(n).enumerate() {
                     let product = mass.form(mode, row);
                     assert!((product - f64::from(u8::from(other == k))).abs() < 1e-12);

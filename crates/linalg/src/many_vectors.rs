@@ -33,7 +33,9 @@ impl SparseMatrix {
     }
 }
 
-/// Products y = A x of several vectors: interleaved in `x`, one after the other in `y`.
+/// Products y = A x of several vectors.
+///
+/// The vectors are interleaved in `x`, and one after the other in `y`.
 struct InterleavedProducts<'a> {
     matrix: &'a SparseMatrix,
     x: &'a [[f64; VECTORS_AT_ONCE]],

@@ -15,8 +15,10 @@ pub fn check_order(quantity: &'static str, order: usize) -> std::result::Result<
     memory::check(quantity, order as f64, BYTES_PER_DOF * order as f64)
 }
 
-/// Dense vector of (degree of freedom, weight) terms; terms at the same degree of freedom are summed.
-pub fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
+/// Dense vector of (degree of freedom, weight) terms.
+///
+/// Terms at the same degree of freedom are summed.
+pub fn dense_vector(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
     let mut weights = vec![0.0; length];
     for &(i, weight) in terms {
         weights[i] += weight;
@@ -147,7 +149,9 @@ impl SparseMatrix {
         }
     }
 
-    /// Triplets of the sum Σ factor · A of matrices of this order; an empty sum is zero.
+    /// Triplets of the sum Σ factor · A of matrices of this order.
+    ///
+    /// An empty sum is zero.
     pub fn weighted_sum(order: usize, terms: &[(f64, &Self)]) -> Triplets {
         let mut sum = Triplets::new(order);
         for (factor, matrix) in terms {

@@ -78,7 +78,9 @@ impl Triplets {
             .map_err(|error| FileFault::Unwritable(error.kind()).of(name, 0))
     }
 
-    /// The matrix with summed entries; an error for an entry that is out of range or not finite.
+    /// The matrix with summed entries.
+    ///
+    /// Returns an error for an entry that is out of range or not finite.
     fn checked_matrix(&self) -> Result<SparseMatrix> {
         SparseMatrix::new("matrix to be written", self)
     }

@@ -14,8 +14,8 @@ const MAX_QUOTED_CHARACTERS: usize = 80;
 /// Name of the order of the matrix in errors.
 const ORDER_QUANTITY: &str = "rows of the matrix";
 
-/// Result of reading a field, or its fault.
-type FieldResult<T> = std::result::Result<T, FileFault>;
+/// Result of parsing text; the error is its fault, still without a line number.
+type ParseResult<T> = std::result::Result<T, FileFault>;
 
 /// Properties that the first line of the file states.
 struct MatrixMarketHeader {
@@ -25,10 +25,20 @@ struct MatrixMarketHeader {
     is_symmetric: bool,
 }
 
+/// Entry of the matrix; row and column count from 0.
+#[derive(Clone, Copy)]
+struct MatrixEntry {
+    row: usize,
+    column: usize,
+    value: f64,
+}
+
 /// Lines of the file.
 type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
-/// The next line that is neither empty nor a comment; `None` at the end of the file.
+/// The next line that is neither empty nor a comment.
+///
+/// `None` at the end of the file.
 fn data_line(lines: &mut Lines) -> LineResult<Option<String>> {
     while let Some(line) = lines.next()? {
         if !line.is_empty() && !line.starts_with('%') {
@@ -70,7 +80,7 @@ pub(super) fn read(source: &mut dyn Read) -> LineResult<Triplets> {
 }
 
 /// Returns an error unless the matrix fits into memory.
-fn check_memory(header: &MatrixMarketHeader, row_count: usize) -> FieldResult<()> {
+fn check_memory(header: &MatrixMarketHeader, row_count: usize) -> ParseResult<()> {
     check_order(ORDER_QUANTITY, row_count)?;
     // The number of entries of a coordinate file is limited by the file itself.
     let entry_count = if header.is_coordinate { 0.0 } else { (row_count as f64).powi(2) };
@@ -80,7 +90,7 @@ fn check_memory(header: &MatrixMarketHeader, row_count: usize) -> FieldResult<()
 }
 
 /// Reads the first line.
-fn parse_header(line: &str) -> FieldResult<MatrixMarketHeader> {
+fn parse_header(line: &str) -> ParseResult<MatrixMarketHeader> {
     let words: Vec<String> = line.split_whitespace().map(str::to_ascii_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let &["%%matrixmarket", object, format, field, symmetry] = words.as_slice() else {
@@ -113,40 +123,44 @@ fn unsupported(word: &str) -> FileFault {
     FileFault::format(excerpt(word), needed)
 }
 
-/// Splits a line into exactly `needed` fields.
-fn split_fields(line: &str, needed: usize) -> FieldResult<Vec<&str>> {
+/// Splits a line into exactly `needed_count` fields.
+fn split_fields(line: &str, needed_count: usize) -> ParseResult<Vec<&str>> {
     let fields: Vec<&str> = line.split_ascii_whitespace().collect();
-    let found = fields.len();
-    if found == needed { Ok(fields) } else { Err(wrong_field_count(found, needed)) }
+    if fields.len() == needed_count {
+        Ok(fields)
+    } else {
+        Err(wrong_field_count(fields.len(), needed_count))
+    }
 }
 
-/// Fault of a line with another number of fields.
-fn wrong_field_count(found: usize, needed: usize) -> FileFault {
-    FileFault::count("fields", found, needed.to_string())
+/// Fault of a line with another number of fields than needed.
+fn wrong_field_count(found_count: usize, needed_count: usize) -> FileFault {
+    FileFault::count("fields", found_count, needed_count.to_string())
 }
 
 /// Fault of a file with another number of entries than its size line states.
-fn wrong_entry_count(found: usize, needed: usize) -> FileFault {
-    FileFault::count("entries", found, format!("{needed}, as the size line states"))
+fn wrong_entry_count(found_count: usize, stated_count: usize) -> FileFault {
+    let needed = format!("{stated_count}, as the size line states");
+    FileFault::count("entries", found_count, needed)
 }
 
-/// The `needed` whole numbers of a line.
-fn whole_numbers(line: &str, needed: usize) -> FieldResult<Vec<usize>> {
-    split_fields(line, needed)?.into_iter().map(whole_number).collect()
+/// The `needed_count` whole numbers of a line.
+fn whole_numbers(line: &str, needed_count: usize) -> ParseResult<Vec<usize>> {
+    split_fields(line, needed_count)?.into_iter().map(whole_number).collect()
 }
 
 /// The whole number of a field.
-fn whole_number(field: &str) -> FieldResult<usize> {
+fn whole_number(field: &str) -> ParseResult<usize> {
     field.parse().map_err(|_| FileFault::value("field", quoted(field), "a whole number"))
 }
 
 /// The finite number of a field.
-fn finite_number(field: &str) -> FieldResult<f64> {
+fn finite_number(field: &str) -> ParseResult<f64> {
     finite(field).ok_or_else(|| FileFault::value("field", quoted(field), "a finite number"))
 }
 
-/// The index of a field, converted from a count from 1 to a count from 0.
-fn index(field: &str, order: usize) -> FieldResult<usize> {
+/// The index of a field, which counts from 1, as an index from 0.
+fn index(field: &str, order: usize) -> ParseResult<usize> {
     let index = whole_number(field)?;
     if (1..=order).contains(&index) {
         Ok(index - 1)
@@ -164,22 +178,25 @@ fn read_coordinates(
 ) -> LineResult<()> {
     for read_count in 0..entry_count {
         let line = required_data_line(lines, wrong_entry_count(read_count, entry_count))?;
-        let (row, column, value) =
-            lines.with_line_number(coordinate_entry(&line, matrix.order()))?;
-        if header.is_symmetric && row < column {
-            let found = format!("({}, {})", row + 1, column + 1);
+        let entry = lines.with_line_number(coordinate_entry(&line, matrix.order()))?;
+        if header.is_symmetric && entry.row < entry.column {
+            let found = format!("({}, {})", entry.row + 1, entry.column + 1);
             let needed = "on or below the diagonal of a symmetric matrix";
             return Err(lines.fault(FileFault::value("entry", found, needed)));
         }
-        add_entry(matrix, header, row, column, value);
+        add_entry(matrix, header, entry);
     }
     check_end(lines, entry_count)
 }
 
-/// Row and column, from 0, and value of an entry.
-fn coordinate_entry(line: &str, order: usize) -> FieldResult<(usize, usize, f64)> {
+/// Parses a line of row, column and value.
+fn coordinate_entry(line: &str, order: usize) -> ParseResult<MatrixEntry> {
     let fields = split_fields(line, 3)?;
-    Ok((index(fields[0], order)?, index(fields[1], order)?, finite_number(fields[2])?))
+    Ok(MatrixEntry {
+        row: index(fields[0], order)?,
+        column: index(fields[1], order)?,
+        value: finite_number(fields[2])?,
+    })
 }
 
 /// Reads values column by column, from the diagonal down if symmetric; zeros are omitted.
@@ -192,13 +209,14 @@ fn read_array(
     let entry_count = if header.is_symmetric { order * (order + 1) / 2 } else { order * order };
     let mut read_count = 0;
     for column in 0..order {
-        for row in if header.is_symmetric { column } else { 0 }..order {
+        let first_row = if header.is_symmetric { column } else { 0 };
+        for row in first_row..order {
             let line = required_data_line(lines, wrong_entry_count(read_count, entry_count))?;
             let field = lines.with_line_number(split_fields(&line, 1))?[0];
             let value = lines.with_line_number(finite_number(field))?;
             read_count += 1;
             if value != 0.0 {
-                add_entry(matrix, header, row, column, value);
+                add_entry(matrix, header, MatrixEntry { row, column, value });
             }
         }
     }
@@ -206,13 +224,8 @@ fn read_array(
 }
 
 /// Adds an entry, and its mirrored entry in a symmetric matrix.
-fn add_entry(
-    matrix: &mut Triplets,
-    header: &MatrixMarketHeader,
-    row: usize,
-    column: usize,
-    value: f64,
-) {
+fn add_entry(matrix: &mut Triplets, header: &MatrixMarketHeader, entry: MatrixEntry) {
+    let MatrixEntry { row, column, value } = entry;
     matrix.add(row, column, value);
     if header.is_symmetric && row != column {
         matrix.add(column, row, value);

@@ -4,7 +4,9 @@ use crate::Triplets;
 use crate::matrix::SparseMatrix;
 
 impl SparseMatrix {
-    /// The values in the pattern of another matrix; `None` if an entry is outside this pattern.
+    /// The values in the pattern of another matrix.
+    ///
+    /// `None` if an entry is outside this pattern.
     pub fn values_at(&self, pattern: &Self) -> Option<Vec<f64>> {
         let mut values = vec![0.0; pattern.entry_count()];
         for (index, value) in self.indices_in(pattern)?.into_iter().zip(&self.values) {
@@ -13,7 +15,9 @@ impl SparseMatrix {
         Some(values)
     }
 
-    /// Index of each entry in the pattern of another matrix; `None` if an entry is outside this pattern.
+    /// Index of each entry in the pattern of another matrix.
+    ///
+    /// `None` if an entry is outside this pattern.
     pub fn indices_in(&self, pattern: &Self) -> Option<Vec<usize>> {
         let mut indices = Vec::with_capacity(self.entry_count());
         for row in 0..self.order {

@@ -30,7 +30,9 @@ pub enum MinRemainder {
     Length(f64),
 }
 
-/// Smallest length of a row after the second pass: an independent row of unit length keeps nearly all its length.
+/// Smallest length of a row after the second pass.
+///
+/// An independent row of unit length keeps nearly all its length.
 const MIN_SECOND_PASS_LENGTH: f64 = 0.5;
 
 impl<'a> OrthonormalRows<'a> {

@@ -214,7 +214,7 @@ pub fn row_products(a: &[f64], b: &[f64], column_count: usize) -> Vec<f64> {
     products
 }
 
-/// Products of all rows of A with all rows of B, if A Bᵀ is symmetric: the row-major A Bᵀ.
+/// Products of all rows of A with all rows of B: the row-major A Bᵀ, which is symmetric.
 ///
 /// A and B are row-major with `column_count` columns.
 pub fn symmetric_products(a: &[f64], b: &[f64], column_count: usize) -> Vec<f64> {
@@ -289,11 +289,11 @@ pub fn mixing_sum(values: &[f64]) -> f64 {
     values.iter().enumerate().map(|(k, value)| mixing_weight(k) * value).sum()
 }
 
-/// Number of independent sums in [`magnitude`]: consecutive additions to one sum cannot overlap.
+/// Number of independent sums in [`magnitude_sum`]: consecutive additions to one sum cannot overlap.
 const MAGNITUDE_SUMS: usize = 8;
 
 /// Sum of magnitudes, Σ |xᵢ|.
-pub fn magnitude(x: &[f64]) -> f64 {
+pub fn magnitude_sum(x: &[f64]) -> f64 {
     let chunks = x.chunks_exact(MAGNITUDE_SUMS);
     let mut sums = [0.0; MAGNITUDE_SUMS];
     let tail: f64 = chunks.remainder().iter().map(|x| x.abs()).sum();
@@ -318,7 +318,9 @@ pub fn weighted_dot(weights: &[f64], x: &[f64], y: &[f64]) -> f64 {
     vectorized(Dot { weights: Some(weights), x, y })
 }
 
-/// Scalar product Σ xᵢ yᵢ, or Σ wᵢ xᵢ yᵢ with weights, up to the length of the shorter vector.
+/// Scalar product Σ xᵢ yᵢ, or Σ wᵢ xᵢ yᵢ with weights.
+///
+/// Entries beyond the end of the shorter vector do not count.
 pub struct Dot<'a> {
     /// Weights, at least as many as entries of the shorter vector.
     pub weights: Option<&'a [f64]>,

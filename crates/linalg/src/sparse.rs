@@ -20,7 +20,9 @@ use crate::error::{Error, Result};
 use crate::product::symmetric_product;
 use crate::{SparseMatrix, Triplets};
 
-/// Largest number of values in the right-hand sides of one solve, whose workspace has as many values.
+/// Largest number of values in the right-hand sides of one solve.
+///
+/// The workspace of the solve has as many values.
 const MAX_SOLVE_BLOCK_VALUES: usize = 1 << 22;
 
 /// Smallest number of right-hand sides in one solve, if there are more.
@@ -156,7 +158,9 @@ impl SparseFactor {
         Some(Self { order: matrix.nrows(), factors: Factors::Lu { symbolic, numeric }, buffer })
     }
 
-    /// Number of values that a solve reads; for LU factors, the number of values of a dense matrix.
+    /// Number of values that a solve reads.
+    ///
+    /// For LU factors it is the number of values of a dense matrix.
     pub fn entry_count(&self) -> usize {
         match &self.factors {
             Factors::Cholesky { values, .. } => values.len(),
@@ -308,7 +312,9 @@ fn last_entries(symbolic: &SymbolicCholesky<usize>, last_rows: &[usize]) -> Opti
     Some(entries)
 }
 
-/// Row at which a symmetric matrix fails to be positive semi-definite; `None` if the matrix is semi-definite.
+/// Row at which a symmetric matrix fails to be positive semi-definite.
+///
+/// `None` if the matrix is semi-definite.
 ///
 /// Diagonal entries between −`floor` and `floor` are rounding errors and count as `floor`. Eigenvalues of the matrix
 /// scaled to a unit diagonal may be as low as −`tolerance`. A matrix without such a row is therefore semi-definite

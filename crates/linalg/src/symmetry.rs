@@ -14,7 +14,9 @@ struct MirroredEntry {
 }
 
 impl SparseMatrix {
-    /// Whether the matrix is symmetric up to rounding, so that it may be factored as a symmetric one.
+    /// Whether the matrix is symmetric up to rounding.
+    ///
+    /// It may then be factored as a symmetric one.
     pub fn is_symmetric(&self) -> bool {
         self.asymmetry() <= MAX_ASYMMETRY
     }
@@ -24,7 +26,9 @@ impl SparseMatrix {
         relative_asymmetry(self.mirrored_entries().map(|entry| (entry.value, entry.mirrored_value)))
     }
 
-    /// The pair of mirrored entries whose difference exceeds the allowed difference most; `None` if none does.
+    /// The pair of mirrored entries whose difference exceeds the allowed difference most.
+    ///
+    /// `None` if none does.
     ///
     /// `allowed_difference(i, j)` is the largest |a_ij − a_ji| that counts as symmetric. Returns row, column, and
     /// [a_ij, a_ji].
@@ -69,7 +73,9 @@ impl SparseMatrix {
     }
 }
 
-/// Largest difference of mirrored entries relative to the largest entry, from the pairs of all stored entries.
+/// Largest difference of mirrored entries, relative to the largest entry.
+///
+/// `pairs`: those of all stored entries.
 fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let mut max_value = 0.0_f64;
     let mut max_difference = 0.0_f64;
@@ -80,7 +86,9 @@ fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     if max_value > 0.0 { max_difference / max_value } else { 0.0 }
 }
 
-/// Indices of mirrored entries in the pattern of a matrix, for its asymmetry whenever its values have changed.
+/// Indices of mirrored entries in the pattern of a matrix.
+///
+/// They give the asymmetry of the matrix whenever its values have changed.
 pub(super) struct MirroredPairs {
     /// Indices of an entry above the diagonal and of its mirrored entry.
     pairs: Vec<[usize; 2]>,

@@ -2,7 +2,7 @@
 //!
 //! Layout: the `.txt` files of the Turkish National Strong-Motion Network, Disaster and Emergency Management Presidency
 //! (AFAD), with the heading `STRONG GROUND MOTION RECORDS OF TURKIYE`: lines `KEY : value`, a line with the names of
-//! the components, then a line a time step, in gal.
+//! the components, then one line of samples in gal for each time step.
 
 use super::column_title::check_acceleration;
 use super::fault::{FaultResult, unclear, unequal_columns};

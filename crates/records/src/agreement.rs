@@ -6,14 +6,14 @@ use crate::error::FileFault;
 ///
 /// Some stated durations are approximate; a wrong unit or time step causes a larger difference.
 const DURATION_TOLERANCE: f64 = 0.03;
-/// Largest ratio of a stated peak and the samples' peak that a change of the baseline may explain.
+/// Largest ratio of a stated peak and the samples' peak.
 ///
-/// The closest two units differ by a factor of 2.54.
+/// A change of the baseline may explain a ratio up to this one. The closest two units differ by a factor of 2.54.
 const MAX_PEAK_RATIO: f64 = 2.0;
 /// Largest relative difference of two printed numbers that counts as rounding.
 const PRINTED_NUMBER_TOLERANCE: f64 = 1e-3;
 
-/// Error unless the samples last as long as the file states.
+/// Returns an error unless the samples last as long as the file states.
 ///
 /// `time_step`: s. `stated_duration` (s) is rounded to `stated_rounding` (s).
 pub(super) fn check_duration(
@@ -34,7 +34,7 @@ pub(super) fn check_duration(
     }
 }
 
-/// Error unless two places state the same number, up to [`PRINTED_NUMBER_TOLERANCE`].
+/// Returns an error unless two places state the same number, up to [`PRINTED_NUMBER_TOLERANCE`].
 pub(super) fn check_number(
     quantity: &'static str,
     value: f64,
@@ -44,7 +44,7 @@ pub(super) fn check_number(
     if agrees { Ok(()) } else { Err(contradiction(quantity, value, stated_value)) }
 }
 
-/// Error if the stated peak is in another unit than the samples.
+/// Returns an error if the stated peak is in another unit than the samples.
 ///
 /// Both in m/s²; the stated peak may have either sign. A stated peak of zero is not checked.
 pub(super) fn check_peak(samples: &[f64], stated_peak: f64) -> Result<(), FileFault> {
@@ -75,7 +75,7 @@ fn may_be_same_peak(computed_peak: f64, stated_peak: f64) -> bool {
     ratio == 0.0 || (1.0 / MAX_PEAK_RATIO..=MAX_PEAK_RATIO).contains(&ratio)
 }
 
-/// Error unless the samples have the stated extreme at the stated time.
+/// Returns an error unless the samples have the stated extreme at the stated time.
 ///
 /// `stated_time`: s. `stated_value`: m/s². If no sample has that value, only its unit is checked.
 pub(super) fn check_extreme(

@@ -1,4 +1,4 @@
-//! Reader of text files with the values of one series along the lines, several on each.
+//! Reader of text files with several values of one series on each line.
 //!
 //! No agency defines this layout: SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`), OpenSees
 //! and scripts read and print it.
@@ -20,7 +20,9 @@ use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::Result;
 use crate::text::decimal::has_implied_point;
 
-/// Number of lines from which a column with equal steps counts as times: in fewer lines it may be chance.
+/// Number of lines from which a column with equal steps counts as times.
+///
+/// In fewer lines equal steps may be chance.
 const MIN_LINES_WITH_TIMES: usize = 4;
 
 /// Layout of a record with several successive values on each line.
@@ -201,7 +203,9 @@ impl SeriesInLines {
         Ok(())
     }
 
-    /// Values of a line in the columns of a format; the numbers of successive cards must increase.
+    /// Values of a line in the columns of a format.
+    ///
+    /// The numbers of successive cards must increase.
     fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
         let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
         if let Some(card_number) = card.card_number {
@@ -229,7 +233,7 @@ impl SeriesInLines {
         Ok(values)
     }
 
-    /// Error if a column of counts or times shows that the lines are a table.
+    /// Returns an error if a column of counts or times shows that the lines are a table.
     fn check(&self) -> LineResult<()> {
         if let Some(column) = self.full_lines.equal_step_column() {
             let is_count = column.step == 1.0;
@@ -242,7 +246,9 @@ impl SeriesInLines {
     }
 }
 
-/// Whether a field is a nonzero number without a decimal point, so that its value depends on the format.
+/// Whether a field is a nonzero number without a decimal point.
+///
+/// Its value then depends on the format.
 fn lacks_point(field: &str) -> bool {
     let is_nonzero = field.contains(|character: char| matches!(character, '1'..='9'));
     has_implied_point(field) && is_nonzero

@@ -23,32 +23,28 @@ pub enum Baseline {
     /// Newmark, Blume & Kapur, "Seismic design spectra for nuclear power plants", J. Power
     /// Division ASCE 99 (1973), 287–303; also *Abaqus Theory Manual*, 6.1.2, with one interval.
     NewmarkParabola,
-    /// Polynomial of the `degree` (1 to 8) in velocity that minimises ∫ v² dt with v(T) = 0.
+    /// Polynomial in velocity that minimises ∫ v² dt with v(T) = 0.
     ///
-    /// The polynomial is zero at t = 0.
-    ///
-    /// Its derivative is subtracted from the acceleration, as in Chiu, "Stable baseline
-    /// correction of digital strong-motion data", Bull. Seism. Soc. Am. 87 (1997), 932–944, and
-    /// Boore, "Effect of baseline corrections on displacements and response spectra …", Bull.
-    /// Seism. Soc. Am. 91 (2001), 1199–1211; the condition at T is added here. Degree 1 is
-    /// [`RemoveMean`](Self::RemoveMean).
+    /// Its `degree` is from 1 to 8, and it is zero at t = 0. Its derivative is subtracted from the acceleration, as in
+    /// Chiu, "Stable baseline correction of digital strong-motion data", Bull. Seism. Soc. Am. 87 (1997), 932–944, and
+    /// Boore, "Effect of baseline corrections on displacements and response spectra …", Bull. Seism. Soc. Am. 91
+    /// (2001), 1199–1211; the condition at T is added here. Degree 1 is [`RemoveMean`](Self::RemoveMean).
     VelocityPolynomial {
         /// Degree of the polynomial in velocity.
         degree: usize,
     },
-    /// Polynomial of the `degree` (2 to 8) in displacement that minimises ∫ u² dt.
+    /// Polynomial in displacement that minimises ∫ u² dt.
     ///
-    /// It has no constant and linear terms; nothing is enforced at the end.
-    ///
-    /// Its second derivative is subtracted from the acceleration; degree 6 is the practice of
-    /// Ancheta et al., *PEER NGA-West2 Database*, report PEER 2013/03, ch. 2.
+    /// Its `degree` is from 2 to 8. It has no constant and linear terms; nothing is enforced at the end. Its second
+    /// derivative is subtracted from the acceleration; degree 6 is the practice of Ancheta et al., *PEER NGA-West2
+    /// Database*, report PEER 2013/03, ch. 2.
     DisplacementPolynomial {
         /// Degree of the polynomial in displacement.
         degree: usize,
     },
-    /// Polynomial of the `degree` (3 to 8) in velocity that makes v(T) = u(T) = 0.
+    /// Polynomial in velocity that makes v(T) = u(T) = 0.
     ///
-    /// It has no constant and linear terms, and minimises ∫ v² dt under these conditions.
+    /// Its `degree` is from 3 to 8. It has no constant and linear terms, and minimises ∫ v² dt under these conditions.
     ///
     /// The correction of the acceleration starts from zero, so that a record without a jump at the start keeps
     /// none; the record ends at rest where it began. This is the least-squares fit of
@@ -60,7 +56,9 @@ pub enum Baseline {
 }
 
 words_with_numbers! {
-    /// Parses one of its words, or returns [`Error::Name`]. The degree is checked when a treatment is applied.
+    /// Parses one of its words, or returns [`Error::Name`].
+    ///
+    /// The degree is checked when a treatment is applied.
     ///
     /// ```
     /// use basemat::motion::Baseline;
@@ -145,7 +143,7 @@ impl Baseline {
     }
 }
 
-/// Error unless `min_degree` ≤ `degree` ≤ [`MAX_POLYNOMIAL_DEGREE`].
+/// Returns an error unless `min_degree` ≤ `degree` ≤ [`MAX_POLYNOMIAL_DEGREE`].
 fn check_degree(degree: usize, min_degree: usize, needed: &'static str) -> Result<()> {
     let is_in_range = (min_degree..=MAX_POLYNOMIAL_DEGREE).contains(&degree);
     require("degree of the baseline polynomial", degree as f64, is_in_range, needed).map(drop)
@@ -159,7 +157,7 @@ impl BaselineFit {
     /// U(T) = u(T): a symmetric system with Lagrange multipliers. Time runs from 0 to 1, which changes no coefficient.
     fn subtract(&self, samples: &[f64]) -> Result<Vec<f64>> {
         let quantity = "number of samples under a baseline fit";
-        let needed = "above the number of coefficients by two at least";
+        let needed = "at least two more than the number of coefficients";
         require(quantity, samples.len() as f64, samples.len() > self.term_count + 1, needed)?;
         let peak = samples.iter().fold(0.0, |max_sample: f64, sample| max_sample.max(sample.abs()));
         if peak == 0.0 {

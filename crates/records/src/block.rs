@@ -51,7 +51,7 @@ pub(super) fn positive_time_step(value: Option<f64>) -> FaultResult<f64> {
 
 /// The Fortran format that a title names, if any.
 ///
-/// An error if `text_after_unit` contains more than a format.
+/// Returns an error if `text_after_unit` contains more than a format.
 pub(super) fn format_of_title(
     title: &str,
     text_after_unit: &str,

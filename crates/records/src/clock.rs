@@ -5,11 +5,13 @@ use crate::error::FileFault;
 use crate::text::bounded_line::LineResult;
 use crate::text::decimal::finite;
 
-/// Number that the seconds of a time of day do not reach: a leap second has the number 60.
+/// Number that the seconds of a time of day do not reach.
+///
+/// A leap second has the number 60.
 const SECONDS_LIMIT: f64 = 61.0;
 /// Minutes in a day.
 const MINUTES_PER_DAY: i64 = 1440;
-/// Number of decimals of a second from which rounding of binary numbers hides the last digit.
+/// Number of decimals of a second from which binary rounding hides the last digit.
 const MAX_TIME_DECIMALS: i32 = 12;
 
 /// Reads a column of seconds or times of day as seconds since its first time.
@@ -73,7 +75,7 @@ fn two_digits(text: &str) -> Option<i64> {
 ///
 /// Wide enough for times printed with two digits of the step.
 const TIME_STEP_TOLERANCE: f64 = 0.01;
-/// Smallest step, in units of the last digit of the times, at which rounding explains unequal steps.
+/// Smallest step, in units of the times' last digit, whose inequality rounding explains.
 const MIN_ROUNDED_STEP_DIGITS: f64 = 3.0;
 /// Relative tolerance of a comparison with the unit of the last digit.
 const DIGIT_COMPARISON_TOLERANCE: f64 = 1e-6;

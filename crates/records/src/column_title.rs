@@ -12,7 +12,7 @@ const AMBIGUOUS_UNIT_NAMES: [&str; 11] =
 /// First words, in lower case, in titles of quantities other than acceleration.
 const OTHER_QUANTITY_WORDS: [&str; 5] = ["time", "vel", "velocity", "disp", "displacement"];
 
-/// Error if the title of a column of times names a unit other than the second.
+/// Returns an error if the title of a column of times names a unit other than the second.
 pub(super) fn check_time(title: &str) -> FaultResult<()> {
     match time_unit(title) {
         Some(unit) if !SECOND_NAMES.contains(&unit.to_lowercase().trim_end_matches('.')) => {
@@ -22,7 +22,7 @@ pub(super) fn check_time(title: &str) -> FaultResult<()> {
     }
 }
 
-/// Error if the title of a column of accelerations names another unit or quantity.
+/// Returns an error if the title of a column of accelerations names another unit or quantity.
 pub(super) fn check_acceleration(title: &str, expected_unit: AccelerationUnit) -> FaultResult<()> {
     let word = first_word(title);
     // `T` may be the transverse component.

@@ -20,8 +20,8 @@ use crate::text::decimal::finite;
 /// The reader accepts two layouts; in both, a line describes the block of numbers under it:
 ///
 /// * COSMOS 1.20: `12091 acceleration pts, approx 120 secs, units=cm/s^2 (4), Format=(8F10.5)`, with the sampling
-///   interval of the data (ms) as 62nd of the 100 real header values; if this value is unknown (−999), the 34th value
-///   is used, the interval of the recorder (s);
+///   interval of the data (ms) as the 62nd of the 100 real header values; if this value is unknown (−999), the 34th
+///   value is used, the interval of the recorder (s);
 /// * CSMIP (California Geological Survey):
 ///   `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`, in the 1980s
 ///   `(UNITS: CM/SEC/SEC)`, and volume 1,
@@ -181,9 +181,9 @@ impl OtherTitles {
     }
 }
 
-/// Whether a line in lower case is the title of a block of one of the `quantities`.
+/// Whether a line is the title of a block of one of the `quantities`.
 ///
-/// Examples for `accel`: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
+/// The line is in lower case. Examples for `accel`: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
 fn is_title_of(line: &str, quantities: &[&str]) -> bool {
     let mut previous_word = "";
     for word in line.split([' ', '\t', ',']).filter(|word| !word.is_empty()) {
@@ -219,7 +219,9 @@ struct CosmosHeader {
 }
 
 impl CosmosHeader {
-    /// Reads a line of the header, with the numbers under it; `false` for any other line.
+    /// Reads a line of the header, with the numbers under it.
+    ///
+    /// `false` for any other line.
     fn read(&mut self, lines: &mut Lines, line: &str, lower_case_line: &str) -> LineResult<bool> {
         if lower_case_line.contains("real-header values follow") {
             self.real_values = read_real_values(lines, lower_case_line)?;

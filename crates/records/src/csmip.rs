@@ -23,7 +23,7 @@ pub(super) fn is_other_title(line: &str) -> bool {
     text_before.contains("points of vel") || text_before.contains("points of disp")
 }
 
-/// The text after the key of a title of volume 2, if the title has the key.
+/// The text after the key of volume 2, if a title has the key.
 ///
 /// Example: `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`.
 fn text_after_volume_2_key(title: &str) -> Option<&str> {
@@ -31,7 +31,7 @@ fn text_after_volume_2_key(title: &str) -> Option<&str> {
     text_before.contains("points of acc").then_some(text_after)
 }
 
-/// The text after the key of a title of volume 1, if the title has the key.
+/// The text after the key of volume 1, if a title has the key.
 ///
 /// Example: `13200 Accelerogram points at 200 pts/sec in units of g .  Format: (8f9.6)`.
 fn text_after_volume_1_key(title: &str) -> Option<&str> {
@@ -110,7 +110,7 @@ impl CsmipHeader {
 
     /// The peak acceleration and its unit, if a unit follows the number.
     ///
-    /// Error for a unit of another quantity.
+    /// Returns an error for a unit of another quantity.
     fn peak_in_unit(&self) -> FaultResult<Option<(f64, AccelerationUnit)>> {
         let Some(StatedPeak { value, unit_name }) = &self.peak else { return Ok(None) };
         match AccelerationUnit::named(unit_name) {
@@ -121,7 +121,7 @@ impl CsmipHeader {
         }
     }
 
-    /// Error if header and title state different numbers of points or time steps.
+    /// Returns an error if header and title state different numbers of points or time steps.
     fn check(&self, sample_count: usize, time_step: f64) -> FaultResult<()> {
         if let Some(stated_count) = self.sample_count {
             agreement::check_number(

@@ -2,7 +2,7 @@
 //!
 //! Layout: header format DYNA 1.2 of the Engineering Strong-Motion Database (esm-db.eu; L. Luzi et al., *The
 //! Engineering Strong-Motion Database*, Seismological Research Letters 87, 2016) and of ITACA (itaca.mi.ingv.it):
-//! lines `KEY: value`, then one sample a line. Turkey's archive (AFAD) gives files in this layout, too.
+//! lines `KEY: value`, then one sample per line. Turkey's archive (AFAD) gives files in this layout, too.
 
 use super::fault::{FaultResult, not_acceleration};
 use super::format::read_one_component;
@@ -78,7 +78,7 @@ impl EsmHeader {
         Ok(())
     }
 
-    /// Error unless the samples have the stated duration and peak.
+    /// Returns an error unless the samples have the stated duration and peak.
     fn check(&self, samples: &[f64], time_step: f64) -> FaultResult<()> {
         if let Some(stated_duration) = self.duration {
             agreement::check_duration(samples.len(), time_step, stated_duration, 0.0)?;

@@ -41,7 +41,9 @@ pub(super) fn unequal_columns(column_count: usize, previous_count: usize) -> Fil
     FileFault::count("columns", column_count, format!("{previous_count}, as before"))
 }
 
-/// Lines of numbers that may be one series along the lines, of which a column is a small part.
+/// Lines of numbers that may be one series along the lines.
+///
+/// A column is a small part of such a series.
 pub(super) fn may_be_one_series(numbers_per_line: usize) -> FileFault {
     let needed = "columns with titles: read values along the lines as such (`AlongLinesFormat`, in Python \
          `along_lines`), or give the number of lines (`samples`) if they are columns";

@@ -7,7 +7,9 @@ use basemat_fourier::num_complex::Complex;
 
 /// Highest order of a filter: filters of higher order ring for long.
 const MAX_FILTER_ORDER: u32 = 8;
-/// Quiet time on either side of a filtered record, relative to the filter's order over its corner frequency.
+/// Quiet time on either side of a filtered record.
+///
+/// It is relative to the filter's order over its corner frequency.
 const PAD_LENGTH_FACTOR: f64 = 1.5;
 
 /// Largest excess of both tapers over the duration because of rounding, relative to the duration.
@@ -133,7 +135,9 @@ impl Record {
     }
 }
 
-/// Weight that rises from 0 to 1 along half a period of a cosine of this length (s).
+/// Weight that rises from 0 to 1 along half a period of a cosine.
+///
+/// The half period has this `length` (s).
 fn cosine_rise(time: f64, length: f64) -> f64 {
     if time < length {
         0.5 - 0.5 * (std::f64::consts::PI * time.max(0.0) / length).cos()

@@ -13,10 +13,14 @@ use crate::text::words::unknown_word_error;
 const MAX_REPEAT_OR_WIDTH: usize = 1000;
 /// Upper limit, excluded, of the decimals of a number: longer numbers exceed any field.
 const DECIMALS_LIMIT: u16 = 1000;
-/// Upper limit, excluded, of the k of `kP`: larger factors exceed the range of numbers in practice.
+/// Upper limit, excluded, of the k of `kP`.
+///
+/// Larger factors exceed the range of numbers in practice.
 const SCALE_LIMIT: u16 = 100;
 
-/// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`: columns of equal width.
+/// A Fortran format of one repeated item: columns of equal width.
+///
+/// Examples: `(8F10.5)`, `(1E15.6)`, `(1P8E10.3)`.
 ///
 /// ```
 /// use basemat::motion::FortranFormat;
@@ -53,7 +57,9 @@ impl FortranFormat {
         self.repeat
     }
 
-    /// Reads the numbers of a line in these columns; `None` if the line does not match them.
+    /// Reads the numbers of a line in these columns.
+    ///
+    /// `None` if the line does not match them.
     ///
     /// Only the number of a card may follow the columns.
     pub(super) fn read_card(self, line: &str) -> Option<Card> {

@@ -116,7 +116,7 @@ impl GeoNetHeader {
         Ok(())
     }
 
-    /// Error unless the samples have the stated number, time step, duration and peak.
+    /// Returns an error unless the samples have the stated number, time step, duration and peak.
     fn check(&self, samples: &[f64], time_step: f64) -> FaultResult<()> {
         let sample_count = samples.len();
         if let Some(stated_count) = self.sample_count {

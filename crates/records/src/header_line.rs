@@ -1,4 +1,4 @@
-//! Lines before the numbers of a file with columns, and the titles of columns in them.
+//! Lines before the numbers of a file, and the titles of columns in them.
 
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;
@@ -46,7 +46,7 @@ impl HeaderLines {
 pub(super) struct ColumnTitles(Vec<LineTitles>);
 
 impl ColumnTitles {
-    /// Error if a title of a column of times names another unit than the second.
+    /// Returns an error if a title of a column of times names another unit than the second.
     ///
     /// `column`: number of the column, from 1.
     pub(super) fn check_time(&self, column: usize) -> FaultResult<()> {
@@ -54,7 +54,7 @@ impl ColumnTitles {
         titles.find(|title| time_unit(title).is_some()).map_or(Ok(()), check_time)
     }
 
-    /// Error if a title of a column of accelerations names another unit or quantity.
+    /// Returns an error if a title of a column of accelerations names another unit or quantity.
     ///
     /// `column`: number of the column, from 1.
     pub(super) fn check_acceleration(
@@ -85,7 +85,9 @@ impl ColumnTitles {
         self.0.iter().any(|line| matches!(line, LineTitles::All(_)))
     }
 
-    /// Names of columns of accelerations; an error if a title names a unit other than `expected_unit`.
+    /// Names of columns of accelerations.
+    ///
+    /// Returns an error if a title names a unit other than `expected_unit`.
     pub(super) fn acceleration_names(
         &self,
         columns: &[usize],
@@ -99,7 +101,9 @@ impl ColumnTitles {
         Ok(names)
     }
 
-    /// The name of a column, counted from 1: its last title that is more than a unit.
+    /// The name of a column, counted from 1.
+    ///
+    /// It is the last title that is more than a unit.
     fn name(&self, column: usize) -> Option<&str> {
         let mut titles = self.0.iter().rev().filter_map(|line| line.title(column));
         titles.find(|title| !is_unit_alone(title))

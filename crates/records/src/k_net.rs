@@ -125,7 +125,9 @@ fn positive_after(unit: &str, line: &str, quantity: HeaderNumber) -> FaultResult
     Ok(value.filter(|&value| value > 0.0))
 }
 
-/// Stores a value of the header; an error if a previous line had another value.
+/// Stores a value of the header.
+///
+/// Returns an error if a previous line had another value.
 fn store(entry: &mut Option<f64>, value: Option<f64>, line: &str) -> FaultResult<()> {
     if entry.is_some() && *entry != value {
         return Err(unclear("repeated line", line));

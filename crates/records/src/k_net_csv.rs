@@ -15,7 +15,9 @@ use super::{AccelerationUnit, agreement};
 
 /// Unit of the samples and of their peaks.
 const SAMPLE_UNIT: AccelerationUnit = AccelerationUnit::Gal;
-/// Largest difference of a time from equal steps by rounding, in units of the times' last digit.
+/// Largest difference of a time from equal steps because of rounding.
+///
+/// It is in units of the times' last digit.
 ///
 /// Rounding changes this time and the first one by half a unit each; the sum of both is excluded.
 const TIME_ROUNDING_DIGITS: f64 = 0.99;

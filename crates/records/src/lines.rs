@@ -122,7 +122,7 @@ pub(super) fn read_numbers(
     Ok(values)
 }
 
-/// Error for text after the numbers of a file with `expected_count` samples.
+/// Returns an error for text after the numbers of a file with `expected_count` samples.
 pub(super) fn check_end_of_numbers(lines: &mut Lines, expected_count: usize) -> LineResult<()> {
     while let Some(line) = lines.next()? {
         if !line.is_empty() {
@@ -271,7 +271,7 @@ fn has_space_between_numbers(line: &str) -> bool {
     false
 }
 
-/// Whether a line is a header: it has words, and no field that looks like a number.
+/// Whether a line has words, and no field that looks like a number.
 pub(super) fn is_header(fields: &LineFields) -> bool {
     fields.texts.iter().any(|field| field.contains(char::is_alphabetic))
         && !fields.texts.iter().any(|field| is_like_number(field))
@@ -283,7 +283,9 @@ pub(super) fn first_word<'a>(fields: &LineFields<'a>) -> Option<&'a str> {
     first_field.filter(|field| field.contains(char::is_alphabetic) && !is_like_number(field))
 }
 
-/// Fault of a line; of a header line if it starts with a word before all numbers.
+/// Fault of a line.
+///
+/// A line that starts with a word before all numbers has the fault of a header line.
 pub(super) fn line_or_header_fault(
     fault: FileFault,
     fields: &LineFields,

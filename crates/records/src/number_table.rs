@@ -6,7 +6,9 @@ const EQUAL_STEP_TOLERANCE: f64 = 0.01;
 ///
 /// A series along so many lines has no such column by chance.
 const MIN_LINES_WITH_ROUNDED_TIMES: usize = 16;
-/// Number of lines from which equal steps may be fractions; in fewer lines only counts have equal steps.
+/// Number of lines from which equal steps may be fractions.
+///
+/// In fewer lines only counts have equal steps.
 const MIN_LINES_WITH_FRACTIONAL_STEPS: usize = 4;
 /// Number of lines from which the mean of the differences is a reliable measure.
 const MIN_LINES_FOR_MEAN: usize = 8;
@@ -36,7 +38,9 @@ impl NumberTable {
         self.values.extend(numbers);
     }
 
-    /// Mean step of a column of counts, times or a constant; `None` for other columns.
+    /// Mean step of a column of counts, times or a constant.
+    ///
+    /// `None` for other columns.
     ///
     /// `column`: index of the column, from 0.
     fn equal_step(&self, column: usize) -> Option<f64> {

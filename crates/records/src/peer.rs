@@ -2,7 +2,7 @@
 //!
 //! Layout: Pacific Earthquake Engineering Research Center, *PEER Strong Motion Database* and *NGA-West2*
 //! (peer.berkeley.edu, `.AT2`): four lines of header, of which the third names the unit and the fourth number of points
-//! and time step, then five numbers a line as `5E15.7`; the headers of older files vary. Only the number of samples is
+//! and time step, then five numbers per line as `5E15.7`; the headers of older files vary. Only the number of samples is
 //! stated twice.
 
 use std::io::Read;
@@ -75,7 +75,9 @@ struct PeerHeader {
     time_step: f64,
 }
 
-/// Reads the lines of the header; an error unless they state that the accelerations are in g.
+/// Reads the lines of the header.
+///
+/// Returns an error unless they state that the accelerations are in g.
 fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
     let quantities = "number of points and time step (NPTS, DT)";
     let mut states_unit = false;
@@ -208,7 +210,9 @@ fn count_and_time_step(line: &str) -> FaultResult<Option<PeerHeader>> {
     Ok(header.map(|(sample_count, time_step)| PeerHeader { sample_count, time_step }))
 }
 
-/// The value of a key in `NPTS= 4, DT= .01 SEC`; `ORIGINAL DT` is another key than `DT`.
+/// The value of a key in `NPTS= 4, DT= .01 SEC`.
+///
+/// `ORIGINAL DT` is another key than `DT`.
 fn assigned_value(line: &str, key: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
     let mut pieces = line.split(['=', ':']).peekable();
     let mut stored_value = None;

@@ -288,7 +288,9 @@ impl ColumnTable {
         Ok(())
     }
 
-    /// Error if a line has another number of fields than the first one, which may shift its columns.
+    /// Returns an error if a line has another number of fields than the first one.
+    ///
+    /// Its columns may then be shifted.
     ///
     /// In a file without times, this function also stores all numbers of the line.
     fn check_fields(

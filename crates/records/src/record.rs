@@ -247,7 +247,9 @@ impl Record {
 
 /// Largest excess of the duration over whole intervals because of rounding, in intervals.
 const INTERVAL_ROUNDING: f64 = 1e-9;
-/// Largest time after the last sample because of rounding, in time steps; it is larger than [`INTERVAL_ROUNDING`].
+/// Largest time after the last sample because of rounding, in time steps.
+///
+/// It is larger than [`INTERVAL_ROUNDING`].
 const END_ROUNDING: f64 = 1e-8;
 /// Largest distance of a time from a sample, in steps, that counts as rounding.
 const SAMPLE_TIME_TOLERANCE: f64 = 1e-6;

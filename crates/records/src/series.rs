@@ -12,7 +12,7 @@ pub(super) fn whole_sample_count(value: f64) -> Option<usize> {
     (value.fract() == 0.0 && (2.0..=1e9).contains(&value)).then_some(value as usize)
 }
 
-/// Error unless a file has the expected number of samples.
+/// Returns an error unless a file has the expected number of samples.
 pub(super) fn check_sample_count(
     lines: &Lines,
     sample_count: usize,
@@ -68,5 +68,5 @@ pub(super) fn select_component(
     let components = components?;
     let component_count = components.len();
     let selected = number.checked_sub(1).and_then(|index| components.into_iter().nth(index));
-    selected.ok_or_else(|| (0, out_of_range("channel", component_count, number)))
+    selected.ok_or_else(|| (0, out_of_range("component", component_count, number)))
 }

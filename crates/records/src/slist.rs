@@ -19,7 +19,8 @@ use crate::text::decimal::{finite, quoted};
 
 /// The `SLIST` files of the FDSN web services and of ObsPy.
 ///
-/// Each series has a header with number of samples, samples a second and unit; the samples follow along the lines.
+/// Each series has a header with the number of samples, the samples per second and the unit. The samples follow along
+/// the lines.
 /// [`Record::read_all`] returns all series. Counts of a recorder, pairs of time and sample (`TSPAIR`) and series in
 /// several pieces are errors.
 ///

@@ -52,7 +52,9 @@ const REAL_FORMAT: FortranFormat = FortranFormat { repeat: 5, width: 15, decimal
 const SAMPLE_FORMAT: FortranFormat = FortranFormat { repeat: 8, width: 10, decimals: 4, scale: 0 };
 /// Upper limit of a recorder's sampling rate, samples a second.
 const MAX_SAMPLING_RATE: f64 = 1e5;
-/// Indices, from 0, of the times of maximum and minimum in the reals; the values follow the times.
+/// Indices, from 0, of the times of maximum and minimum in the reals.
+///
+/// The values follow the times.
 const EXTREME_TIME_INDICES: [usize; 2] = [28, 30];
 
 /// Reads the component of a file.

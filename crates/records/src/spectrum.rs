@@ -14,7 +14,9 @@ use crate::error::{Observer, ProgressReporter, Result, damping_ratio, positive, 
 
 /// Smallest number of substeps in a period: peaks between substeps are then found to 2e-6.
 const MIN_SUBSTEPS_PER_PERIOD: f64 = 40.0;
-/// Largest number of substeps for one period, some seconds of work; a period that needs more is an error.
+/// Largest number of substeps for one period, some seconds of work.
+///
+/// A period that needs more is an error.
 const MAX_SUBSTEPS: f64 = 1e9;
 
 /// Number of substeps between two reports of progress, some milliseconds of work.
@@ -65,7 +67,7 @@ impl fmt::Display for CoarseSpectrum {
         let min_period = MIN_STEPS_PER_PERIOD * time_step;
         write!(
             f,
-            "below a period of {min_period:.3} s the spectrum is not exact, at {period:.3} s by far: the record has fewer \
+            "below a period of {min_period:.3} s the spectrum is not exact, least of all at {period:.3} s: the record has fewer \
              than ten time steps of {time_step} s in a period; a floor's spectrum needs a run with a shorter step"
         )
     }

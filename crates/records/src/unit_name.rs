@@ -28,7 +28,9 @@ const LENGTH_NAMES: [(&str, AccelerationUnit); 14] = [
     ("inches", AccelerationUnit::InchPerSecondSquared),
 ];
 
-/// Names, in lower case and separated by `|`, of units of other quantities and of multiples of g and gal.
+/// Names of units of other quantities, and of multiples of g and gal.
+///
+/// They are in lower case, and separated by `|`.
 const OTHER_UNIT_NAMES: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|milliseconds|µs|μs|min|mins|minute|\
     minutes|h|hr|hrs|hour|hours|day|days|sample|samples|hz|m|cm|mm|km|in|inch|inches|ft|feet|mg|milli-g|millig|\
     milli g|mgal|mgals|milligal|%|%g|count|counts|cnt|cnts|v|volt|volts|mv|mvolts|kine|kines";
@@ -37,7 +39,9 @@ const OTHER_UNIT_NAMES: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisec
 pub(super) const MAX_UNIT_NAME_BYTES: usize = 48;
 
 impl AccelerationUnit {
-    /// The unit with this whole name in files, in upper or lower case: `cm/s2`, `m s^-2`, `g`.
+    /// The unit with this whole name in files, in upper or lower case.
+    ///
+    /// Examples: `cm/s2`, `m s^-2`, `g`.
     pub(super) fn named(name: &str) -> Option<Self> {
         if name.len() > MAX_UNIT_NAME_BYTES {
             return None;
@@ -149,7 +153,9 @@ fn length_per_time(name: &str) -> Option<(AccelerationUnit, u32)> {
     })
 }
 
-/// The power of the second by which a length is divided: 2 of `s2`, `s/s` or `s-2`.
+/// The power of the second by which a length is divided.
+///
+/// It is 2 for `s2`, `s/s` or `s-2`.
 fn power_of_divisor(text: &str) -> Option<u32> {
     SECOND_NAMES.iter().find_map(|second| match text.strip_prefix(second)? {
         "" => Some(1),
@@ -169,7 +175,9 @@ fn negative_power(text: &str) -> Option<u32> {
     })
 }
 
-/// Whether a text is a unit of acceleration with a factor: `10^-3 g`, `g/1000`, `m/s2 x 100`, `% of g`.
+/// Whether a text is a unit of acceleration with a factor.
+///
+/// Examples: `10^-3 g`, `g/1000`, `m/s2 x 100`, `% of g`.
 fn is_multiple(text: &str) -> bool {
     let lower_case_text = text.to_lowercase();
     for word in ["%", "percent", "per cent", "milli"] {
@@ -193,7 +201,7 @@ fn is_multiple(text: &str) -> bool {
     })
 }
 
-/// Whether a text is a factor: a number that begins with one of the `operators`, or contains one.
+/// Whether a text is a number that begins with one of the `operators`, or contains one.
 fn is_factor(text: &str, operators: &[char]) -> bool {
     let text = text.trim();
     text.contains(|character: char| character.is_ascii_digit())

@@ -2967,8 +2967,8 @@ class RigidBlock(Structure):
     Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up and rotation.
     `dof` has the names "x", "y" and "rotation" for them.
 
-    ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
-    (m/s²) of the P–Δ effect of its weight; none unless given.
+    ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of the middle of its base, m; 0 by default.
+    ``p_delta``: gravitational acceleration (m/s²) for the P–Δ effect of its weight; no P–Δ effect unless given.
     """
 
     def __new__(
@@ -2991,8 +2991,8 @@ class RigidBlock(Structure):
         p_delta: float | None = None,
     ) -> RigidBlock:
         """Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
-        centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
-        those of the class, if given.
+        centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are as in
+        the class.
         """
     @property
     def total_mass(self) -> float:
@@ -3012,9 +3012,9 @@ class RigidBlock(Structure):
 class RigidBody(Structure):
     """A rigid body on a flat base, in space.
 
-    Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away) and z (up),
-    rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a ground in plan:
-    `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
+    Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away from the
+    viewer) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. Its ground has contact elements
+    along x and y: `ElasticGround.under` creates it. `cuboid`, `cylinder` and `from_mass` create the body.
     """
 
     @staticmethod
@@ -3028,8 +3028,8 @@ class RigidBody(Structure):
         p_delta: float | None = None,
     ) -> RigidBody:
         """Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
-        ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) of the P–Δ
-        effect of its weight; none unless given.
+        ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravitational acceleration
+        (m/s²) for the P–Δ effect of its weight; no P–Δ effect unless given.
         """
     @staticmethod
     def cylinder(
@@ -3041,7 +3041,7 @@ class RigidBody(Structure):
         p_delta: float | None = None,
     ) -> RigidBody:
         """Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-        ``center`` and ``p_delta`` are as in `cuboid`, if given.
+        ``center`` and ``p_delta`` are as in `cuboid`.
         """
     @staticmethod
     def from_mass(
@@ -3055,10 +3055,10 @@ class RigidBody(Structure):
     ) -> RigidBody:
         """Any rigid body on a convex base, by its mass and inertia.
 
-        Coordinates are relative to the point of the degrees of freedom. ``outline``: corners of the base, list of x and
-        y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of
-        inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta``
-        act as in `cuboid`, if given.
+        Coordinates are relative to the point whose motion the degrees of freedom describe. ``outline``: corners of the
+        base, list of x and y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the
+        negative products of inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m.
+        ``center``: x and y of that point, m; (0, 0) by default. ``p_delta`` is as in `cuboid`.
         """
     @property
     def total_mass(self) -> float:

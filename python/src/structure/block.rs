@@ -13,8 +13,8 @@ use crate::row::{PyDofCombination, python_rows};
 /// Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up and rotation.
 /// `dof` has the names "x", "y" and "rotation" for them.
 ///
-/// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
-/// (m/s²) of the P–Δ effect of its weight; none unless given.
+/// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of the middle of its base, m; 0 by default.
+/// ``p_delta``: gravitational acceleration (m/s²) for the P–Δ effect of its weight; no P–Δ effect unless given.
 #[pyclass(name = "RigidBlock", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBlock(RigidBlock);
 
@@ -23,7 +23,7 @@ extends!(PyRigidBlock, block => {
     PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 3)?))
 });
 
-/// The block moved to its centre, with P–Δ if `p_delta` is given.
+/// The block with the middle of its base at x = `center`, and with the P–Δ effect if `p_delta` is given.
 fn positioned_block(
     block: basemat::Result<RigidBlock>,
     center: f64,
@@ -48,8 +48,8 @@ impl PyRigidBlock {
     }
 
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
-    /// centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
-    /// those of the class, if given.
+    /// centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are as in
+    /// the class.
     #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None))]
     #[staticmethod]
     fn from_mass(
@@ -76,15 +76,15 @@ impl PyRigidBlock {
         self.0.base_inertia()
     }
 
-    /// Number of the degree of freedom of the displacement to the right.
+    /// Index of the degree of freedom of the displacement to the right.
     #[classattr]
     #[pyo3(name = "HORIZONTAL")]
     const HORIZONTAL_DOF: usize = RigidBlock::HORIZONTAL_DOF;
-    /// Number of the degree of freedom of the displacement up.
+    /// Index of the degree of freedom of the displacement up.
     #[classattr]
     #[pyo3(name = "VERTICAL")]
     const VERTICAL_DOF: usize = RigidBlock::VERTICAL_DOF;
-    /// Number of the degree of freedom of the rotation.
+    /// Index of the degree of freedom of the rotation.
     #[classattr]
     #[pyo3(name = "ROTATION")]
     const ROTATION_DOF: usize = RigidBlock::ROTATION_DOF;
@@ -102,9 +102,9 @@ impl PyRigidBlock {
 
 /// A rigid body on a flat base, in space.
 ///
-/// Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away) and z (up),
-/// rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a ground in plan:
-/// `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
+/// Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away from the
+/// viewer) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. Its ground has contact elements
+/// along x and y: `ElasticGround.under` creates it. `cuboid`, `cylinder` and `from_mass` create the body.
 #[pyclass(name = "RigidBody", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBody(pub(super) RigidBody);
 
@@ -116,7 +116,7 @@ extends!(PyRigidBody, body => {
     PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 6)?))
 });
 
-/// The body moved to its centre, with P–Δ if `p_delta` is given.
+/// The body with the point of its degrees of freedom at `center`, and with the P–Δ effect if `p_delta` is given.
 fn positioned_body(
     body: basemat::Result<RigidBody>,
     center: (f64, f64),
@@ -129,8 +129,8 @@ fn positioned_body(
 #[pymethods]
 impl PyRigidBody {
     /// Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) of the P–Δ
-    /// effect of its weight; none unless given.
+    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravitational acceleration
+    /// (m/s²) for the P–Δ effect of its weight; no P–Δ effect unless given.
     #[pyo3(
         signature = (length, width, height, density, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(length, width, height, density, *, center=(0.0, 0.0), p_delta=None)"
@@ -148,7 +148,7 @@ impl PyRigidBody {
     }
 
     /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center`` and ``p_delta`` are as in `cuboid`, if given.
+    /// ``center`` and ``p_delta`` are as in `cuboid`.
     #[pyo3(
         signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"
@@ -166,10 +166,10 @@ impl PyRigidBody {
 
     /// Any rigid body on a convex base, by its mass and inertia.
     ///
-    /// Coordinates are relative to the point of the degrees of freedom. ``outline``: corners of the base, list of x and
-    /// y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of
-    /// inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta``
-    /// act as in `cuboid`, if given.
+    /// Coordinates are relative to the point whose motion the degrees of freedom describe. ``outline``: corners of the
+    /// base, list of x and y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the
+    /// negative products of inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m.
+    /// ``center``: x and y of that point, m; (0, 0) by default. ``p_delta`` is as in `cuboid`.
     #[pyo3(
         signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"

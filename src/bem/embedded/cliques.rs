@@ -1,16 +1,17 @@
 //! Elimination of degrees of freedom from a sum of small symmetric matrices.
 //!
 //! Each matrix couples a few degrees of freedom with each other. A front is the sum of all matrices that contain some
-//! degrees of freedom. These are eliminated, and the rest of the front replaces the matrices of the sum. The next
-//! front is always the one that leaves the smallest matrix (minimum degree; Duff & Reid 1983). The order depends only on
-//! which degrees of freedom the matrices contain, and is the same at all Laplace variables.
+//! degrees of freedom. These are eliminated, and the rest of the front replaces the matrices of the sum. A matrix is
+//! called a clique, since in the graph of couplings it connects all its degrees of freedom with each other. The next
+//! front is always the one that leaves the smallest matrix (minimum degree; Duff & Reid 1983). The order depends only
+//! on which degrees of freedom the matrices contain, and is the same at all Laplace variables.
 
 use std::collections::BTreeMap;
 
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
 
-/// Order of elimination for matrices of given degrees of freedom.
+/// Order in which degrees of freedom are eliminated from a sum of matrices.
 #[derive(Debug)]
 pub(super) struct EliminationPlan {
     fronts: Vec<EliminationFront>,
@@ -33,9 +34,9 @@ struct EliminationFront {
 struct FrontTerm {
     /// Index of the matrix; results of fronts follow the matrices of the sum.
     matrix: usize,
-    /// Free degrees of freedom of the matrix, in the order of the front.
+    /// Rows of the free degrees of freedom of the matrix, in the order of the front.
     places: Vec<Place>,
-    /// Number of these that are eliminated.
+    /// Number of these rows that are eliminated; they come first.
     eliminated_count: usize,
 }
 
@@ -139,7 +140,7 @@ impl EliminationPlan {
 }
 
 impl EliminationFront {
-    /// Sum of `cliques`, with the degrees of freedom that are eliminated and those that remain.
+    /// Sum of `cliques`, with the eliminated and the remaining degrees of freedom.
     fn new(
         cliques: &[usize],
         dofs_by_matrix: &[Vec<Option<usize>>],
@@ -169,13 +170,16 @@ impl EliminationFront {
     }
 }
 
-/// Matrices that contain the groups of degrees of freedom, while these are eliminated.
+/// State of the elimination: which groups of degrees of freedom each matrix contains.
 struct CliqueGraph {
     groups: Vec<DofGroup>,
     /// Groups in each matrix, in ascending order.
     cliques: Vec<Vec<usize>>,
+    /// Whether each matrix is still in the sum.
     is_present: Vec<bool>,
-    /// Order of the matrix that each group would leave; `None` if it is eliminated or retained.
+    /// Order of the matrix that the elimination of each group would leave.
+    ///
+    /// `None` for groups that are eliminated or retained.
     degrees: Vec<Option<usize>>,
 }
 
@@ -239,6 +243,7 @@ impl CliqueGraph {
         Step { cliques, eliminated, remaining }
     }
 
+    /// Computes the order of the matrix that the elimination of a group would leave.
     fn update_degree(&mut self, group: usize) {
         if !self.groups[group].is_retained {
             let remaining = self.elimination(group).remaining;
@@ -283,7 +288,7 @@ mod tests {
 
     /// Random matrices of a grid of cells with four corners each, the lowest of them fixed.
     #[test]
-    fn front_by_front_is_all_at_once() {
+    fn elimination_front_by_front_is_elimination_at_once() {
         let mut random = Random(7);
         let columns = 6;
         let rows = 5;

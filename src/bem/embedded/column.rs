@@ -1,4 +1,4 @@
-//! Finite elements of a column of one width, reduced to the sides of the column.
+//! Columns of finite elements, reduced to the sides of a column.
 
 use super::element::{ColumnElement, ElementBasis};
 use super::forms::{Moduli, RetainedFunction};
@@ -6,16 +6,17 @@ use super::stack::Stack;
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
 
-/// Matrices of a column whose sides move as mirror images of each other, or as their negatives.
+/// Matrices of a column for symmetric and antisymmetric motions.
 ///
-/// Rows: horizontal and vertical displacement of the nodes of a side. The energy counts for one side.
+/// Both sides move as mirror images of each other, or as the negatives of these. Rows: horizontal and vertical
+/// displacement of the nodes of one side. A matrix is half of the stiffness for such a motion.
 pub(super) struct ElementColumn {
     pub(super) symmetric: ComplexBlock,
     pub(super) antisymmetric: ComplexBlock,
 }
 
 impl ElementColumn {
-    /// Half the sum of both matrices, or for a `sign` of −1 of their difference.
+    /// Half of the sum (`sign` 1) or of the difference (−1) of both matrices.
     ///
     /// The sum is the stiffness of a side, and the difference the stiffness between a side and the mirrored other one.
     pub(super) fn mean(&self, sign: f64) -> ComplexBlock {
@@ -123,7 +124,9 @@ impl ColumnMatrices {
     }
 }
 
-/// Row of a component at a node of a side; `None` at the fixed bottom.
+/// Row of a component at a node of a side.
+///
+/// `None` at the fixed bottom.
 fn side_row(component: usize, node: usize, node_count: usize) -> Option<MatrixRow> {
     (node < node_count).then_some(MatrixRow::Side(component * node_count + node))
 }

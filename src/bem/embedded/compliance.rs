@@ -17,13 +17,17 @@ use crate::linalg::ComplexBlock;
 ///
 /// 2⁴⁵ columns attenuate even waves that lose 1e-12 of their amplitude in a column.
 const MAX_COLUMN_DOUBLINGS: usize = 45;
-/// Largest stiffness between both ends of the doubled columns, relative to a side's, that counts as zero.
+/// Largest stiffness between both sides of the doubled columns that counts as zero.
+///
+/// It is relative to the stiffness of a side.
 const CROSS_STIFFNESS_TOLERANCE: f64 = 1e-13;
-/// Angle of the stretched elements relative to the argument of s.
+/// Angle of the complex height of stretched elements, relative to the argument of s.
 const STRETCH_ANGLE_RATIO: f64 = 0.6;
-/// Longest stretched element, in c/|s|.
+/// Longest stretched element, in c/|s|; c is the speed of shear waves in the half-plane.
 const MAX_STRETCHED_LENGTH: f64 = 8.0;
-/// Smallest degree of stretched elements: a high degree needs fewer elements and less time.
+/// Smallest degree of stretched elements.
+///
+/// With a high degree fewer elements suffice, which take less time.
 const MIN_STRETCHED_DEGREE: usize = 8;
 
 /// Compliances of the right half of a trench, for symmetric and antisymmetric fields.
@@ -57,12 +61,14 @@ pub(super) struct TrenchModel<'a> {
     pub(super) plans: &'a MeshPlans,
     pub(super) degree: usize,
     pub(super) bottom: &'a Bottom,
-    /// Elastic constants of the soils from the surface down, and then of the backfill if there is any.
+    /// Elastic constants of the soils from the surface down, then of any backfill.
     pub(super) soils: &'a [Moduli],
 }
 
 impl TrenchModel<'_> {
-    /// Compliances of the right half; `None` if the regular columns do not attenuate the waves.
+    /// Compliances of the right half.
+    ///
+    /// `None` if the regular columns do not attenuate the waves.
     ///
     /// # Errors
     /// [`Error::Singular`](crate::Error::Singular).
@@ -146,7 +152,7 @@ impl TrenchModel<'_> {
         Stack(elements)
     }
 
-    /// Groups of elements that the regular columns join to one element.
+    /// Groups of elements that are a single element in the regular columns.
     fn element_groups(&self) -> Vec<Range<usize>> {
         let grid = self.grid;
         let wall_intervals = grid.wall_intervals.iter().map(|wall| &wall.interval);
@@ -175,7 +181,7 @@ impl TrenchModel<'_> {
     }
 }
 
-/// Replaces the functions of the right side of an element by those of a joined element.
+/// Replaces the functions of an element's right side by those of a joined element.
 ///
 /// `interpolation`: functions of the joined element at the nodes of the side, node by node.
 fn interpolate_right_side(matrix: &mut ComplexBlock, interpolation: &[f64], node_count: usize) {
@@ -207,9 +213,10 @@ fn interpolated(values: &[Complex64], interpolation: &[f64], function: usize) ->
         .sum()
 }
 
-/// Compliance of the loads with the `free` degrees of freedom of the axis; all others there are fixed.
+/// Displacements of the loaded edges due to unit loads.
 ///
-/// `matrix`: of the degrees of freedom of the axis, whose number is `axis_order`, and then of the loads.
+/// On the axis, the `free` degrees of freedom are free and all others are fixed. `matrix`: of the degrees of freedom of
+/// the axis, whose number is `axis_order`, and then of the loads.
 fn compliance(
     matrix: &ComplexBlock,
     axis_order: usize,

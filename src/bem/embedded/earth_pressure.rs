@@ -1,4 +1,6 @@
-//! Pressure of the soil on the faces of a trench: at rest, and the limits by the soil's strength.
+//! Earth pressure on the faces of a trench.
+//!
+//! At rest, and the limits by the strength of the soil.
 
 use super::soil::TrenchSoil;
 use crate::error::{Result, require};
@@ -27,7 +29,7 @@ impl SoilPiece {
         k0.unwrap_or(self.soil.poisson() / (1.0 - self.soil.poisson()))
     }
 
-    /// Mass of the soil above the upper and the lower end of the piece, kg/m².
+    /// Mass of the soil above both ends of the piece, upper end first, kg/m².
     fn masses_at_ends(&self) -> [f64; 2] {
         let half_mass = 0.5 * self.height * self.soil.density();
         [self.mass_above - half_mass, self.mass_above + half_mass]
@@ -36,7 +38,7 @@ impl SoilPiece {
 
 /// Pieces of soil beside each element of a wall, from the surface down.
 fn wall_pieces(soil: &TrenchSoil) -> Vec<Vec<SoilPiece>> {
-    let layers: Vec<(Soil, f64)> = match soil.fill() {
+    let layers: Vec<(Soil, f64)> = match soil.backfill_soil() {
         Some(fill) => vec![(fill, f64::INFINITY)],
         None => soil.profile().soils_to().collect(),
     };
@@ -75,7 +77,9 @@ fn outline_values(soil: &TrenchSoil, wall_values: &[f64], base_value: f64) -> Ve
     left_wall.clone().chain(base_values).chain(left_wall.rev()).collect()
 }
 
-/// Mean over the height of each element of a wall, from the integral over each piece.
+/// Mean of a quantity over the height of each wall element.
+///
+/// `integral`: of the quantity over the height of a piece.
 fn element_means(soil: &TrenchSoil, integral: impl Fn(&SoilPiece) -> f64) -> Vec<f64> {
     let mut means = vec![];
     for (pieces, ends) in wall_pieces(soil).iter().zip(soil.elements().wall_ends().windows(2)) {
@@ -84,7 +88,9 @@ fn element_means(soil: &TrenchSoil, integral: impl Fn(&SoilPiece) -> f64) -> Vec
     means
 }
 
-/// Pressure at rest on each element over gravity, kg/m², in the order of the outline.
+/// Pressure at rest on each element, divided by gravity, kg/m².
+///
+/// The elements are in the order of the outline.
 ///
 /// The pressure on the base is the weight of all soil above it. `k0`: K₀ of all soils; `None`: ν/(1 − ν) of each soil.
 pub(super) fn pressures_at_rest(soil: &TrenchSoil, k0: Option<f64>) -> Vec<f64> {
@@ -103,7 +109,9 @@ fn mass_above_base(soil: &TrenchSoil) -> f64 {
         .sum()
 }
 
-/// Mean mass of the soil above each element, kg/m², in the order of the outline.
+/// Mean mass of the soil above each element, kg/m².
+///
+/// The elements are in the order of the outline.
 pub(super) fn masses_above(soil: &TrenchSoil) -> Vec<f64> {
     let wall_masses = element_means(soil, |piece| piece.height * piece.mass_above);
     outline_values(soil, &wall_masses, mass_above_base(soil))
@@ -193,7 +201,7 @@ mod tests {
     use crate::bem::embedded::Trench;
     use crate::soil::SoilProfile;
 
-    /// A layer of 2 m with ρ = 1000 over a half-plane with ρ = 2000: the thrust ∫K₀ m dz by hand.
+    /// Thrust ∫K₀ m dz by hand: a layer of 2 m with ρ = 1000, over ρ = 2000.
     #[test]
     fn thrust_of_two_layers() {
         let upper = Soil::from_shear_wave_speed(200.0, 0.25, 1000.0).unwrap();

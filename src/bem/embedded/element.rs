@@ -23,7 +23,7 @@ pub(super) struct ElementBasis {
     near_degree: usize,
     /// Means of the functions of a side in the near field.
     side_means: Vec<f64>,
-    /// Of the near field and of the stretched elements; for each, symmetric and antisymmetric.
+    /// Matrices of the near field and of stretched elements; for each, symmetric and antisymmetric.
     forms: [[ElementForms; 2]; 2],
 }
 
@@ -53,16 +53,21 @@ impl ElementBasis {
         Self { parities, near_degree: degree, side_means, forms }
     }
 
-    /// Number of functions of a horizontal edge that vanish at its ends, symmetric and antisymmetric.
+    /// Number of symmetric and of antisymmetric functions of a horizontal edge.
+    ///
+    /// These functions vanish at the ends of the edge.
     pub(super) fn edge_function_counts(&self) -> [usize; 2] {
         self.parities.each_ref().map(Parity::edge_function_count)
     }
 
+    /// Matrices of elements of this degree along z: symmetric and antisymmetric.
     fn forms(&self, degree: usize) -> &[ElementForms; 2] {
         &self.forms[usize::from(degree != self.near_degree)]
     }
 
-    /// Functions of symmetric (0) or antisymmetric (1) motions: of a side, then of horizontal edges.
+    /// Functions of a side, then of horizontal edges.
+    ///
+    /// `parity`: 0 for symmetric, 1 for antisymmetric motions.
     pub(super) fn functions(&self, parity: usize, degree: usize) -> &[RetainedFunction] {
         &self.forms(degree)[parity].functions
     }
@@ -149,7 +154,7 @@ struct ParityRows {
 }
 
 impl ParityRows {
-    /// Value of a function at the right side relative to the left side.
+    /// Sign of a side's function at the right side, relative to the left side.
     fn mirror(&self, function: usize) -> f64 {
         // In symmetric motions horizontal components change sign.
         if function <= self.z_degree { -self.symmetry } else { self.symmetry }

@@ -17,9 +17,9 @@ pub(super) struct Moduli {
     pub(super) inertia: Complex64,
 }
 
-/// Functions along x of motions that are symmetric or antisymmetric about the middle of a column.
+/// Functions along x of symmetric, or of antisymmetric motions.
 ///
-/// Lists of two: of u_x and of u_z.
+/// The motions are symmetric or antisymmetric about the middle of a column. Lists of two: of u_x and of u_z.
 #[derive(Debug)]
 pub(super) struct Parity {
     function_counts: [usize; 2],
@@ -87,7 +87,7 @@ struct ElementFunction {
 /// Integrals over products of two functions, for elements of any size and soil.
 #[derive(Debug, Clone, Copy)]
 struct FormIntegrals {
-    /// Which of the element's factors belong to the integrals.
+    /// Index of the element's factors of these integrals.
     kind: usize,
     values: [f64; FACTOR_COUNT],
 }
@@ -157,7 +157,9 @@ fn form_integrals(
     }
 }
 
-/// Factors of an element of a `width` and a `height`, m, for half of its stiffness.
+/// Factors of the integrals in half of the stiffness of an element.
+///
+/// `width` and `height` of the element are in m.
 pub(super) fn element_factors(width: f64, height: Complex64, moduli: Moduli) -> ElementFactors {
     let Moduli { shear, lame, inertia } = moduli;
     let pressure = lame + shear * 2.0;

@@ -1,19 +1,26 @@
-//! Vertical waves in the soil beside a trench: displacement and stress at the depths of its faces.
+//! Vertical waves in the soil beside a trench.
+//!
+//! Their displacements and stresses at the depths of the faces are the free field of the trench.
 
 use basemat_fourier::num_complex::Complex64;
 
-/// Piece of the profile: its height (m), modulus M of the wave (Pa) and ρ s².
+/// Piece of the profile.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ProfilePiece {
+    /// Height, m.
     pub(super) height: f64,
+    /// Modulus M of the wave, Pa.
     pub(super) modulus: Complex64,
+    /// ρ s², kg/(m³ s²).
     pub(super) inertia: Complex64,
 }
 
-/// Displacement u and stress M ∂u/∂z (z down) of a vertical wave that displaces the surface by one.
+/// Displacement and stress of a vertical wave that displaces the surface by one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct VerticalField {
+    /// u.
     pub(super) displacement: Complex64,
+    /// M ∂u/∂z, with z down.
     pub(super) stress: Complex64,
 }
 
@@ -25,7 +32,9 @@ pub(super) struct FieldOverPiece {
     pub(super) integrals: VerticalField,
 }
 
-/// Largest |x| for which two terms of the series of sinh(x)/x have an error below 1e-14.
+/// Largest |x| for which two terms of the series of sinh(x)/x suffice.
+///
+/// Their error is below 1e-14.
 const MAX_SERIES_ARGUMENT: f64 = 1e-3;
 
 impl VerticalField {

@@ -1,10 +1,14 @@
 //! Lines of the mesh around a trench, the same for all Laplace variables.
 
-/// Extent of the near field beside the walls and below the base, in half widths.
+/// Extent of the near field beside the walls and below the base.
+///
+/// In half widths of the trench.
 const NEAR_FIELD_RATIO: f64 = 0.5;
 /// Longest joined interval of the regular columns, in half widths.
 const MAX_JOINED_RATIO: f64 = 0.4;
-/// Longest last interval, relative to the regular length: a short remainder joins its neighbour.
+/// Longest last interval, relative to the regular length.
+///
+/// A short remainder joins its neighbour.
 const MAX_LAST_INTERVAL_RATIO: f64 = 1.5;
 
 /// Interval between two horizontal lines.
@@ -100,7 +104,9 @@ impl TrenchGrid {
         }
     }
 
-    /// Longest time in which shear waves of these `speeds` (m/s, of each soil) cross a contact element, s.
+    /// Longest time in which shear waves cross a contact element, s.
+    ///
+    /// `speeds`: of shear waves in each soil, m/s.
     pub(super) fn max_crossing_time(&self, speeds: &[f64]) -> f64 {
         let soil_under_base = self.lower_intervals.first().map_or(0, |lower| lower.soil_index);
         let base_times = self.base_lengths.iter().map(|length| length / speeds[soil_under_base]);

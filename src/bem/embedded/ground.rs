@@ -146,10 +146,12 @@ impl TrenchGround {
 
     /// Interface laws of all elements, with earth pressure limits on the walls.
     ///
-    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each
-    /// element of a wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]). These
-    /// limits are means over the element; the limits of the thrust are exact. `base`: law of the base. `strengths`: one for all soils, or one for each from the surface
-    /// down, the half-plane last; with backfill, of the backfill only. `gravity`: as in the builder, m/s².
+    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on
+    /// each element of a wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]).
+    /// These limits are means over the element; the limits of the thrust are exact.
+    ///
+    /// `base`: law of the base. `strengths`: one for all soils, or one for each soil from the surface down, the
+    /// half-plane last. With backfill there is one strength, that of the backfill. `gravity`: as in the builder, m/s².
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -219,7 +221,7 @@ impl TrenchGround {
 
     /// Whether backfill replaces the soil beside the walls.
     pub(crate) fn has_backfill(&self) -> bool {
-        self.soil().fill().is_some()
+        self.soil().backfill_soil().is_some()
     }
 
     pub(super) fn soil(&self) -> &TrenchSoil {

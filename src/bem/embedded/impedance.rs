@@ -20,7 +20,8 @@ use crate::soil::Bedrock;
 /// Motion of a rigid body without mass in a trench, e^(iωt).
 ///
 /// The motion is per unit motion of the surface of the free field, and is the input of the structure (kinematic
-/// interaction). Waves travel vertically. x to the right, y down; a positive rotation lowers the right end. Translations refer to the middle of the base.
+/// interaction). Waves travel vertically. x points to the right, y down; a positive rotation lowers the right end.
+/// Translations refer to the middle of the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -140,7 +141,7 @@ impl TrenchGround {
     ) -> Result<Vec<KinematicMotion>> {
         let needed =
             "a trench without it: beside backfill waves of the free field do not travel vertically";
-        require_part("backfill", self.soil().fill().is_none(), needed)?;
+        require_part("backfill", self.soil().backfill_soil().is_none(), needed)?;
         let responses = self.soil().responses(frequencies, observer)?;
         let mut motions = Vec::with_capacity(frequencies.len());
         for (&frequency, response) in frequencies.iter().zip(responses) {
@@ -303,11 +304,11 @@ impl<'a> TrenchFaces<'a> {
     }
 }
 
-/// Equations of a rigid body.
+/// Equations K U = f of a rigid body.
 struct ReducedSystem {
-    /// Aᵀ F⁻¹ A.
+    /// K = Aᵀ F⁻¹ A.
     stiffness: [[Complex64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
-    /// Aᵀ (F⁻¹ u − t).
+    /// f = Aᵀ (F⁻¹ u − t).
     forces: [Complex64; RIGID_MOTION_COUNT],
 }
 

@@ -1,4 +1,4 @@
-//! Degrees of freedom of the finite elements around a trench, and the order of their elimination.
+//! Degrees of freedom of the mesh around a trench, and their elimination.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,18 +9,21 @@ use super::forms::RetainedFunction;
 use super::grid::TrenchGrid;
 use super::stack::{JoinedStack, Stack};
 
-/// What a mesh has in common with all meshes of as many elements of the same degrees.
+/// Data that all meshes with the same [`MeshKey`] share.
 #[derive(Debug)]
 pub(super) struct MeshPlan {
     pub(super) basis: ElementBasis,
     pub(super) elimination: EliminationPlan,
 }
 
-/// Degrees of the near field and of stretched elements, and number of stretched elements in a column.
+/// Degrees of the elements of a mesh, and its number of stretched elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct MeshKey {
+    /// Degree of the near field.
     pub(super) degree: usize,
+    /// Degree of stretched elements along z.
     pub(super) stretched_degree: usize,
+    /// Number of stretched elements in a column.
     pub(super) stretched_count: usize,
 }
 
@@ -29,7 +32,7 @@ pub(super) struct MeshKey {
 pub(super) struct MeshPlans(Arc<Mutex<BTreeMap<MeshKey, Arc<MeshPlan>>>>);
 
 impl MeshPlans {
-    /// Plan of the meshes of a `key`, which `make` makes.
+    /// Plan of the meshes of a `key`; `make` computes it at its first use.
     pub(super) fn plan(&self, key: MeshKey, make: impl FnOnce() -> MeshPlan) -> Arc<MeshPlan> {
         let mut plans = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         Arc::clone(plans.entry(key).or_insert_with(|| Arc::new(make())))
@@ -43,12 +46,12 @@ pub(super) struct ColumnCell {
     pub(super) row: usize,
 }
 
-/// ColumnMesh between the axis and the regular columns.
+/// Mesh between the axis and the regular columns.
 pub(super) struct ColumnMesh<'a> {
     pub(super) grid: &'a TrenchGrid,
     /// Elements from the surface to the fixed bottom.
     pub(super) stack: &'a Stack,
-    /// The same on the line of the regular columns.
+    /// Joined elements on the line where the regular columns begin.
     pub(super) joined: &'a JoinedStack,
 }
 
@@ -71,7 +74,7 @@ impl ColumnMesh<'_> {
         column + 1 == self.column_count()
     }
 
-    /// Columns beyond the wall, counted from the wall; `None` below the base.
+    /// Index of a column among those beyond the wall; `None` below the base.
     pub(super) fn column_beyond_wall(&self, column: usize) -> Option<usize> {
         column.checked_sub(self.base_column_count())
     }
@@ -95,7 +98,9 @@ impl ColumnMesh<'_> {
         cells
     }
 
-    /// Edge of an element that is loaded, with the index of the first load: horizontal, then vertical.
+    /// Loaded edge of an element, with the index of its first load.
+    ///
+    /// The horizontal load comes first, then the vertical one.
     pub(super) fn load(&self, cell: ColumnCell) -> Option<(LoadedEdge, usize)> {
         let ColumnCell { column, row } = cell;
         if column < self.base_column_count() {
@@ -163,20 +168,26 @@ impl<'a> DofNumbers<'a> {
         Self { mesh, basis, node_count, first_joined, first_edge, first_load }
     }
 
-    /// Number of a component at a node of a vertical line; `None` at the fixed bottom.
+    /// Number of a component at a node of a vertical line.
+    ///
+    /// `None` at the fixed bottom.
     fn of_node(&self, line: usize, component: usize, node: usize) -> Option<usize> {
         let number = (2 * line + component) * self.node_count + node;
         (node < self.node_count).then_some(number)
     }
 
-    /// Number of a component at a node of the line of the regular columns; `None` at the fixed bottom.
+    /// Number of a component at a node of the regular columns' line.
+    ///
+    /// `None` at the fixed bottom.
     fn of_joined_node(&self, component: usize, node: usize) -> Option<usize> {
         let node_count = self.mesh.joined.stack.node_count();
         let number = self.first_joined + component * node_count + node;
         (node < node_count).then_some(number)
     }
 
-    /// Number of a function of the horizontal edge at the top of a row; `None` at the fixed bottom.
+    /// Number of a function of the horizontal edge at the top of a row.
+    ///
+    /// `None` at the fixed bottom.
     fn of_edge(&self, column: usize, row: usize, parity: usize, function: usize) -> Option<usize> {
         let row_count = self.mesh.stack.0.len();
         let counts = self.basis.edge_function_counts();

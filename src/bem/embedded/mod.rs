@@ -6,7 +6,7 @@
 //! | grid | lines of the mesh around the trench |
 //! | polynomials, forms, element | functions and matrices of finite elements |
 //! | stack, column | elements one below the other; matrices of a column |
-//! | mesh, cliques | degrees of freedom of the mesh; their elimination |
+//! | mesh, cliques | degrees of freedom of the mesh; their elimination, matrix by matrix |
 //! | compliance | compliances F(s) of the faces; stretched elements below the near field |
 //! | soil, free_field | the soil; vertical waves at the faces |
 //! | pairs, source | classes and compliances of pairs of elements; convolution weights |

@@ -9,7 +9,10 @@ use crate::history::{Pair, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Number of kinds of convolution weights: normal, tangential, normal by tangential, and tangential by normal.
+/// Number of kinds of convolution weights.
+///
+/// Normal, tangential, normal displacement due to tangential traction, and tangential displacement due to normal
+/// traction.
 pub(super) const TRENCH_KINDS: usize = 4;
 
 /// Components of receiver and source for each kind: 0 normal, 1 tangential.
@@ -89,7 +92,7 @@ impl TrenchPairs {
         Self { soil, degree, lengths }
     }
 
-    /// Rows of the normal and the tangential component of an element in the compliances of a half.
+    /// Rows of an element in the compliances of a half: normal, tangential.
     ///
     /// `element` counts the elements of the right half from the axis along the outline.
     fn component_rows(&self, element: usize) -> [SignedRow; 2] {

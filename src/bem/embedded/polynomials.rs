@@ -1,6 +1,8 @@
-//! Polynomials of an interval [0, 1]: Lagrange functions of Lobatto's nodes, and their even and odd combinations.
+//! Polynomials on the interval [0, 1].
+//!
+//! Lagrange functions of Lobatto's nodes, and their even and odd combinations.
 
-use crate::linalg::gauss::{largest, next_legendre};
+use crate::linalg::gauss::{largest_rule, next_legendre};
 
 /// Functions of the unit interval: values and derivatives at the points of a Gauss rule.
 ///
@@ -22,7 +24,7 @@ impl ProductIntegrals {
         let mut values = Vec::with_capacity(row_functions.len() * column_functions.len());
         for row in row_functions {
             for column in column_functions {
-                let points = largest().points_on_unit_interval().zip(row.iter().zip(column));
+                let points = largest_rule().points_on_unit_interval().zip(row.iter().zip(column));
                 values.push(points.map(|((_, weight), (a, b))| weight * a * b).sum());
             }
         }
@@ -49,7 +51,7 @@ impl IntervalFunctions {
         let nodes = lobatto_nodes(degree);
         let mut functions = Self { values: vec![], derivatives: vec![] };
         for i in 0..=degree {
-            let points = largest().points_on_unit_interval().map(|(x, _)| x);
+            let points = largest_rule().points_on_unit_interval().map(|(x, _)| x);
             functions.values.push(points.clone().map(|x| lagrange(&nodes, i, x)).collect());
             functions
                 .derivatives
@@ -90,12 +92,14 @@ impl IntervalFunctions {
 
     /// ∫ f: the mean of each function.
     pub(super) fn means(&self) -> Vec<f64> {
-        let one = vec![vec![1.0; largest().nodes.len()]];
+        let one = vec![vec![1.0; largest_rule().nodes.len()]];
         ProductIntegrals::new(&self.values, &one).values
     }
 }
 
-/// Number of Newton iterations for a node: rounding is reached in fewer from Chebyshev's nodes.
+/// Number of Newton iterations for a node.
+///
+/// From Chebyshev's nodes, fewer iterations reach rounding.
 const NEWTON_ITERATIONS: usize = 20;
 
 /// Lobatto's nodes on [0, 1]: the ends, and the extrema of Legendre's polynomial of `degree`.

@@ -32,14 +32,16 @@ struct Backfill {
 }
 
 /// Smallest degree of the elements of the near field.
-const NEAR_FIELD_DEGREE: usize = 4;
+const MIN_NEAR_FIELD_DEGREE: usize = 4;
 /// Largest degree of the elements of the near field.
-const MAX_DEGREE: usize = 12;
-/// Length of an element of the near field for each degree, in c/|s|.
+const MAX_NEAR_FIELD_DEGREE: usize = 12;
+/// Longest element of the near field, divided by its degree, in c/|s|.
+///
+/// Below, c is a speed of shear waves and b half of the width of the trench.
 const LENGTH_PER_DEGREE: f64 = 0.75;
 /// Largest phase over a contact element, rad: a quarter of a shear wave.
 const MAX_CONTACT_PHASE: f64 = 0.25 * std::f64::consts::TAU;
-/// Longest interval of the near field in the slowest soil, in half widths of the trench.
+/// Longest interval of the near field in the slowest soil, in half widths.
 const MAX_NEAR_INTERVAL_RATIO: f64 = 0.5;
 /// First depth of the stretched elements, in c/|s|.
 const FIRST_BOTTOM_DEPTH: f64 = 24.0;
@@ -49,13 +51,15 @@ const BOTTOM_DEPTH_GROWTH: f64 = 1.3;
 const MAX_BOTTOM_DEPTH: f64 = 100.0;
 /// Largest relative difference between the compliances of two depths.
 const DEPTH_CHANGE_TOLERANCE: f64 = 1e-6;
-/// Largest Re s·b/c for which depths are compared under undamped layers.
+/// Largest Re s b/c for which depths are compared under undamped layers.
 const MAX_COMPARED_DECAY: f64 = 1e-2;
 /// Smallest 2ξ of damped layers, for which no comparison is needed.
 const MIN_LOSS_RATIO: f64 = 4e-3;
 /// Laplace variable in place of zero on a half-plane, in c/b.
 const STATIC_LAPLACE_RATIO: f64 = 1e-4;
-/// Distance between an interface and the end of a wall element that counts as rounding, in half widths.
+/// Largest distance between an interface and an element's end that counts as rounding.
+///
+/// In half widths of the trench.
 const INTERFACE_TOLERANCE: f64 = 1e-6;
 
 /// Degree and stretched elements for Laplace variables near iω.
@@ -86,7 +90,9 @@ impl TrenchSoil {
         Ok(Self { profile, elements, backfill: None, grid, plans: MeshPlans::default() })
     }
 
-    /// Replaces the soil beside the walls by backfill of a `width` (m), from the surface to the base.
+    /// Replaces the soil beside the walls by backfill of a `width`, m.
+    ///
+    /// The backfill reaches from the surface to the base.
     ///
     /// # Errors
     /// As for [`TrenchGround::with_backfill`](super::TrenchGround::with_backfill).
@@ -123,7 +129,7 @@ impl TrenchSoil {
     }
 
     /// Soil of the backfill, if there is any.
-    pub(super) fn fill(&self) -> Option<Soil> {
+    pub(super) fn backfill_soil(&self) -> Option<Soil> {
         self.backfill.as_ref().and_then(|backfill| backfill.profile.surface())
     }
 
@@ -133,7 +139,7 @@ impl TrenchSoil {
         self.profile.soils().chain(fill).map(|(soil, _)| soil)
     }
 
-    /// Error if a damping law is not causal.
+    /// Returns an error if a damping law is not causal.
     pub(super) fn check_causal(&self) -> Result<()> {
         self.profile.check_causal()?;
         self.backfill.iter().try_for_each(|backfill| backfill.profile.check_causal())
@@ -180,14 +186,14 @@ impl TrenchSoil {
         let speeds: Vec<f64> = self.soils().map(|soil| soil.shear_wave_speed()).collect();
         let min_speed = speeds.iter().copied().fold(f64::INFINITY, f64::min);
         let interval_phase = MAX_NEAR_INTERVAL_RATIO * half_width * s.im / min_speed;
-        let degree = (NEAR_FIELD_DEGREE..=MAX_DEGREE)
+        let degree = (MIN_NEAR_FIELD_DEGREE..=MAX_NEAR_FIELD_DEGREE)
             .find(|degree| interval_phase <= LENGTH_PER_DEGREE * *degree as f64);
         let contact_phase = s.im * self.grid.max_crossing_time(&speeds);
         let is_resolved = degree.is_some() && contact_phase <= MAX_CONTACT_PHASE;
         let frequency = s.im / std::f64::consts::TAU;
         let needed = "low enough for four contact elements in a shear wave, and at most five waves in the width of the trench";
         require("frequency of a trench (Hz)", frequency, is_resolved, needed)?;
-        self.mesh_of_degree(s, degree.unwrap_or(MAX_DEGREE))
+        self.mesh_of_degree(s, degree.unwrap_or(MAX_NEAR_FIELD_DEGREE))
     }
 
     /// Mesh of a `degree` that is deep enough at `s`.
@@ -256,7 +262,9 @@ impl TrenchSoil {
         self.compliances_with(s, mesh, &self.moduli(s, s)?)
     }
 
-    /// Compliances of the faces at rest, with long-term moduli; on a half-plane up to rigid translations.
+    /// Compliances of the faces at rest, with long-term moduli.
+    ///
+    /// On a half-plane they are determined up to rigid translations.
     ///
     /// # Errors
     /// As for [`TrenchSoil::compliances`].
@@ -268,7 +276,7 @@ impl TrenchSoil {
             Bedrock::Rigid => 0.0,
         };
         let s = Complex::real(s);
-        let mesh = self.mesh_of_depth(s, FIRST_BOTTOM_DEPTH, NEAR_FIELD_DEGREE);
+        let mesh = self.mesh_of_depth(s, FIRST_BOTTOM_DEPTH, MIN_NEAR_FIELD_DEGREE);
         self.compliances_with(s, &mesh, &self.moduli(Complex::default(), s)?)
     }
 

@@ -16,16 +16,20 @@ use crate::linalg::Complex;
 const WEIGHT_TOLERANCE: f64 = 1e-8;
 /// Degree of the finite elements.
 const ELEMENT_DEGREE: usize = 4;
-/// Degree of the finite elements for short time steps, which excite waves shorter than the contact elements.
+/// Degree of the finite elements for short time steps.
+///
+/// These excite waves that are shorter than the contact elements.
 const SHORT_STEP_DEGREE: usize = 8;
-/// Longest of the short time steps, in b/c.
+/// Longest of the short time steps, in b/c: half of the width over the lowest shear wave speed.
 const MAX_SHORT_STEP_RATIO: f64 = 0.03;
 
 /// Soil around a trench, with the method of its convolution weights.
 #[derive(Debug, Clone)]
 pub(super) struct TrenchSource {
     pub(super) soil: TrenchSoil,
+    /// Runge–Kutta stages; `None`: those of [`Stages::for_profile`].
     pub(super) stages: Option<Stages>,
+    /// File of the convolution weights, if any.
     pub(super) file: Option<PathBuf>,
 }
 

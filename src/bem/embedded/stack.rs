@@ -1,4 +1,4 @@
-//! Stack of elements of a column: its nodes, and the interpolation between joined elements and the original ones.
+//! Stack of elements of a column, and the same stack with joined elements.
 
 use std::ops::Range;
 
@@ -25,7 +25,9 @@ pub(super) struct Stack(pub(super) Vec<StackElement>);
 pub(super) struct JoinedPlace {
     /// Index of the joined element.
     pub(super) element: usize,
-    /// Functions of the joined element at the nodes of the element, node by node; `None` if both are the same.
+    /// Functions of the joined element at the nodes of the element, node by node.
+    ///
+    /// `None` if both elements are the same.
     pub(super) interpolation: Option<Vec<f64>>,
 }
 
@@ -42,7 +44,9 @@ impl Stack {
         self.0.iter().map(|element| element.degree).sum()
     }
 
-    /// Index of the top node of an element; the number of nodes for the index after the last element.
+    /// Index of the top node of an element.
+    ///
+    /// For the index after the last element it is the number of nodes.
     pub(super) fn top_node(&self, element: usize) -> usize {
         self.0[..element].iter().map(|element| element.degree).sum()
     }

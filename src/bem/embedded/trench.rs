@@ -103,7 +103,7 @@ impl Trench {
     }
 }
 
-/// Ends of elements, and their middles.
+/// Ends of elements with the middle of each element between its ends.
 fn with_middles(element_ends: &[f64]) -> Vec<f64> {
     let coordinates = element_ends.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
     coordinates.chain(element_ends.last().copied()).collect()

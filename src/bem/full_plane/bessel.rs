@@ -142,7 +142,7 @@ mod tests {
         let z = Complex64::new(0.9, 1.1);
         let whole = bessel_series(z, true);
         let half = bessel_series(0.5 * z, true);
-        let rule = crate::linalg::gauss::largest();
+        let rule = crate::linalg::gauss::largest_rule();
         let mut k0 = whole.k0 * z - half.k0 * 0.5 * z;
         let mut kappa = whole.kappa * z - half.kappa * 0.5 * z;
         for (node, weight) in rule.nodes.iter().zip(&rule.weights) {

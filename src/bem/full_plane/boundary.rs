@@ -141,8 +141,8 @@ impl Boundary {
     pub(super) fn contact_rows(&self) -> impl Iterator<Item = usize> + Clone {
         let contact_layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.contact_indices.len());
         (0..contact_layout.len()).map(move |k| {
-            let [component, element] = contact_layout.origin(k);
-            self.layout().place(1 - component, self.contact_indices[element])
+            let [component, element] = contact_layout.component_and_element(k);
+            self.layout().index_of(1 - component, self.contact_indices[element])
         })
     }
 

@@ -247,7 +247,7 @@ fn links(pairs: &SegmentPairClasses, segment_count: usize, loaded: &[bool]) -> V
         for i in 0..2 {
             for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 for (q, &(class, is_mirrored)) in receiver_pairs.iter().enumerate() {
-                    let source_row = layout.place(j, q);
+                    let source_row = layout.index_of(j, q);
                     if k == 0 && !loaded[source_row] {
                         continue;
                     }
@@ -258,7 +258,7 @@ fn links(pairs: &SegmentPairClasses, segment_count: usize, loaded: &[bool]) -> V
                         input_row = source_row;
                     }
                     let series_index = series_index(class, k, i, j);
-                    let output_row = layout.place(i, p);
+                    let output_row = layout.index_of(i, p);
                     links.push(SeriesLink { output_row, input_row, series_index, sign });
                 }
             }

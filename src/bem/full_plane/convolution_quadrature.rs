@@ -285,7 +285,7 @@ fn scatter<const WIDTH: usize>(
             let block = view_block(view_indices[row * segment_count + column]);
             for i in 0..2 {
                 for j in 0..2 {
-                    let entry = layout.place(i, row) * layout.len() + layout.place(j, column);
+                    let entry = layout.index_of(i, row) * layout.len() + layout.index_of(j, column);
                     let numbers = WIDTH * entry..WIDTH * entry + WIDTH;
                     g[numbers.clone()].copy_from_slice(&block[2 * i + j]);
                     h[numbers].copy_from_slice(&block[4 + 2 * i + j]);

@@ -111,7 +111,7 @@ fn fill_scattered_traction(
         // σ_xx, σ_zz, σ_xz.
         let stress = field.stress(segment.center(), time);
         let n = segment.normal();
-        tractions[layout.place(0, element)] = -(stress[0] * n[0] + stress[2] * n[1]);
-        tractions[layout.place(1, element)] = -(stress[2] * n[0] + stress[1] * n[1]);
+        tractions[layout.index_of(0, element)] = -(stress[0] * n[0] + stress[2] * n[1]);
+        tractions[layout.index_of(1, element)] = -(stress[2] * n[0] + stress[1] * n[1]);
     }
 }

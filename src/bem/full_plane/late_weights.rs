@@ -41,7 +41,7 @@ pub(super) fn log_terms(soil: Soil, view: &ElementView, length_unit: f64) -> Log
     let half_length = 0.5 * (line.high - line.low);
     let nu = soil.poisson();
     let lame_ratio = 2.0 * nu / (1.0 - 2.0 * nu);
-    let rule = gauss::largest();
+    let rule = gauss::largest_rule();
     let mut terms = [[0.0; 8]; LOG_TERM_COUNT];
     for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
         let x = line.offset(center + half_length * node);

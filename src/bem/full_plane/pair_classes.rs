@@ -109,7 +109,8 @@ impl SegmentPairClasses {
                         for j in 0..2 {
                             let changes_sign = is_mirrored && i != j;
                             let value = if changes_sign { -block[i][j] } else { block[i][j] };
-                            matrix[layout.place(i, p) * layout.len() + layout.place(j, q)] = value;
+                            matrix[layout.index_of(i, p) * layout.len() + layout.index_of(j, q)] =
+                                value;
                         }
                     }
                 }

@@ -117,7 +117,7 @@ fn smooth_rules(
     }
     if passed_waves == PassedWaves::None {
         // Any rule integrates zero.
-        let rule = gauss::largest();
+        let rule = gauss::largest_rule();
         return Some(SmoothRules { passed_waves, space_rule: rule, time_rule: rule });
     }
     let space_rule = gauss::rule_for(space_ellipse_size)?;

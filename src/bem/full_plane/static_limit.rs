@@ -1,7 +1,11 @@
 //! Static limit of the boundary equation, by Kelvin's solution.
 //!
-//! With time the functions of [`super::step_integrals`] tend to D = (c₂⁻²−c₁⁻²)/2, Q = c⁻², and
-//! L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀). The static plane does not determine the length L₀.
+//! As t → ∞, the functions D and Q of [`step_integrals`](super::step_integrals) tend to (c₂⁻²−c₁⁻²)/2 and c⁻². L₁ + L₂
+//! tends to −(c₁⁻²+c₂⁻²) ln(r/L₀) plus a term that grows with ln t and is the same everywhere. The static problem
+//! therefore does not determine the length L₀.
+//!
+//! s, h, r and the directions d and n are those of `step_integrals`; c₁ and c₂ are the speeds of pressure and shear
+//! waves.
 
 use super::Boundary;
 use super::pair_classes::SegmentPairClasses;
@@ -10,8 +14,9 @@ use crate::soil::Soil;
 
 /// Primitives of displacement (dd, dn, nn) and traction (dd, dn, nd, nn) at one end of an element.
 ///
-/// Displacements are in units of 1/2πρ, tractions in units of μ/2πρ. `slowness_squared` is c₁⁻² and c₂⁻²,
-/// `reference_length` is L₀.
+/// Displacements are in units of 1/2πρ, tractions in units of μ/2πρ. `slowness_squared`: c₁⁻² and c₂⁻².
+/// `lame_ratio`: λ/μ. `s`, `h`: coordinates of the end from the load, along and normal to the element, m.
+/// `reference_length`: L₀.
 fn primitive(
     slowness_squared: [f64; 2],
     lame_ratio: f64,
@@ -20,37 +25,41 @@ fn primitive(
     reference_length: f64,
 ) -> [f64; 7] {
     let r = s.hypot(h);
-    let d = 0.5 * (slowness_squared[1] - slowness_squared[0]);
+    // The static D.
+    let dyadic_limit = 0.5 * (slowness_squared[1] - slowness_squared[0]);
     let log_factor = -(slowness_squared[0] + slowness_squared[1]);
     let logarithm = (r / reference_length).ln();
     let angle = if h == 0.0 { 0.0 } else { (s / h).atan() };
     let logarithm_integral = s * logarithm - s + h * angle;
-    let isotropic_part = 0.5 * (log_factor * logarithm_integral - d * s);
-    let dd = isotropic_part + d * (s - h * angle);
-    let nn = isotropic_part + d * h * angle;
-    let dn = d * h * logarithm;
-    // D and Q are constants, so these integrals give the tractions.
-    let h_over_r2 = angle;
-    let s_over_r2 = logarithm;
-    let sh2_over_r4 = -0.5 * (h / r).powi(2);
-    let h3_over_r4 = 0.5 * (h * s / (r * r) + angle);
-    let dyadic_factor = 8.0 * d + 2.0 * (slowness_squared[0] - slowness_squared[1]);
-    let shear_part = 2.0 * d * s_over_r2 - dyadic_factor * sh2_over_r4;
+    let isotropic_part = 0.5 * (log_factor * logarithm_integral - dyadic_limit * s);
+    let dd = isotropic_part + dyadic_limit * (s - h * angle);
+    let nn = isotropic_part + dyadic_limit * h * angle;
+    let dn = dyadic_limit * h * logarithm;
+    // Integrals over s of h/r², s/r², s h²/r⁴ and h³/r⁴: with constant D and Q the tractions consist of them.
+    let integral_h_over_r2 = angle;
+    let integral_s_over_r2 = logarithm;
+    let integral_sh2_over_r4 = -0.5 * (h / r).powi(2);
+    let integral_h3_over_r4 = 0.5 * (h * s / (r * r) + angle);
+    let dyadic_factor = 8.0 * dyadic_limit + 2.0 * (slowness_squared[0] - slowness_squared[1]);
+    let shear_part = 2.0 * dyadic_limit * integral_s_over_r2 - dyadic_factor * integral_sh2_over_r4;
     [
         dd,
         dn,
         nn,
-        (2.0 * d - slowness_squared[1]) * h_over_r2 - dyadic_factor * (h_over_r2 - h3_over_r4),
-        shear_part - slowness_squared[1] * s_over_r2,
-        shear_part - lame_ratio * slowness_squared[0] * s_over_r2,
-        (6.0 * d - 2.0 * slowness_squared[1] - lame_ratio * slowness_squared[0]) * h_over_r2
-            - dyadic_factor * h3_over_r4,
+        (2.0 * dyadic_limit - slowness_squared[1]) * integral_h_over_r2
+            - dyadic_factor * (integral_h_over_r2 - integral_h3_over_r4),
+        shear_part - slowness_squared[1] * integral_s_over_r2,
+        shear_part - lame_ratio * slowness_squared[0] * integral_s_over_r2,
+        (6.0 * dyadic_limit - 2.0 * slowness_squared[1] - lame_ratio * slowness_squared[0])
+            * integral_h_over_r2
+            - dyadic_factor * integral_h3_over_r4,
     ]
 }
 
 /// Static displacements of the contact elements per unit traction on them.
 ///
-/// A 2Q × 2Q matrix in the order of contact vectors; all other elements are free.
+/// Overwrites `matrix`: row-major, with two rows for each contact element, in the order of contact vectors. All other
+/// elements are free of traction.
 pub(super) fn static_compliance(
     soil: Soil,
     boundary: &Boundary,
@@ -62,7 +71,7 @@ pub(super) fn static_compliance(
     let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
     let slowness_squared = speeds.map(|c| 1.0 / (c * c));
     let lame_ratio = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
-    let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
+    let displacement_unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
     let mut g = vec![0.0; layout.matrix_len()];
     let mut h = vec![0.0; layout.matrix_len()];
     SegmentPairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |view| {
@@ -71,7 +80,7 @@ pub(super) fn static_compliance(
             .map(|s| primitive(slowness_squared, lame_ratio, s, view.height, reference_length));
         let mut integrals = [0.0; 7];
         for (k, integral) in integrals.iter_mut().enumerate() {
-            *integral = unit * (end_values[1][k] - end_values[0][k]);
+            *integral = displacement_unit * (end_values[1][k] - end_values[0][k]);
         }
         let [dd, dn, nn, t_dd, t_dn, t_nd, t_nn] = integrals;
         let mu = soil.shear_modulus();
@@ -96,15 +105,15 @@ mod tests {
         let waves = WaveConstants { speeds, lame_ratio: 0.4 / 0.6 };
         for (ends, h) in [([0.3, 1.1], 0.0), ([-0.4, 0.9], 0.6), ([1.0, 2.0], -0.5)] {
             let end_values = ends.map(|s| primitive(slowness_squared, waves.lame_ratio, s, h, 1.0));
-            let late = step_integrals(&waves, ends, h, 1e4);
-            let t = late.traction.as_flattened();
-            let u = late.displacement;
+            let late_integrals = step_integrals(&waves, ends, h, 1e4);
+            let tractions = late_integrals.traction.as_flattened();
+            let [dd, dn, nn] = late_integrals.displacement;
             // ½ Σ c⁻² ln(2 c t) of each displacement.
             let growth: f64 =
                 (0..2).map(|k| 0.5 * slowness_squared[k] * (2e4 * speeds[k]).ln()).sum();
             let growth_integral = growth * (ends[1] - ends[0]);
-            let computed =
-                [u[0] - growth_integral, u[1], u[2] - growth_integral, t[0], t[1], t[2], t[3]];
+            let displacements = [dd - growth_integral, dn, nn - growth_integral];
+            let computed: Vec<f64> = displacements.iter().chain(tractions).copied().collect();
             for k in 0..7 {
                 let expected = end_values[1][k] - end_values[0][k];
                 let value = computed[k];

@@ -262,7 +262,7 @@ mod tests {
 
     /// ∫ f from `low` to `high`, with square-root singularities at both ends.
     fn singular_integral(low: f64, high: f64, f: &dyn Fn(f64) -> [f64; 7]) -> [f64; 7] {
-        let rule = gauss::largest();
+        let rule = gauss::largest_rule();
         let mut sum = [0.0; 7];
         let piece_count = 12;
         for k in 0..piece_count {

@@ -230,8 +230,8 @@ impl<'a> RigidStripSystem<'a> {
         let mut motions = vec![Complex64::default(); 3 * layout.len()];
         for (e, element) in elements.iter().enumerate() {
             let length = element.length();
-            let vertical_row = layout.place(0, e);
-            let horizontal_row = layout.place(1, e);
+            let vertical_row = layout.index_of(0, e);
+            let horizontal_row = layout.index_of(1, e);
             motions[3 * horizontal_row].re = length;
             motions[3 * vertical_row + 1].re = length;
             motions[3 * vertical_row + 2].re = length * (element.center()[0] - middle);
@@ -259,7 +259,9 @@ impl<'a> RigidStripSystem<'a> {
         if self.contact == StripContact::Relaxed {
             for (index, value) in matrix.iter_mut().enumerate() {
                 // Displacements in another direction than the traction are set to zero.
-                if layout.origin(index / order)[0] != layout.origin(index % order)[0] {
+                if layout.component_and_element(index / order)[0]
+                    != layout.component_and_element(index % order)[0]
+                {
                     *value = Complex64::default();
                 }
             }

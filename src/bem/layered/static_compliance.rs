@@ -112,7 +112,7 @@ pub(super) fn pair_compliances(
 ///
 /// Both integrands are smooth on the scale of a, the span of all elements.
 fn far_field_integrals(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] {
-    let rule = gauss::largest();
+    let rule = gauss::largest_rule();
     let half_receiver = 0.5 * receiver.length();
     let half_source = 0.5 * source.length();
     let offset = if source == receiver { 0.0 } else { receiver.center()[0] - source.center()[0] };

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::error::{Error, Result};
 
-/// Number of threads: the number of processors with the feature `rayon`, otherwise one.
+/// Number of threads: that of rayon's current pool with the feature `rayon`, otherwise one.
 pub(in crate::bem) fn thread_count() -> usize {
     #[cfg(feature = "rayon")]
     return rayon::current_num_threads();

@@ -269,7 +269,7 @@ mod tests {
     /// For cells apart, closed forms agree with Gauss integrals over the distance, weighted by the cells' overlap.
     #[test]
     fn closed_forms_are_the_integrals() {
-        let rule = gauss::largest();
+        let rule = gauss::largest_rule();
         let pitch = [0.7_f64, 0.4];
         for offset in [[2, 0], [0, 3], [2, 2], [5, 3], [9, 2]] {
             let mut sums = [0.0; FORM_COUNT];

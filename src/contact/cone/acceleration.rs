@@ -12,9 +12,13 @@
 
 use crate::linalg::dot;
 
-/// Largest number of earlier sweeps in a combination: their inner products take less time than a sweep.
+/// Largest number of earlier sweeps in a combination.
+///
+/// The inner products of so many sweeps take less time than a sweep.
 const MAX_STORED_SWEEPS: usize = 8;
-/// Smallest pivot of the normal equations, relative to their diagonal; an earlier sweep below it has no weight.
+/// Smallest pivot of the normal equations, relative to their diagonal.
+///
+/// An earlier sweep with a smaller pivot has no weight.
 const MIN_RELATIVE_PIVOT: f64 = 1e-13;
 
 /// Results of earlier sweeps, and scratch of their combination.
@@ -156,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_linear_problem_is_solved_by_as_many_sweeps_as_forces_though_plain_sweeps_diverge() {
+    fn a_linear_problem_needs_one_sweep_more_than_forces_though_plain_sweeps_diverge() {
         // Orthonormal cosines.
         let vectors: [[f64; FORCE_COUNT]; FORCE_COUNT] = std::array::from_fn(|k| {
             std::array::from_fn(|i| {

@@ -1,10 +1,14 @@
 //! Bounds of an element's force: pressure, friction, strength.
+//!
+//! The table of [`problem`](super::problem) explains p, t, y, ρ and the disc.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
 use super::status::Normal;
 
-/// Friction coefficient that replaces infinite friction on an element with a bond, and in methods that need a finite disc.
+/// Friction coefficient that replaces infinite friction.
+///
+/// On an element with a bond, and in methods that need a finite disc.
 pub(super) const SUBSTITUTED_FRICTION: f64 = 1e4;
 
 /// Bounds of an element's force.
@@ -18,11 +22,11 @@ pub(super) struct Bounds {
     pub(super) attraction: f64,
     /// Shear force that adds to friction, N.
     pub(super) shear_strength: f64,
-    /// Smallest and largest p, N; the largest at zero settlement.
+    /// Smallest and largest p, N; on soil that hardens, the largest p before it settles.
     pub(super) interval: [f64; 2],
     /// Growth of the largest p with the settlement, N/m.
     pub(super) hardening: f64,
-    /// y of a closed element, m.
+    /// Normal displacement y of a closed element, m.
     pub(super) closed_gap: f64,
     /// Whether the element neither slides nor opens.
     pub(super) is_bonded: bool,
@@ -93,7 +97,9 @@ impl Bounds {
         }
     }
 
-    /// Part of a trial's excess over the largest p that hardening soil bears, for the stiffness ρ.
+    /// Fraction of the excess over the largest p that hardening soil bears.
+    ///
+    /// The excess is that of a trial p; `stiffness` is ρ.
     pub(super) fn hardening_fraction(&self, stiffness: f64) -> f64 {
         if self.hardening > 0.0 { 1.0 / (1.0 + stiffness / self.hardening) } else { 0.0 }
     }
@@ -103,7 +109,7 @@ impl Bounds {
         if self.hardening > 0.0 { Normal::Hardening(self.hardening) } else { Normal::Capped }
     }
 
-    /// Projects a trial t of this `magnitude` on the disc of the projected p.
+    /// Projects a trial t of this `magnitude` on the disc of `p`, which is already projected.
     pub(super) fn project_shear(&self, p: f64, trial: [f64; 2], magnitude: f64) -> [f64; 2] {
         let radius = self.radius(p);
         if magnitude <= radius {

@@ -3,15 +3,16 @@
 use super::low_rank::LowRankCompliance;
 use super::near_field::NearFieldBlocks;
 
-/// Form of W for products and sweeps, without the diagonal that the proximal point method adds.
+/// Form of W for products and sweeps.
 ///
+/// The proximal point method adds a number to the diagonal: only [`Self::Entries`] contains it, the other forms do not.
 /// Newton's method factors the stored entries in all forms but the last.
 #[derive(Default)]
 pub(super) enum ComplianceForm {
-    /// The stored entries alone; they contain the added diagonal.
+    /// The stored entries alone.
     #[default]
     Entries,
-    /// Elements on a lattice, each of which moves few others much.
+    /// Elements on a lattice; a force on one moves few others much.
     NearField(Box<NearFieldBlocks>),
     /// Independent elements under a structure with few modes; no entries are stored.
     LowRank(Box<LowRankCompliance>),
@@ -23,7 +24,7 @@ impl ComplianceForm {
         if let Self::NearField(blocks) = self { Some(blocks) } else { None }
     }
 
-    /// As [`ComplianceForm::near_field`], to change them.
+    /// Mutable [`ComplianceForm::near_field`].
     pub(super) fn near_field_mut(&mut self) -> Option<&mut NearFieldBlocks> {
         if let Self::NearField(blocks) = self { Some(blocks) } else { None }
     }

@@ -1,20 +1,25 @@
-//! W by the few modes in which the structure moves the elements.
+//! W as a diagonal and a low-rank product, under a structure that moves the elements in few modes.
+//!
+//! A mode is a column of L, a Cholesky factor of the structure's compliance; it is no mode of vibration.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | W = D + L Lᵀ | elements on independent springs, under a structure with few modes |
-//! | D | compliance of the soil and of the element's layer, a diagonal, m/N |
-//! | L | displacements of the elements in the modes of the structure |
-//! | r | forces on the elements, N |
+//! | W = D + L Lᵀ | compliance of elements on independent springs, under a structure with few modes, m/N |
+//! | D | compliance of the soil and of the elastic layers of the contact laws, a diagonal, m/N |
+//! | L Lᵀ | compliance of the structure, m/N; one column of L for each mode |
+//! | r − r₀ | change of the elements' forces from their static values, N |
+//! | q, y | relative displacements of the elements for r = r₀ and for the current r, m |
 
 use crate::contact::OnBed;
 use crate::contact::on_bed::MODE_TOLERANCE;
 use crate::linalg::pivoted_cholesky;
 
-/// Largest number of modes of a structure on a lattice.
-pub(super) const MAX_MODE_COUNT: usize = 24;
+/// Largest number of modes of a structure on a lattice of elements.
+///
+/// With more modes, the solution uses all entries of W.
+pub(super) const MAX_COMPLIANCE_MODES: usize = 24;
 
-/// W = D + L Lᵀ, and the modal amplitudes of the present forces.
+/// W = D + L Lᵀ, and the modal amplitudes of the current forces.
 #[derive(Default)]
 pub(super) struct LowRankCompliance {
     /// D of each element.
@@ -22,7 +27,7 @@ pub(super) struct LowRankCompliance {
     /// L of each element, mode by mode.
     modes: Vec<[f64; 3]>,
     mode_count: usize,
-    /// Lᵀ r.
+    /// Lᵀ (r − r₀).
     amplitudes: Vec<f64>,
 }
 
@@ -32,15 +37,17 @@ impl LowRankCompliance {
         Self { diagonal: vec![[0.0; 3]; element_count], ..Self::default() }
     }
 
-    /// Reads D and L of elements with these areas; `layer(row)`: part of the diagonal that is neither soil nor structure.
-    pub(super) fn set(&mut self, on_bed: &OnBed, areas: &[f64], layer: impl Fn(usize) -> f64) {
-        let count = areas.len();
+    /// Computes D and L of elements with these areas.
+    ///
+    /// `layer(row)`: compliance of the elastic layer of an element's contact law, m/N.
+    pub(super) fn assemble(&mut self, on_bed: &OnBed, areas: &[f64], layer: impl Fn(usize) -> f64) {
+        let element_count = areas.len();
         self.mode_count = on_bed.mode_count();
         self.amplitudes.clear();
         self.amplitudes.resize(self.mode_count, 0.0);
         self.modes.clear();
         for (e, diagonal) in self.diagonal.iter_mut().enumerate() {
-            let indices = [e, count + e, 2 * count + e];
+            let indices = [e, element_count + e, 2 * element_count + e];
             *diagonal = indices.map(|i| on_bed.soil(i) / areas[e] + layer(i));
             let modes = indices.map(|i| on_bed.modes(i));
             self.modes.extend((0..self.mode_count).map(|k| modes.map(|mode| mode[k])));
@@ -76,33 +83,38 @@ impl LowRankCompliance {
         block
     }
 
-    /// Sets the amplitudes to Lᵀ r, and `y` to q + (W + `added_diagonal`) r.
+    /// Sets the amplitudes to Lᵀ (r − r₀), and `y` to q + (W + `added_diagonal`) (r − r₀).
+    ///
+    /// `force_change`: r − r₀.
     pub(super) fn update_displacements(
         &mut self,
-        forces: &[f64],
+        force_change: &[f64],
         q: &[f64],
         added_diagonal: f64,
         y: &mut [f64],
     ) {
-        let count = self.diagonal.len();
+        let element_count = self.diagonal.len();
         self.amplitudes.fill(0.0);
-        for e in 0..count {
-            self.add_force(e, [forces[e], forces[count + e], forces[2 * count + e]]);
+        for e in 0..element_count {
+            let indices = [e, element_count + e, 2 * element_count + e];
+            self.add_force(e, indices.map(|i| force_change[i]));
         }
-        for e in 0..count {
-            let indices = [e, count + e, 2 * count + e];
-            let displacement = self.displacement(e, indices.map(|i| forces[i]));
+        for e in 0..element_count {
+            let indices = [e, element_count + e, 2 * element_count + e];
+            let displacement = self.displacement(e, indices.map(|i| force_change[i]));
             for (i, displacement) in indices.into_iter().zip(displacement) {
-                y[i] = q[i] + added_diagonal * forces[i] + displacement;
+                y[i] = q[i] + added_diagonal * force_change[i] + displacement;
             }
         }
     }
 
-    /// Displacement of an element under the present forces; `force` is its part of them.
+    /// Displacement W (r − r₀) of an element, from the current amplitudes.
+    ///
+    /// `force_change`: r − r₀ of this element.
     #[inline]
-    pub(super) fn displacement(&self, e: usize, force: [f64; 3]) -> [f64; 3] {
+    pub(super) fn displacement(&self, e: usize, force_change: [f64; 3]) -> [f64; 3] {
         let mut displacement = self.modal_displacement(e, &self.amplitudes);
-        (0..3).for_each(|k| displacement[k] += self.diagonal[e][k] * force[k]);
+        (0..3).for_each(|k| displacement[k] += self.diagonal[e][k] * force_change[k]);
         displacement
     }
 
@@ -116,7 +128,7 @@ impl LowRankCompliance {
         displacement
     }
 
-    /// Adds the modal amplitudes due to a force on one element.
+    /// Adds the modal amplitudes due to an additional `force` on one element.
     #[inline]
     pub(super) fn add_force(&mut self, e: usize, force: [f64; 3]) {
         let modes = &self.modes[e * self.mode_count..][..self.mode_count];
@@ -126,25 +138,26 @@ impl LowRankCompliance {
     }
 }
 
-/// Modes of the structure: pivoted Cholesky factors L of W − G, mode by mode.
+/// Modes of the structure: columns of the pivoted Cholesky factor L of W − G.
 ///
-/// G is `soil(row, column)`, with `layer(row)` on its diagonal. `None` if W − G has too many modes or is not positive.
-pub(super) fn find_modes(
+/// G is `soil(row, column)`, with `layer(row)` added to its diagonal: the compliance of the soil and of the elastic layers
+/// of the contact laws. `None` if W − G has too many modes or is not positive semi-definite.
+pub(super) fn compliance_modes(
     w: &[f64],
-    size: usize,
+    order: usize,
     soil: impl Fn(usize, usize) -> f64,
     layer: impl Fn(usize) -> f64,
 ) -> Option<Vec<Vec<f64>>> {
     let soil_entry = |row: usize, column: usize| {
         soil(row, column) + if row == column { layer(row) } else { 0.0 }
     };
-    let diagonal: Vec<f64> = (0..size).map(|i| w[i * (size + 1)]).collect();
+    let diagonal: Vec<f64> = (0..order).map(|i| w[i * (order + 1)]).collect();
     let structure_diagonal =
         diagonal.iter().enumerate().map(|(i, entry)| entry - soil_entry(i, i)).collect();
     let tolerance = diagonal.iter().map(|entry| MODE_TOLERANCE * entry).fold(0.0, f64::max);
-    pivoted_cholesky(structure_diagonal, tolerance, MAX_MODE_COUNT, |pivot, column| {
+    pivoted_cholesky(structure_diagonal, tolerance, MAX_COMPLIANCE_MODES, |pivot, column| {
         for (i, value) in column.iter_mut().enumerate() {
-            *value = w[i * size + pivot] - soil_entry(i, pivot);
+            *value = w[i * order + pivot] - soil_entry(i, pivot);
         }
     })
 }

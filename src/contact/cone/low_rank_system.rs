@@ -1,4 +1,6 @@
-//! The linear system of prescribed statuses for W = D + L Lᵀ: three conditions per element, and one per mode.
+//! The linear system of prescribed statuses for W = D + L Lᵀ.
+//!
+//! It has three conditions per element, and one per mode.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -29,9 +31,10 @@ struct PressureCorrection {
 }
 
 impl PressureCorrection {
-    /// Correction of the force `p` with this `gap` and entry `diagonal` of D; `None` if the conditions contradict each other.
+    /// Correction of the force `p`; `None` if the conditions contradict each other.
     ///
-    /// `is_pressureless`: whether the element slides with infinite friction.
+    /// `gap`: present y. `diagonal`: normal entry of D. `is_pressureless`: whether the element slides with infinite
+    /// friction.
     fn new(
         status: &Status,
         bounds: &Bounds,
@@ -102,7 +105,9 @@ impl LowRankSystem {
         }
     }
 
-    /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
+    /// Corrects r, with its present y, to the solution for `statuses`.
+    ///
+    /// `false` if the system is singular.
     pub(super) fn solve(&mut self, problem: &mut ConeProblem, statuses: &[Status]) -> bool {
         let form = std::mem::take(&mut problem.form);
         let is_solved =
@@ -207,7 +212,9 @@ impl LowRankSystem {
         Some(())
     }
 
-    /// Factors the system of the modes, and writes its right-hand side; `false` if it is singular.
+    /// Factors the system of the modes, and writes its right-hand side.
+    ///
+    /// `false` if it is singular.
     fn assemble(&mut self, operator: &LowRankCompliance, problem: &ConeProblem) -> bool {
         let mode_count = operator.mode_count();
         let order = mode_count + self.pressureless.len();

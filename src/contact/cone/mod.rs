@@ -1,10 +1,14 @@
-//! Contact with uplift and friction in space: Signorini's law, and Coulomb's law with shear on a disc.
+//! Contact with uplift and friction in space.
+//!
+//! Signorini's law holds for the gap, and Coulomb's law for the shear, which lies on a disc.
 //!
 //! A step tries these methods one after the other:
 //!
-//! 1. The statuses of the previous step, if no element slid in it. Their factors are reused as long as the statuses stay
+//! 1. The statuses of the previous step, if no element slid in it. Their factors are reused as long as the statuses
+//!    stay
 //!    the same. Many elements on a lattice skip this method, unless all stick and each moves many others.
-//! 2. Sweeps over the elements, from the forces of the previous step. Many elements use accelerated sweeps if each moves
+//! 2. Sweeps over the elements, from the forces of the previous step. Many elements use accelerated sweeps if each
+//!    moves
 //!    most others.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
@@ -56,8 +60,8 @@ use status::{Normal, Status, Tangential};
 
 /// Residual at which the tangents of curves first move, relative to the largest force.
 const TANGENT_TOLERANCE: f64 = 1e-4;
-/// Error of a solution relative to the residual at which it is accepted.
-const ROUNDING_FACTOR: f64 = 10.0;
+/// Error of an accepted solution, relative to the residual at which it is accepted.
+const SOLUTION_ERROR_FACTOR: f64 = 10.0;
 /// Gap at which a bond breaks, relative to the largest displacement: above its rounding.
 const BOND_BREAKING_GAP: f64 = 1e-12;
 
@@ -79,8 +83,9 @@ pub(crate) struct ForceSearch {
     hardens: bool,
     /// Settlements at which the laws are linearised, m; without meaning if nothing hardens.
     trial_settlements: Vec<f64>,
-    /// Scratch of searches: initial changes of force, and changes that solve with less friction, N.
+    /// Changes of force with which a search begins, N.
     initial_change: Vec<f64>,
+    /// Changes of force that solve with less friction, N.
     limited_change: Vec<f64>,
     /// Whether the structure is linear: all steps then have the same W, unless layers change.
     is_linear: bool,
@@ -189,7 +194,7 @@ impl ForceSearch {
                 return Ok(method);
             }
             linearisation.is_done()?;
-            // Factors of this step solve again in less time than sweeps do; without any, sweeps go on.
+            // Factors of this step solve in less time than sweeps; after sweeps there are no such factors.
             let is_swept = method == SearchMethod::GaussSeidel || method == SearchMethod::Proximal;
             let found = if is_swept {
                 self.search_forces(input, trials)?
@@ -202,7 +207,9 @@ impl ForceSearch {
         }
     }
 
-    /// Compares the present forces with the curves of the laws, and moves the tangents; returns whether any has moved.
+    /// Moves the tangents towards the present forces; returns whether any has moved.
+    ///
+    /// A tangent stays where the force is near enough to the curve of its law.
     fn move_tangents(
         &mut self,
         input: &ContactInput<'_>,
@@ -210,7 +217,7 @@ impl ForceSearch {
     ) -> Result<bool, LawError> {
         linearisation.begin();
         let mut has_moved = false;
-        let residual = ROUNDING_FACTOR * self.problem.tolerance();
+        let residual = SOLUTION_ERROR_FACTOR * self.problem.tolerance();
         for e in 0..self.areas.len() {
             let settlement = self.trial_settlements[e];
             let hardens = self.problem.bounds[e].hardening > 0.0;
@@ -257,13 +264,15 @@ impl ForceSearch {
             // The total traction of an element without force is exactly zero.
             *traction = match problem.force(i) {
                 0.0 => -input.static_traction[i],
-                _ => problem.force_change[i] / areas[layout.origin(i)[1]],
+                _ => problem.force_change[i] / areas[layout.component_and_element(i)[1]],
             };
         }
         StepError::check_finite("contact traction", &response.traction)
     }
 
-    /// Computes the jump for the present tractions, by the form of W where it is faster than all entries.
+    /// Computes the jump for the present tractions.
+    ///
+    /// It uses the form of W where that takes less time than all entries.
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
     fn update_jump(&mut self, input: &ContactInput<'_>) {
@@ -331,7 +340,9 @@ impl ForceSearch {
         }
     }
 
-    /// Breaks the bonds of elements that have opened by more than a gap; returns whether any broke.
+    /// Breaks the bonds of elements that have opened too far; returns whether any broke.
+    ///
+    /// `breaking_gap`: opening at which a bond breaks, m.
     fn break_bonds(&mut self, breaking_gap: f64) -> bool {
         let mut has_broken = false;
         for (e, status) in self.newton.statuses.iter().enumerate() {
@@ -368,7 +379,9 @@ impl ForceSearch {
         substituted.map(|(_, bounds)| bounds.effective_friction()).reduce(f64::min)
     }
 
-    /// Error of a search without a solution: the residual with the friction of the laws, and its elements.
+    /// Error of a search without a solution.
+    ///
+    /// It contains the residual with the laws' friction, and the elements above the tolerance.
     fn failure(&mut self, iterations: usize) -> StepError {
         let problem = &mut self.problem;
         problem.limit_friction(f64::INFINITY);

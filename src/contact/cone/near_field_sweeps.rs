@@ -10,8 +10,10 @@ use super::problem::{
 };
 use crate::linalg::{Simd, WithSimd, vectorized};
 
-/// Change in a sweep after which a far-field correction follows, relative to the change in the first sweep since the
-/// last correction: further sweeps would converge to forces that the correction changes.
+/// Largest change in a sweep after which a far-field correction follows.
+///
+/// It is relative to the change in the first sweep since the last correction. Further sweeps would converge to forces
+/// that the correction changes.
 const FAR_FIELD_UPDATE_FRACTION: f64 = 3e-2;
 /// Largest number of sweeps between far-field corrections.
 const FAR_FIELD_UPDATE_INTERVAL: usize = 12;
@@ -21,7 +23,7 @@ const FAR_FIELD_TOLERANCE_FACTOR: f64 = 10.0;
 impl ConeProblem {
     /// Sweeps over groups up to `max_sweep_count` times, as [`ConeProblem::sweep`].
     ///
-    /// A sweep moves near elements at once; the sum of several sweeps moves all others.
+    /// Each sweep updates the displacements of near elements; a correction after several sweeps updates all others.
     pub(super) fn sweep_near_field(&mut self, max_sweep_count: usize) -> SolveOutcome {
         self.update_displacements();
         self.read_groups();

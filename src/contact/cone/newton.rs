@@ -16,8 +16,9 @@ const MAX_NEWTON_ITERATIONS: usize = 15;
 const MAX_RESIDUAL_RATIO: f64 = 0.5;
 /// With many elements: largest number of iterations with slow convergence.
 const MAX_SLOW_ITERATIONS: usize = 2;
-/// Largest residual, relative to the largest force, at which factors from an earlier iteration of the same time step are
-/// accurate enough to be used again.
+/// Largest residual, relative to the largest force, at which factors are reused.
+///
+/// Below it, factors from an earlier iteration of the same time step are accurate enough.
 const FACTOR_REUSE_RESIDUAL: f64 = 1e-4;
 /// Largest number of iterations of a restart with partial steps.
 const MAX_RESTART_ITERATIONS: usize = 60;
@@ -71,16 +72,18 @@ impl Newton {
         }
     }
 
-    /// Discards the factors; call this when W has changed. Factors for W of low rank are never stored.
+    /// Discards the factors; call this when W has changed.
     ///
-    /// `is_constant`: whether W will stay constant.
+    /// Factors for W of low rank are never stored. `is_constant`: whether W will stay constant.
     pub(super) fn invalidate(&mut self, is_constant: bool) {
         if let StatusSystem::Dense(system) = &mut self.system {
             system.invalidate(is_constant);
         }
     }
 
-    /// Discards what previous time steps left that would influence whether forces or displacements are the unknowns.
+    /// Makes the choice of unknowns independent of previous time steps.
+    ///
+    /// It discards stored data by which a step would choose forces or displacements as unknowns.
     pub(super) fn begin_step(&mut self) {
         if let StatusSystem::Dense(system) = &mut self.system {
             system.begin_step();
@@ -105,8 +108,9 @@ impl Newton {
         SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
     }
 
-    /// Iterates from a solution whose bounds have changed a little; close to the new one, factors of the same time step
-    /// are used again where possible.
+    /// Iterates from a solution whose bounds have changed a little.
+    ///
+    /// Close to the new solution it reuses factors of the same time step where possible.
     pub(super) fn solve_again(&mut self, problem: &mut ConeProblem) -> SolveOutcome {
         let mut previous_residual = f64::INFINITY;
         for iteration in 0..MAX_NEWTON_ITERATIONS {

@@ -34,7 +34,9 @@ const MIN_ELEMENTS_FOR_ACCELERATION: usize = 64;
 pub(super) const SWEEP_TOLERANCE_FACTOR: f64 = 1e-2;
 /// Number of sweeps that the rate of convergence needs to settle.
 pub(super) const MIN_SWEEPS_FOR_RATE: usize = 4;
-/// Sweeps end early if they need this many times the allowed number: the rate is an estimate.
+/// Sweeps end early if they would need this many times the remaining number.
+///
+/// The factor is above one since the rate of convergence is an estimate.
 const REMAINING_SWEEPS_FACTOR: f64 = 2.0;
 
 /// Contact status of an element with infinite friction.
@@ -62,7 +64,9 @@ impl SolveOutcome {
 /// Contact problem of a step: W, q and bounds, and the present r and y.
 pub(super) struct ConeProblem {
     pub(super) element_count: usize,
-    /// Entries of W, row-major, component by component as in contact vectors; empty if W is of low rank.
+    /// Entries of W, row-major; empty if W is of low rank.
+    ///
+    /// Rows are in the order of contact vectors, component by component.
     pub(super) w: Vec<f64>,
     /// W for products and sweeps.
     pub(super) form: ComplianceForm,
@@ -204,7 +208,8 @@ impl ConeProblem {
 
     /// Contact status of an element with infinite friction.
     ///
-    /// Pressure excludes slip, and a gap excludes a shear against the slip. The status is the larger trial of each pair.
+    /// Pressure excludes slip, and a gap excludes a shear against the slip. Of each such pair, the larger quantity
+    /// decides.
     pub(super) fn infinite_friction_status(&self, e: usize) -> InfiniteFriction {
         let bounds = &self.bounds[e];
         let trial = self.trial_force(e);
@@ -245,7 +250,9 @@ impl ConeProblem {
         }
     }
 
-    /// Residual of an element for the present y: difference of its force from its projected trial, N.
+    /// Residual of an element for the present y, N.
+    ///
+    /// It is the difference of its force from its projected trial force.
     pub(super) fn element_residual(&self, e: usize) -> f64 {
         if self.bounds[e].has_infinite_friction() {
             return self.infinite_friction_residual(e);

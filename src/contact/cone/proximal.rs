@@ -1,13 +1,15 @@
-//! The proximal point method: a sequence of problems with W + α D and q − α D r, with r the last iterate.
+//! The proximal point method: a sequence of better conditioned problems.
 //!
-//! Each problem is better conditioned than the original one. The added terms vanish as the iterates converge.
+//! Each problem has W + α d and q − α d (r − r₀), with d the mean of W's diagonal and r the last iterate. The added
+//! terms vanish as the iterates converge.
 
 use super::problem::ConeProblem;
 
-/// Initial fraction α of the mean diagonal D that is added.
+/// Initial fraction α of the mean diagonal d that is added.
 const INITIAL_DIAGONAL_FRACTION: f64 = 0.3;
-/// Factors of α after a problem that was solved, and after one that was not.
+/// Factor of α after a problem that was solved.
 const FRACTION_REDUCTION: f64 = 0.5;
+/// Factor of α after a problem that was not solved.
 const FRACTION_GROWTH: f64 = 3.0;
 /// Largest number of problems: α may fall below 1e-16.
 const MAX_PROXIMAL_ITERATIONS: usize = 60;
@@ -16,6 +18,7 @@ const MAX_PROXIMAL_ITERATIONS: usize = 60;
 pub(super) struct Proximal {
     q: Vec<f64>,
     diagonal: Vec<f64>,
+    /// r − r₀ of the last iterate.
     last_change: Vec<f64>,
 }
 

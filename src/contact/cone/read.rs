@@ -1,4 +1,6 @@
-//! Reads the data of a step: W with the layers of the laws, q, and the bounds of the forces.
+//! Reads the data of a step into the contact problem.
+//!
+//! These are W with the layers of the laws, q, and the bounds of the forces.
 
 use super::ForceSearch;
 use super::compliance::ComplianceForm;
@@ -73,7 +75,9 @@ impl ForceSearch {
         Ok(())
     }
 
-    /// Solution of an element in its present status, with a `residual` (N) that is a force, or a gap times ρ.
+    /// Solution of an element in its present status.
+    ///
+    /// `residual`: error of its force, and of its gap times ρ, N.
     pub(super) fn tangent_solution(
         &self,
         input: &ContactInput<'_>,
@@ -83,7 +87,7 @@ impl ForceSearch {
         let Self { problem, newton, areas, .. } = self;
         let area = areas[e];
         let [stiffness, _] = problem.rho[e];
-        let rounding_of_length = ROUNDING_ERROR * input.length_scale;
+        let length_rounding = ROUNDING_ERROR * input.length_scale;
         TangentSolution {
             element: e,
             pressure: problem.force(e) / area,
@@ -91,7 +95,7 @@ impl ForceSearch {
             yields: newton.statuses[e].is_yield(),
             stiffness: stiffness / area,
             pressure_rounding: residual / area,
-            settlement_rounding: rounding_of_length + residual / stiffness,
+            settlement_rounding: length_rounding + residual / stiffness,
         }
     }
 
@@ -172,7 +176,7 @@ impl ForceSearch {
             *newton = Newton::on_bed(count);
             return self.read_low_rank(on_bed);
         };
-        low_rank.set(on_bed, areas, layer);
+        low_rank.assemble(on_bed, areas, layer);
         newton.reserve(on_bed.mode_count());
         problem.update_scales();
     }

@@ -9,23 +9,32 @@ use crate::contact::SearchMethod;
 const MAX_SWEEPS_PER_ROUND: usize = 60;
 /// Largest number of rounds of sweeps and Newton's method.
 const MAX_ROUNDS: usize = 12;
-/// Change at which Newton's method replaces the accelerated sweeps of each round, relative to the largest force.
+/// Changes at which Newton's method follows the accelerated sweeps of a round.
+///
+/// One for each round, relative to the largest force.
 const CHANGES_BEFORE_NEWTON: [f64; 4] = [3e-3, 1e-5, 1e-8, 0.0];
-/// Largest friction for which all methods are tried; a search for higher friction begins with lower friction.
+/// Largest friction for which all methods are tried.
+///
+/// A search for higher friction begins with lower friction.
 const MAX_DIRECT_FRICTION: f64 = 100.0;
 /// Smallest friction with which such a search begins.
 const MIN_FRICTION_LIMIT: f64 = 3.0;
-/// Largest number of randomised restarts of Newton's method: alone, while friction is raised, and within the proximal
-/// method.
+/// Largest number of randomised restarts of Newton's method.
 const MAX_RESTARTS: u64 = 60;
+/// Largest number of restarts while friction is raised.
 const MAX_RESTARTS_WHILE_RAISING: u64 = 12;
+/// Largest number of restarts within the proximal point method.
 const MAX_RESTARTS_WITHIN_PROXIMAL: u64 = 4;
 /// Smallest factor by which friction is raised.
 const MIN_FRICTION_FACTOR: f64 = 1.2;
-/// Upper bound of a factor that failed, before its square root replaces it: the first factor is infinite.
+/// Upper bound of a factor that failed, before its square root replaces it.
+///
+/// The first factor is infinite.
 const MAX_FAILED_FACTOR: f64 = 100.0;
 
-/// Number of iterations of a search, and the last method used; no method if no solution was found.
+/// Number of iterations of a search, and the last method used.
+///
+/// There is no method if no solution was found.
 pub(super) struct SearchOutcome {
     pub(super) iterations: usize,
     pub(super) method: Option<SearchMethod>,
@@ -221,12 +230,16 @@ fn alternate_accelerated_sweeps_and_newton(
     SearchOutcome { iterations, method: None }
 }
 
-/// Method of a solution by sweeps; after the first round they start from the forces of Newton's method.
+/// Method of a solution by sweeps.
+///
+/// After the first round, sweeps start from the forces of Newton's method.
 fn sweep_method(round: usize) -> SearchMethod {
     if round == 0 { SearchMethod::GaussSeidel } else { SearchMethod::Newton }
 }
 
-/// Sets all changes of force to zero if one is not finite: such forces cannot start an iteration.
+/// Sets all changes of force to zero if one is not finite.
+///
+/// An iteration cannot start from such forces.
 fn reset_if_not_finite(problem: &mut ConeProblem) {
     if problem.force_change.iter().any(|change| !change.is_finite()) {
         problem.force_change.fill(0.0);

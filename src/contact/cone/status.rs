@@ -61,7 +61,9 @@ impl Status {
     /// Open, without any force.
     pub(super) const OPEN_FREE: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
 
-    /// Prescribed p of an open or capped element; `None` if closed or on soil that hardens.
+    /// Prescribed p of an open or capped element.
+    ///
+    /// `None` if closed or on soil that hardens.
     pub(super) fn bound(&self, interval: [f64; 2]) -> Option<f64> {
         match self.normal {
             Normal::Open => Some(interval[0]),

@@ -14,7 +14,9 @@ use crate::linalg::transposed_multiply_add;
 const MAX_LOCAL_PROJECTIONS: usize = 40;
 /// Largest change of an element's last projection, as a fraction of the change at which sweeps end.
 const LOCAL_TOLERANCE_FACTOR: f64 = 0.1;
-/// Largest change of an element's last projection, as a fraction of its first change: the other elements still move.
+/// Largest change of an element's last projection, as a fraction of its first change.
+///
+/// More exact solutions gain nothing while the other elements still move.
 const FIRST_CHANGE_FRACTION: f64 = 0.1;
 /// Factor of the number of near-field sweeps: they take much less time than a factorization.
 const NEAR_FIELD_SWEEP_FACTOR: usize = 4;
@@ -23,8 +25,9 @@ const NEAR_FIELD_SWEEP_FACTOR: usize = 4;
 const MAX_ACCELERATED_SWEEPS: usize = 200;
 /// Change at which accelerated sweeps end, as a fraction of the residual tolerance.
 const ACCELERATED_CHANGE: f64 = 0.3;
-/// Factor by which accelerated sweeps must reduce the change, and the largest number of sweeps that this may take.
-const MIN_REDUCTION: f64 = 0.5;
+/// Factor by which accelerated sweeps must reduce the change.
+const REQUIRED_REDUCTION: f64 = 0.5;
+/// Largest number of accelerated sweeps without this reduction.
 const MAX_SWEEPS_WITHOUT_REDUCTION: usize = 30;
 
 impl ConeProblem {
@@ -90,7 +93,7 @@ impl ConeProblem {
                     return SolveOutcome::new(sweep, is_solved);
                 }
             }
-            if largest_change <= MIN_REDUCTION * smallest_change {
+            if largest_change <= REQUIRED_REDUCTION * smallest_change {
                 smallest_change = largest_change;
                 last_reduction = sweep;
             }
@@ -132,7 +135,9 @@ impl ConeProblem {
         largest_change
     }
 
-    /// Force of an element with all other forces fixed, for its displacement by W without the added diagonal.
+    /// Force of an element with all other forces fixed.
+    ///
+    /// `displacement`: W (r − r₀) of the element, without the added diagonal.
     #[inline(always)]
     fn relaxed_force_at(&self, e: usize, displacement: [f64; 3], tolerance: f64) -> [f64; 3] {
         let indices = self.component_indices(e);
@@ -145,9 +150,12 @@ impl ConeProblem {
         relaxed_force(&self.bounds[e], self.rho[e], &self.element_blocks[e], start, y, tolerance)
     }
 
-    /// Relaxes one element with all other forces fixed, by the entries of W; returns the change of its force (N).
+    /// Relaxes one element with all other forces fixed.
     ///
-    /// It ends when the force changes by less than `tolerance` or a tenth of the first change.
+    /// Returns the change of its force (N).
+    ///
+    /// It uses the entries of W. It ends when the force changes by less than `tolerance` or a tenth of the first
+    /// change.
     fn relax(&mut self, e: usize, tolerance: f64) -> f64 {
         let indices = self.component_indices(e);
         let start = indices.map(|i| self.force(i));
@@ -174,9 +182,10 @@ fn magnitude_sum(force: [f64; 3]) -> f64 {
     force[0].abs() + force[1].abs() + force[2].abs()
 }
 
-/// Force of an element with the forces of others fixed, from its force `start` and its displacement `y`.
+/// Force of an element with the forces of others fixed.
 ///
-/// It is projected until it changes by at most `tolerance`, or by little compared with the first projection.
+/// It begins with the force `start` and the displacement `y`. The force is projected until it changes by at most
+/// `tolerance`, or by little compared with the first projection.
 #[inline(always)]
 fn relaxed_force(
     bounds: &Bounds,

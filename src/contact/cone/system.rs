@@ -33,8 +33,9 @@ const INVERSE_COST_FACTOR: f64 = 4.0;
 #[allow(clippy::struct_excessive_bools, reason = "each says whether one matrix is valid")]
 pub(super) struct System {
     unknowns: Unknowns,
-    /// Components of the conditions with a single one, and the sums of the others.
+    /// Component of each condition that has a single one.
     single_rows: Vec<usize>,
+    /// Sums of components of the other conditions.
     mixed_rows: Vec<ComponentSum>,
     rhs: Vec<f64>,
     factor: DenseFactor,
@@ -45,7 +46,7 @@ pub(super) struct System {
     inverse: Vec<f64>,
     /// Whether W is constant for the whole run.
     is_constant: bool,
-    /// Cost of the solutions of this step that W⁻¹ would have saved, if W changes.
+    /// Cost that W⁻¹ would have saved in the solutions since it was discarded.
     saved_cost: f64,
     /// Statuses of the present factors.
     factored_statuses: Vec<Status>,
@@ -53,7 +54,9 @@ pub(super) struct System {
     is_reusable: bool,
     /// Whether the factors belong to `factored_statuses`, computed in this step.
     is_recent: bool,
-    /// Quantities of the other kind after the prescribed corrections, where a condition has them; also scratch.
+    /// Scratch: columns of the matrix, or quantities that are not unknown.
+    ///
+    /// These are displacements if forces are unknown, and forces if displacements are unknown.
     products: Vec<f64>,
 }
 
@@ -96,7 +99,9 @@ impl System {
         self.saved_cost = 0.0;
     }
 
-    /// Discards what previous time steps left that would influence whether forces or displacements are the unknowns.
+    /// Makes the choice of unknowns independent of previous time steps.
+    ///
+    /// It discards stored data by which a step would choose forces or displacements as unknowns.
     pub(super) fn begin_step(&mut self) {
         self.is_recent = false;
         if !self.is_constant {
@@ -106,7 +111,9 @@ impl System {
         }
     }
 
-    /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
+    /// Corrects r, with its present y, to the solution for `statuses`.
+    ///
+    /// `false` if the system is singular.
     ///
     /// `accepts_recent_factors`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
     pub(super) fn solve(
@@ -150,7 +157,9 @@ impl System {
         self.factored_statuses.iter().map(Status::kind).eq(statuses.iter().map(Status::kind))
     }
 
-    /// Corrects r so that no element slips and all gaps are closed; `false` if W is singular.
+    /// Corrects r so that all gaps are closed without slip.
+    ///
+    /// `false` if W is singular.
     fn solve_sticking(&mut self, problem: &mut ConeProblem) -> bool {
         if !self.factor_w(problem) {
             return false;
@@ -179,7 +188,7 @@ impl System {
 
     /// Whether fewer displacements than forces are unknown, and W⁻¹ is available.
     ///
-    /// W⁻¹ of a constant W is computed at once; another when it would have saved its cost in this step.
+    /// W⁻¹ of a constant W is computed at once; that of another W as soon as it would have saved its cost in this step.
     fn prefers_displacements(&mut self, problem: &ConeProblem, statuses: &[Status]) -> bool {
         let force_count: usize = statuses.iter().map(Status::unknown_force_count).sum();
         let displacement_count: usize =
@@ -214,7 +223,7 @@ impl System {
         let matrix = if unknowns.are_displacements { inverse } else { &problem.w };
         let unknowns = &unknowns.list;
         let single_count = unknowns.partition_point(|unknown| unknown.row.is_single());
-        // Compact lists: each column reads them.
+        // Compact lists, since each column reads them.
         single_rows.clear();
         single_rows.extend(unknowns[..single_count].iter().map(|unknown| unknown.row.indices[0]));
         mixed_rows.clear();

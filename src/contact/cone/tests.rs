@@ -76,7 +76,9 @@ fn w_row(problem: &ConeProblem, i: usize) -> &[f64] {
     &problem.w[i * problem.component_count()..][..problem.component_count()]
 }
 
-/// Forces for these states: normal state and whether the element slides, with its shear at an angle.
+/// Forces of elements in these states.
+///
+/// A state is the normal state, and whether the element slides with its shear at its angle.
 fn forces(
     problem: &ConeProblem,
     states: &[(NormalState, bool)],
@@ -133,7 +135,9 @@ fn displacements(problem: &ConeProblem, r: &[f64]) -> Vec<f64> {
     problem.q.iter().zip(products).map(|(q, product)| q + product).collect()
 }
 
-/// Whether an element with these bounds cannot have this state, or has it only as a limit of another state.
+/// Whether an element with these bounds cannot have this state.
+///
+/// Limits of other states count as impossible, too.
 fn is_impossible(bounds: &Bounds, state: (NormalState, bool)) -> bool {
     match state {
         (NormalState::Capped, slides) => {
@@ -202,8 +206,8 @@ fn all_solutions(problem: &ConeProblem) -> Vec<Vec<f64>> {
                     break;
                 }
                 let Some(turns) = eliminate(rows) else { break };
-                for (&e, radius_ratio) in sliding.iter().zip(turns) {
-                    angles[e] += radius_ratio.clamp(-0.3, 0.3);
+                for (&e, turn) in sliding.iter().zip(turns) {
+                    angles[e] += turn.clamp(-0.3, 0.3);
                 }
             }
             let Some(r) = solution else { continue };
@@ -260,7 +264,9 @@ fn is_among(problem: &ConeProblem, solutions: &[Vec<f64>]) -> bool {
     })
 }
 
-/// Number of random problems of a run: a fifth of all, or all of them if `HEAVY_TESTS` is set.
+/// Number of random problems of a run.
+///
+/// A fifth of all, or all of them if `HEAVY_TESTS` is set.
 fn case_count(all: usize) -> usize {
     if basemat_testkit::heavy() { all } else { all / 5 }
 }
@@ -347,7 +353,7 @@ fn infinite_friction_is_limited_where_the_search_finds_no_solution() {
     );
 }
 
-/// Friction work is computed from the shear and the slip of one solution, and is never negative.
+/// The shear and the slip of a solution give its friction work.
 #[test]
 fn friction_only_dissipates_energy() {
     let mut random = Random(5);

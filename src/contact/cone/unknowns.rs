@@ -44,13 +44,15 @@ pub(super) struct Unknown {
     pub(super) row: ComponentSum,
     pub(super) column: ComponentSum,
     pub(super) coefficient: f64,
-    /// Sum of x in the condition: the column, except for a p that hardens, where it is p without shear.
+    /// Sum of x in the condition.
+    ///
+    /// It is the column, except on soil that hardens: there it is p without shear.
     pub(super) weighted_sum: ComponentSum,
     pub(super) goal: f64,
 }
 
 impl Unknown {
-    /// Entry that the coefficient adds to the diagonal; columns have length one.
+    /// Number that the coefficient adds to the diagonal; a column is a vector of length one.
     pub(super) fn diagonal(&self) -> f64 {
         if self.weighted_sum.is_single() {
             self.coefficient * self.column.weights[0]
@@ -60,7 +62,9 @@ impl Unknown {
     }
 }
 
-/// Factors of shear and pressure in the condition along the slip d: t·d = friction (p + attraction) + shear strength.
+/// Factors of shear and pressure in the condition along the slip d.
+///
+/// The condition is t·d = friction (p + attraction) + shear strength.
 ///
 /// A friction above one divides both sides, so that the condition has a limit for infinite friction.
 fn slip_factors(friction: f64) -> [f64; 2] {
@@ -101,7 +105,7 @@ impl Unknowns {
         self.list.sort_unstable_by_key(|unknown| !unknown.row.is_single());
     }
 
-    /// Adds an unknown with the weighted sum of its column in its condition.
+    /// Adds an unknown whose weighted sum is its column.
     fn add(&mut self, row: ComponentSum, column: ComponentSum, coefficient: f64, goal: f64) {
         self.list.push(Unknown { row, column, coefficient, weighted_sum: column, goal });
     }
@@ -184,8 +188,8 @@ impl Unknowns {
         match status.tangential {
             Tangential::Free => {
                 for i in [x, y] {
-                    let slip = ComponentSum::single(i);
-                    self.add(slip, slip, 0.0, -problem.static_force[i]);
+                    let component = ComponentSum::single(i);
+                    self.add(component, component, 0.0, -problem.static_force[i]);
                 }
             }
             Tangential::Stick => {

@@ -36,9 +36,9 @@ impl ModeSearch {
         }
     }
 
-    /// Linearises the laws at the settlements that each element alone would have under its present tractions.
+    /// Linearises the laws of elements that yielded in the step before.
     ///
-    /// Of elements that yielded in the step before.
+    /// Each at the settlement that its element alone would have under its present tractions.
     fn predict_settlements(
         &mut self,
         input: &ContactInput<'_>,
@@ -76,16 +76,18 @@ impl ModeSearch {
         Ok(())
     }
 
-    /// Sets the changes of traction from the static state to those at the start of the step.
+    /// Sets the changes of traction to those at the start of the step.
     fn set_present_tractions(&mut self, input: &ContactInput<'_>) {
         let ContactResponse { layout, traction, .. } = &mut self.solver.response;
         for (i, traction) in traction.iter_mut().enumerate() {
-            let [component, e] = layout.origin(i);
+            let [component, e] = layout.component_and_element(i);
             *traction = input.start.state(e).traction()[component] - input.static_traction[i];
         }
     }
 
-    /// Compares the last trial with the curves of the laws, and moves the lines; returns how they have moved.
+    /// Moves the lines towards the last trial; returns how they have moved.
+    ///
+    /// A line stays where the trial is near enough to the curve of its law.
     pub(super) fn move_tangents(
         &mut self,
         input: &ContactInput<'_>,
@@ -142,7 +144,9 @@ impl ModeSearch {
         }
     }
 
-    /// Solution of an element in a mode, with its line in place of the curve; `gap_offset`: its gap when closed, m.
+    /// Solution of an element in a mode, with its line in place of the curve.
+    ///
+    /// `gap_offset`: gap of the closed element, m.
     fn tangent_solution(
         &self,
         input: &ContactInput<'_>,
@@ -167,7 +171,9 @@ impl ModeSearch {
         }
     }
 
-    /// Draws the lines of elements that begin to yield in the next modes, through the begin of their curves.
+    /// Sets the lines of elements that begin to yield in the next modes.
+    ///
+    /// The lines pass through the points of the curves at a settlement of zero.
     ///
     /// `modes`: of the last trial.
     pub(super) fn begin_lines(&self, input: &ContactInput<'_>, modes: &[Mode]) {
@@ -184,7 +190,9 @@ impl ModeSearch {
     }
 }
 
-/// Reads the gap of a closed element from its law; `false` if the law has no limits, or no curve.
+/// Reads the gap of a closed element from its law.
+///
+/// Returns `false` if the law has no limits, or no curve.
 fn read_gap_offset(
     input: &ContactInput<'_>,
     element: usize,

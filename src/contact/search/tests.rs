@@ -74,7 +74,7 @@ impl Problem {
 
     /// Violation of Signorini's and Coulomb's conditions by a change of traction, independent of the laws' code.
     ///
-    /// Tractions are relative to the largest traction, lengths to the largest jump.
+    /// Violations of tractions are relative to the largest traction, those of lengths to the largest jump.
     fn violation(&self, traction: &[f64]) -> f64 {
         let count = self.start.len();
         let mut jump = self.free_jump.clone();
@@ -259,7 +259,7 @@ fn brute_force(problem: &Problem) -> Vec<(Vec<Mode>, Vec<f64>)> {
     solutions
 }
 
-/// Number of tractions that differ by more than rounding.
+/// Number of solutions whose tractions differ by more than rounding.
 fn solution_count(solutions: &[(Vec<Mode>, Vec<f64>)]) -> usize {
     let tractions = solutions.iter().map(|(_, traction)| traction);
     let max_traction = tractions.clone().flatten().fold(0.0_f64, |max, t| max.max(t.abs()));

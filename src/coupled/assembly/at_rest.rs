@@ -21,15 +21,16 @@ use crate::interface::{InterfaceLaw, Mode, law_of};
 use crate::linalg::{CompressedMatrix, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
-/// Weight of soil at rest with its support, relative to this weight, that counts as rounding.
+/// Sum of weight and support of soil at rest that counts as zero, relative to the weight.
 const WEIGHT_ROUNDING: f64 = 1e-12;
 
-/// Static state under the weight and the loads at t = 0; without gravity the state without forces.
+/// Static state under the weight and the loads at t = 0.
 ///
-/// The function commits this state to the structure's internal variables. `shared_compliance` receives the compliance
-/// of the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
-/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on
-/// its ground is an error in every gravity stage, since it would overturn during the run.
+/// Without gravity it is the state without forces. The function commits this state to the structure's internal
+/// variables. `shared_compliance` receives the compliance of the condensed structure, or otherwise of a linear
+/// structure. If the condensed structure has no static state, `condensed` becomes `None`, and the state of the whole
+/// structure is computed. A structure with P–Δ that buckles on its ground is an error in every gravity stage, since it
+/// would overturn during the run.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,
@@ -123,7 +124,9 @@ pub(crate) fn static_compliance(parts: &Parts, base: &PlacedBase) -> Result<Comp
     Ok(CompressedMatrix::dense(base.spread_ground_matrix(compliance)))
 }
 
-/// Weight, and all other loads at t = 0, N; empty without a static state.
+/// Weight, and all other loads at t = 0, N.
+///
+/// Empty without a static state.
 pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
     if !parts.builder.has_static_loads() {
         return Ok([vec![], vec![]]);
@@ -157,7 +160,7 @@ impl StaticLoads {
             for (sum, mass) in weight.iter_mut().zip(masses) {
                 let soil_weight = builder.gravity * mass;
                 *sum += soil_weight;
-                // Soil that carries nothing has no load at all, so that rounding is no load to be balanced.
+                // Where the support balances the weight, the sum is exactly zero: rounding must not act as a load.
                 if sum.abs() <= WEIGHT_ROUNDING * soil_weight.abs() {
                     *sum = 0.0;
                 }
@@ -183,7 +186,7 @@ pub(crate) struct StaticGround<'a> {
     pub(crate) shared_compliance: &'a RefCell<Option<Compliance>>,
 }
 
-/// Static state under weight and loads at t = 0, on a ground with interface laws.
+/// Static state under weight and loads at t = 0, with interface laws.
 ///
 /// The structure's internal variables stay unchanged.
 pub(crate) fn state_under_loads(

@@ -1,7 +1,7 @@
-//! Static state of a structure in the ground: cast on the bottom of an open cut, then backfilled.
+//! Static state of a structure in a backfilled cut.
 //!
-//! The weight acts on the floor alone. The pressures of the soil at rest act on the walls, without shear, and the walls stay
-//! closed.
+//! The structure stands on the bottom of the open cut before the cut is backfilled. The weight acts on the floor alone.
+//! The pressures of the soil at rest act on the walls, without shear, and the walls stay closed.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -89,7 +89,7 @@ pub(super) fn state(
     state_under_load(&problem, laws, (state, contact), [weight, load])
 }
 
-/// Rows and columns of a matrix of this order at some indices.
+/// Submatrix of the rows and columns at some indices, from a matrix of this order.
 fn submatrix(matrix: &[f64], order: usize, indices: &[usize]) -> CompressedMatrix {
     let mut entries = Vec::with_capacity(indices.len() * indices.len());
     for row in indices {
@@ -119,9 +119,9 @@ fn closed_state(
     Ok((state, contact))
 }
 
-/// Tractions of the soil at rest on the walls, and on the floor if `includes_floor`, Pa.
+/// Tractions of the soil at rest on the walls, Pa, and also on the floor if `includes_floor`.
 ///
-/// Those of `base` are the ground's elements, or equal divisions of them. Joints have none.
+/// The elements of `base` are those of the ground, or equal divisions of them. Joints have no such tractions.
 pub(super) fn traction_at_rest(
     parts: &Parts,
     base: &PlacedBase,
@@ -148,7 +148,7 @@ pub(super) fn traction_at_rest(
     let division_count = elements.len() / parts.elements.len();
     for e in (0..pressures.len() * division_count).filter(|e| includes_floor || !floor.contains(e))
     {
-        traction[layout.place(0, e)] = parts.builder.gravity * pressures[e / division_count];
+        traction[layout.index_of(0, e)] = parts.builder.gravity * pressures[e / division_count];
     }
     Ok(traction)
 }
@@ -156,5 +156,5 @@ pub(super) fn traction_at_rest(
 /// Indices of all components of some elements in a contact vector.
 fn contact_indices(layout: ContactLayout, elements: &[usize]) -> impl Iterator<Item = usize> {
     (0..layout.components())
-        .flat_map(move |component| elements.iter().map(move |e| layout.place(component, *e)))
+        .flat_map(move |component| elements.iter().map(move |e| layout.index_of(component, *e)))
 }

@@ -1,4 +1,6 @@
-//! Modes of a subspace extended by a block of responses, without the vectors of the extension.
+//! Modes of an extended subspace, without the vectors of its extension.
+//!
+//! The extension is a block of responses.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -15,7 +17,9 @@ use crate::linalg::orthonormal::{independent_combinations, transpose};
 use crate::linalg::{add_combined_rows, row_products, symmetric_products};
 
 impl Subspace<'_> {
-    /// Modes of the space extended by a block, and all products with F, without computing the new vectors.
+    /// Modes of the extended space, and the products of its vectors with F.
+    ///
+    /// The vectors themselves are not computed.
     ///
     /// `block` has the responses K_eff⁻¹ f to the inertia f of the vectors from index `first` on, with the scheme's factor.
     /// Directions shorter than `min_length` are omitted. `products` are the products of the vectors with the `rows` of F.
@@ -83,9 +87,10 @@ impl Subspace<'_> {
         terms
     }
 
-    /// Products X K [V; X]ᵀ of a block X of responses K_eff⁻¹ f, for damping βK + αM.
+    /// Products X K [V; X]ᵀ of a block X of responses, for proportional damping.
     ///
-    /// K_eff is then a combination of M and K, and K X follows from K_eff X = f and M X.
+    /// The responses are K_eff⁻¹ f, and the damping is βK + αM. K_eff is then a combination of M and K, and K X
+    /// follows from K_eff X = f and M X.
     fn stiffness_border(
         &self,
         overlaps: &[f64],
@@ -120,7 +125,7 @@ impl Subspace<'_> {
         border
     }
 
-    /// Products X C [V; X]ᵀ (`k` = 0) or X K [V; X]ᵀ (`k` = 1) of a block X.
+    /// Products of a block X: X C [V; X]ᵀ for `k` = 0, X K [V; X]ᵀ for `k` = 1.
     fn border(&self, k: usize, block: &[f64]) -> Vec<f64> {
         let images = self.matrices[k].times(block);
         let with_vectors = row_products(&images, self.rows.vectors(), self.order());

@@ -17,11 +17,11 @@ use crate::structure::{SpringSupportedBase, max_diagonal_stiffness};
 pub(super) struct FixedBaseResults {
     /// Period on a fixed base, s.
     pub(super) period: f64,
-    /// Error for a mechanism.
+    /// Returns an error for a mechanism.
     pub(super) mechanism_check: Result<()>,
     /// Input of reduced coordinates; `None` for other coordinates.
     pub(super) responses: Option<FixedBaseResponses>,
-    /// The structure condensed on its base; `None` unless the base is flexible and its factor eliminates it last.
+    /// The structure condensed on its base, if that is flexible and eliminated last.
     pub(super) condensed: Option<Condensed>,
 }
 
@@ -61,7 +61,9 @@ impl FixedBaseResults {
         Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
     }
 
-    /// Input of reduced coordinates, with the static state's factor, moved out of `self`; `None` for other coordinates.
+    /// Moves the input of reduced coordinates out of `self`; `None` for other coordinates.
+    ///
+    /// The static state's factor is a part of the input.
     pub(super) fn take_reduction_input(
         &mut self,
         assembled: &Assembled,
@@ -80,7 +82,9 @@ impl FixedBaseResults {
 /// Responses of a structure with a fixed base, as input of reduced coordinates.
 #[derive(Default)]
 pub(crate) struct FixedBaseResponses {
-    /// Responses to a rotation of each part's base, which are rigid rotations if the base has one level.
+    /// Responses to a rotation of each part's base.
+    ///
+    /// They are rigid rotations if the base has one level.
     pub(super) rotations: Vec<f64>,
     /// Lowest circular frequency, estimated by Rayleigh's quotient, 1/s.
     pub(super) lowest_frequency: f64,

@@ -31,18 +31,18 @@ use crate::coupled::statics::compliance::{Compliance, ShiftedStiffnessFactor, in
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{ContactElement, axis_name, enclosing_interval, min_interval_count};
-use crate::linalg::{dot, magnitude};
+use crate::linalg::{dot, magnitude_sum};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
 const MIN_SHAPE_STIFFNESS_RATIO: f64 = 6.0;
 /// ρ of the recommended number of elements of a wall.
 const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
-/// Relative difference of static shapes on n and on 2n elements above which a solid has a warning.
+/// Relative difference of shapes on n and 2n elements that gives a warning.
 const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
-/// Relative difference of static shapes on n and on 2n elements above which the base is an error.
+/// Relative difference of shapes on n and 2n elements that is an error.
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
-/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have p = 0.
+/// Smallest p in ρ ~ nᵖ at which more elements n help; solids: 0.
 const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
 /// Largest exponent p in ρ ~ nᵖ, for beams and plates.
 const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
@@ -50,12 +50,12 @@ const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
 const MIN_REFINEMENT_FACTOR: f64 = 1.25;
 /// Norm of a remainder that counts as rounding, relative to the norm before the projection.
 const PROJECTION_ROUNDING_TOLERANCE: f64 = 1e-12;
-/// Distance of a node from the line of its face that counts as rounding, relative to an element.
+/// Distance from a face's plane that counts as rounding, relative to an element.
 const ON_FACE_TOLERANCE: f64 = 1e-9;
 /// Relative asymmetry of K that counts as rounding.
 const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
-/// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
+/// Warning of a flexible base with too few elements, if there are too few.
 ///
 /// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the condensed
 /// structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no computation.
@@ -154,7 +154,7 @@ fn check_structure(
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
 }
 
-/// Face with the largest difference of its static shape between a base and the refined base, and the difference.
+/// Face whose static shape differs most on the refined base, and the difference.
 ///
 /// With a law for each element, both states have the first law. `None` if one of them has no equilibrium.
 fn shape_difference(
@@ -285,12 +285,12 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
     ];
     let mut norm = 0.0;
     for mut column in columns {
-        let initial_norm = magnitude(&column);
+        let initial_norm = magnitude_sum(&column);
         for direction in basis.iter().chain(&basis) {
             let component = dot(direction, &column);
             column.iter_mut().zip(direction).for_each(|(x, unit)| *x -= component * unit);
         }
-        norm = magnitude(&column);
+        norm = magnitude_sum(&column);
         if norm > PROJECTION_ROUNDING_TOLERANCE * initial_norm {
             basis.push(column.iter().map(|x| x / norm).collect());
         } else {
@@ -304,7 +304,7 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
 struct FaceElements {
     /// Number of the foundation.
     foundation: usize,
-    /// Axis along which the elements are counted: z for a wall, in plan the axis of the shorter side.
+    /// Axis of the count: z for a wall, in plan that of the shorter side.
     axis: Option<char>,
     /// Number of elements along the axis.
     count: usize,
@@ -343,7 +343,7 @@ mod tests {
     use crate::structure::FemModel;
     use crate::{Simulation, Soil};
 
-    /// A solid of 16 × 16 × 12 hexahedra, stiff in a column on one side, on 3 × 3 contact elements.
+    /// A solid of 16 × 16 × 12 hexahedra with a stiff column, on 3 × 3 elements.
     fn parts() -> Result<Parts> {
         let mut mesh = Mesh::in_space();
         let coordinates: Vec<f64> = (0..17).map(|k| 10.0 * (f64::from(k) / 16.0 - 0.5)).collect();

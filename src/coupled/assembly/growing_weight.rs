@@ -11,15 +11,18 @@ use crate::interface::{InterfaceLaw, PreviousContacts};
 
 /// First increment of the weight, as a fraction of the whole.
 const FIRST_WEIGHT_INCREMENT: f64 = 0.25;
-/// Increment without equilibrium at which the structure counts as unstable, as a fraction of the whole weight.
+/// Increment without equilibrium at which the structure counts as unstable.
+///
+/// As a fraction of the whole weight.
 const MIN_WEIGHT_INCREMENT: f64 = 1.0 / 64.0;
 
-/// Follows the static state while the weight grows, after a search under the whole weight has failed.
+/// Follows the static state while the weight grows.
 ///
-/// Under the whole weight a structure with P–Δ tilts before the soil resists, and a search may pass the equilibrium.
-/// The path starts from the state and contact without weight. If it ends before the whole weight, the error is
-/// [`StabilityError::Toppling`]. The function returns the failed search's `error` if this error has a known cause, if
-/// no part of the weight has an equilibrium, and for a structure that is condensed or has no P–Δ.
+/// The function is for weights under which a search has failed. Under the whole weight a structure with P–Δ tilts
+/// before the soil resists, and a search may pass the equilibrium. The path starts from the state and contact without
+/// weight. If it ends before the whole weight, the error is [`StabilityError::Toppling`]. The function returns the
+/// failed search's `error` if this error has a known cause, if no part of the weight has an equilibrium, and for a
+/// structure that is condensed or has no P–Δ.
 pub(super) fn state_under_growing_weight(
     problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],

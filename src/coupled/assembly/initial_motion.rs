@@ -72,10 +72,10 @@ fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) ->
     } else {
         let mut previous_contacts = Vec::with_capacity(scene.element_count());
         for (e, (contact, mode)) in state.elements_mut().enumerate() {
-            contact.gap = scene.base.initial_gap(e) - displacement[layout.place(0, e)];
-            contact.slip = displacement[layout.place(1, e)];
+            contact.gap = scene.base.initial_gap(e) - displacement[layout.index_of(0, e)];
+            contact.slip = displacement[layout.index_of(1, e)];
             if layout.components() > 2 {
-                contact.slip_across = displacement[layout.place(2, e)];
+                contact.slip_across = displacement[layout.index_of(2, e)];
             }
             let quantity = "gap of an element under the initial displacement, m";
             require(quantity, contact.gap, contact.gap >= -gap_tolerance, "zero or more")?;
@@ -96,7 +96,9 @@ fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) ->
     Ok(())
 }
 
-/// Acceleration a from M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
+/// Acceleration at t = 0, before the soil has responded.
+///
+/// It is a from M a + C v + K u + f(u) = p.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let model = &scene.model;
     let static_state = &scene.static_state;
@@ -125,7 +127,9 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
 /// Force on a massless degree of freedom, relative to the largest force, that counts as zero.
 const MASSLESS_FORCE_TOLERANCE: f64 = 1e-9;
 
-/// Factor of the stiffness of massless degrees of freedom, s²: the square of a time that is short for every structure.
+/// Factor of the stiffness of massless degrees of freedom, s².
+///
+/// It is the square of a time that is short for every structure.
 const MASSLESS_STIFFNESS_SCALE: f64 = 1e-20;
 
 /// Replaces the `force` on a structure at rest by the acceleration that it causes.

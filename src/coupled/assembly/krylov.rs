@@ -43,16 +43,20 @@ const NEW_FRACTION_PER_ROOT_TOLERANCE: f64 = 10.0;
 pub(super) const FINAL_MIN_NEW_FRACTION: f64 = 1e-7;
 /// Factor of the smallest fraction for a repetition that finds no new direction.
 const NEW_FRACTION_REDUCTION: f64 = 1e-2;
-/// Largest number of rounds; the reduction ends after half of them if it will not reach the tolerance.
+/// Largest number of rounds.
+///
+/// The reduction ends after half of them if it will not reach the tolerance.
 const MAX_KRYLOV_ROUNDS: usize = 16;
-/// Smallest ratio of the lowest shift to the scheme's shift; it bounds the number of shifts to about ten.
+/// Smallest ratio of the lowest shift to the scheme's shift.
+///
+/// It limits the number of shifts to about ten.
 const MIN_SHIFT_RATIO: f64 = 1e-6;
 /// Largest number of steps over which responses are compared; it bounds the time of a comparison.
 const MAX_COMPARED_STEPS: usize = 10_000;
 /// Name of K + σ²M in errors.
 const DYNAMIC_STIFFNESS_NAME: &str = "dynamic stiffness matrix";
 
-/// Factors an effective stiffness.
+/// Function that factors K_eff.
 pub(crate) type FactorEffective<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
 
 /// Input of a reduction to Ritz modes.
@@ -205,7 +209,7 @@ impl<'a> Reduction<'a> {
         Err(inaccurate(changes.next(), tolerance, remedy))
     }
 
-    /// Factors K_eff, with proportional damping in place of a damping that differs from it by P–Δ alone.
+    /// Factors K_eff; a damping that is proportional but for P–Δ is made proportional.
     pub(super) fn effective_factor(&self) -> Result<Box<SparseFactor>> {
         let Some([beta, alpha]) = self.damping_without_p_delta else {
             return (self.factor_effective)();
@@ -276,7 +280,7 @@ impl<'a> Reduction<'a> {
     }
 }
 
-/// Adds the next power of each shift to the space; returns whether there is a new direction.
+/// Adds the next power of each shift; returns whether there is a new direction.
 fn add_powers(
     space: &mut Subspace<'_>,
     factors: &[&SparseFactor],

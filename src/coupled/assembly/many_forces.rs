@@ -21,7 +21,9 @@ use crate::linalg::{ModeLimit, SparseFactor, SparseMatrix, lowest_modes};
 const FREQUENCY_LIMIT_GROWTH: f64 = std::f64::consts::SQRT_2;
 /// Largest number of vibration modes; more would take longer than the full structure.
 const MAX_VIBRATION_MODES: usize = 600;
-/// Residual of vibration modes, relative to the root of the tolerance: errors of responses depend on its square.
+/// Residual of vibration modes, relative to the root of the tolerance.
+///
+/// Errors of responses depend on the square of the residual.
 const MODE_RESIDUAL_FACTOR: f64 = 0.1;
 /// Rounding of the vectors' orthogonality after one pass, relative to the square of the tolerance.
 const ORTHOGONALITY_ROUNDING_FACTOR: f64 = 1e-4;
@@ -44,10 +46,16 @@ const WEAK_PROBE_FACTOR: f64 = 10.0;
 const MIN_PROBE_FACTOR: f64 = 1e-2;
 /// Number of steps over which forces grow in the comparison of responses, with binomial weights.
 const FORCE_GROWTH_STEPS: usize = 32;
-/// Length of omitted directions, relative to the root of the tolerance: errors of responses depend on its square.
+/// Length of omitted directions, relative to the root of the tolerance.
+///
+/// Errors of responses depend on the square of the length.
 const OMITTED_LENGTH_FACTOR: f64 = 0.5;
 
-/// Adds the static responses to the forces of `block`, and returns the index of the first one.
+/// Adds the static responses to forces to a space.
+///
+/// Returns the index of the first one.
+///
+/// `block` contains the forces.
 ///
 /// The factor is dropped before the space grows, which limits the memory.
 fn add_static_responses(
@@ -183,9 +191,9 @@ impl Reduction<'_> {
             .sqrt())
     }
 
-    /// Adds the vibration modes up to a frequency limit (1/s), and returns the factor for static responses.
+    /// Adds the vibration modes up to a frequency limit, 1/s.
     ///
-    /// The result is `None` if there are too many modes.
+    /// Returns the factor for static responses. The result is `None` if there are too many modes.
     fn add_modes(
         &self,
         space: &mut Subspace<'_>,
@@ -215,7 +223,7 @@ impl Reduction<'_> {
         self.responses(modes, Subspace::modal_rows(modes, products), FORCE_GROWTH_STEPS)
     }
 
-    /// Factors K + σ²M, or takes the factor of the static state if its shift is usable.
+    /// Factors K + σ²M, or returns the static state's factor if its shift is usable.
     fn shifted_stiffness_factor(&self, scheme_shift: f64) -> Result<Rc<ShiftedStiffnessFactor>> {
         if let Some(shifted) = self.shifted_stiffness.take()
             && shifted.factor.is_positive_definite()

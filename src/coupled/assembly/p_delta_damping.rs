@@ -16,9 +16,10 @@ use crate::coupled::base::transformation::ModalBasis;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, symmetric_products};
 
-/// Smallest length of a response to the coupling that is added, relative to the mode and to the root of the tolerance.
+/// Smallest length of a response to the coupling that is added to the space.
 ///
-/// Errors of forces and probes depend on the square of this length.
+/// It is relative to the mode and to the root of the tolerance. Errors of forces and probes depend on the square of
+/// this length.
 const MIN_COUPLING_LENGTH_RATIO: f64 = 0.1;
 
 impl Reduction<'_> {

@@ -3,7 +3,7 @@
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::error::Result;
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 
 /// Number of intervals between the samples of the structure's load.
 const LOAD_INTERVAL_COUNT: u32 = 16;
@@ -11,8 +11,9 @@ const LOAD_INTERVAL_COUNT: u32 = 16;
 /// Rows of forces and of probes, with a weight for each degree of freedom.
 #[derive(Default)]
 pub(crate) struct ResponseRows {
-    /// All rows, one after the other: loads, other forces, displacements and velocities of probes, accelerations of
-    /// probes.
+    /// All rows, one after the other.
+    ///
+    /// Loads, other forces, displacements and velocities of probes, accelerations of probes.
     pub(crate) all: Vec<f64>,
     /// Number of loads, which are the first rows.
     pub(crate) load_count: usize,
@@ -20,7 +21,9 @@ pub(crate) struct ResponseRows {
     pub(crate) force_count: usize,
     /// Index of the first row of an acceleration.
     pub(crate) first_acceleration: usize,
-    /// Indices of the rows of displacement, velocity and acceleration of each probe; `None` for a row of zeros.
+    /// Rows of displacement, velocity and acceleration of each probe.
+    ///
+    /// `None` for a row of zeros.
     pub(crate) probes: Vec<[Option<usize>; 3]>,
 }
 
@@ -38,7 +41,7 @@ impl ResponseRows {
     /// Adds the builder's loads, and samples of the structure's load.
     fn add_loads(&mut self, parts: &Parts, dofs: usize, step_count: usize) -> Result<()> {
         for load in &parts.builder.loads {
-            push_nonzero(&mut self.all, spread(load.row(), dofs));
+            push_nonzero(&mut self.all, dense_vector(load.row(), dofs));
         }
         let duration = step_count as f64 * parts.builder.time_step;
         for sample in 0..=LOAD_INTERVAL_COUNT {
@@ -97,7 +100,7 @@ impl ResponseRows {
             for (probe, probe_rows) in probes.iter().zip(&mut self.probes) {
                 let row = self.all.len() / dofs;
                 let is_nonzero =
-                    push_nonzero(&mut self.all, spread(probe.rows()[derivative], dofs));
+                    push_nonzero(&mut self.all, dense_vector(probe.rows()[derivative], dofs));
                 probe_rows[derivative] = is_nonzero.then_some(row);
             }
         }

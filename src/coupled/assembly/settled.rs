@@ -5,7 +5,9 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
 
-/// Largest number of passes until the state variables are constant; laws in use need two or three.
+/// Largest number of passes until the state variables are constant.
+///
+/// The laws of this crate need two or three.
 const MAX_SETTLING_PASSES: usize = 10;
 
 /// Relative change of a state variable in the last pass that counts as rounding.
@@ -50,7 +52,7 @@ pub(super) fn settle(
     Ok((state, start))
 }
 
-/// Error for state variables that change at rest by more than rounding.
+/// Returns an error for state variables that change at rest by more than rounding.
 ///
 /// The state variables of an element with almost no pressure may be rounding themselves. The change is therefore
 /// relative to the larger of two numbers: the variable, and the largest change of the same variable in any element

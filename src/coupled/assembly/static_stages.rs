@@ -25,7 +25,7 @@ const LAW_CONDITION_TOLERANCE: f64 = 1e-6;
 /// Time step of laws in a gravity stage, s; static states do not depend on it.
 pub(super) const GRAVITY_STAGE_TIME_STEP: f64 = 1.0;
 
-/// Static state under the `weight`, by the chosen gravity stage, and the contact of its elements.
+/// Static state under the `weight`, and the contact of its elements.
 pub(super) fn state_under_weight(
     problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -72,7 +72,7 @@ pub(super) fn state_under_weight(
     Ok((state, (0..element_count).map(|e| *contact.state(e)).collect()))
 }
 
-/// Static state under `weight` and `load`, from the state under the weight, with the interface laws.
+/// Static state under `weight` and `load`, from the state under the weight.
 pub(super) fn state_under_load(
     problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
@@ -150,7 +150,7 @@ fn toppling_by_loads(problem: &StaticProblem<'_>, equilibrium_factor: f64, error
     error
 }
 
-/// Error for a frictionless static state that violates the law of a closed element.
+/// Returns an error for a frictionless static state that violates the law of a closed element.
 ///
 /// An example is a law with a bearing pressure or a compliance, if its frictionless law has none.
 fn check_frictionless_state(

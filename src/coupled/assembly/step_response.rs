@@ -1,4 +1,4 @@
-//! Responses of Ritz modes to suddenly applied unit forces, by the time scheme, to compare two sets of modes.
+//! Responses of Ritz modes to unit forces, to compare two sets of modes.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -18,9 +18,9 @@ use crate::linalg::{largest, row_products};
 
 /// Rounding of a response, relative to the largest response.
 const RESPONSE_ROUNDING_TOLERANCE: f64 = 1e-13;
-/// Number of a compared step over its distance from the next: few steps then represent long runs.
+/// Number of a compared step, divided by its distance from the next one.
 const COMPARED_STEP_DIVISOR: usize = 8;
-/// Smallest predicted ratio of the changes of two successive rounds; a faster decrease is not extrapolated.
+/// Smallest predicted ratio of the changes of two successive rounds.
 const MIN_CHANGE_RATIO: f64 = 0.1;
 
 /// Responses of all outputs (rows) to all forces, at some steps.
@@ -203,7 +203,7 @@ fn largest_difference(
     max_difference
 }
 
-/// Responses of all outputs to the first `force_count` rows as forces, from the states of the modes.
+/// Responses of all outputs to the first rows as forces, from states of the modes.
 fn output_responses(
     modal_rows: &[f64],
     states: &[f64],
@@ -232,7 +232,7 @@ fn binomial_weights(count: usize) -> Vec<f64> {
     weights
 }
 
-/// States u, v and a of each mode under a unit force that grows by weights: steps × 3 × modes.
+/// States u, v and a of each mode under a growing unit force: steps × 3 × modes.
 fn mode_states(
     modes: &RitzModes,
     coefficients: &SchemeCoefficients,

@@ -25,7 +25,7 @@ use crate::structure::{NonlinearForce, Structure, Tangent};
 /// Number of steps for the choice of coordinates if the expected number is unknown.
 const DEFAULT_EXPECTED_STEPS: usize = 4_000;
 
-/// Largest number of degrees of freedom of a structure whose modes may all replace inaccurate Ritz modes.
+/// Largest number of degrees of freedom for which all modes replace inaccurate Ritz modes.
 const MAX_FALLBACK_DOFS: usize = 1_000;
 /// Largest number of degrees of freedom for the same replacement with many forces.
 ///
@@ -42,11 +42,13 @@ mod cost {
     pub(crate) const SPARSE_ENTRY: f64 = 1.0;
     /// Time for each mode and step.
     pub(crate) const MODE_AND_STEP: f64 = 4.0;
-    /// Time for each mode, contact component and step, in addition to the time in degrees of freedom.
+    /// Additional time for each mode, contact component and step.
+    ///
+    /// It is the excess over the time in degrees of freedom.
     pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
-    /// Time for the computation of all modes, over the square of their number.
+    /// Time for the computation of all modes, divided by the square of their number.
     pub(crate) const ALL_MODES_SQUARE: f64 = 60.0;
-    /// Time for the computation of all modes, over the cube of their number.
+    /// Time for the computation of all modes, divided by the cube of their number.
     pub(crate) const ALL_MODES_CUBE: f64 = 0.45;
 }
 
@@ -153,7 +155,7 @@ fn check_tangent(structure: &dyn Structure, assembled: &Assembled) -> Result<()>
     Err(Error::Scene { quantity, needed: "symmetric on a base in plan" })
 }
 
-/// Ritz modes that reach a tolerance, or all modes of a small structure whose Ritz modes do not reach it.
+/// Ritz modes that reach a tolerance, or all modes of a small structure.
 fn ritz_modes(
     reduction: &Reduction<'_>,
     assembled: &Assembled,
@@ -171,7 +173,9 @@ fn ritz_modes(
     })
 }
 
-/// Replaces the `error` of a singular effective stiffness by the mechanism that causes it, if there is one.
+/// Replaces the `error` of a singular effective stiffness by its cause.
+///
+/// The cause is a mechanism; without one the error stays.
 fn singularity_cause(
     assembled: &Assembled,
     structure: &dyn Structure,
@@ -185,9 +189,10 @@ fn singularity_cause(
     mechanism.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// The modes, if steps in modal coordinates take less time, including the computation of the modes.
+/// The modes, if steps in modal coordinates take less time.
 ///
-/// `factor_entries` is the number of entries of the sparse factor in degrees of freedom.
+/// The computation of the modes is included. `factor_entries` is the number of entries of the sparse factor in
+/// degrees of freedom.
 fn modes_if_faster(
     assembled: &Assembled,
     factor_entries: usize,

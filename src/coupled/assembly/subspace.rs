@@ -20,7 +20,9 @@ use crate::structure::proportional_factors;
 pub(crate) const MAX_MODE_COUPLING: f64 = 1e-10;
 /// Eigenvalues below this ratio to the largest count as zero.
 const ZERO_EIGENVALUE_RATIO: f64 = 1e-13;
-/// Smallest accepted ratio of an eigenvalue to the largest; between the two limits its value is uncertain.
+/// Smallest accepted ratio of a nonzero eigenvalue to the largest.
+///
+/// Between both limits the eigenvalue is uncertain.
 const MIN_NONZERO_EIGENVALUE_RATIO: f64 = 1e-10;
 /// Name of reduced coordinates in errors.
 pub(crate) const REDUCED_COORDINATES_NAME: &str = "reduced coordinates";
@@ -99,7 +101,9 @@ impl<'a> Subspace<'a> {
         &self.rows.momenta()[first * self.order()..]
     }
 
-    /// Products V M of the vectors from index `first` on, times the scheme's coefficient of the acceleration.
+    /// Products V M of the vectors from index `first` on, times a coefficient.
+    ///
+    /// `coefficient`: that of the acceleration in the scheme.
     pub(crate) fn inertia(&self, first: usize, coefficient: f64) -> Vec<f64> {
         self.momenta(first).iter().map(|momentum| coefficient * momentum).collect()
     }
@@ -118,7 +122,7 @@ impl<'a> Subspace<'a> {
         self.project(first_new);
     }
 
-    /// Adds the rows and columns of the vectors from index `first_new` on to the projected C and K.
+    /// Extends the projected C and K by the vectors from index `first_new` on.
     fn project(&mut self, first_new: usize) {
         let order = self.order();
         let count = self.count();
@@ -204,12 +208,16 @@ impl<'a> Subspace<'a> {
         forces
     }
 
-    /// Products of the vectors from index `first` on with the rows of F, a row for each vector.
+    /// Products of the vectors from index `first` on with the rows of F.
+    ///
+    /// One row for each vector.
     pub(crate) fn products(&self, first: usize, rows: &[f64]) -> Vec<f64> {
         row_products(&self.rows.vectors()[first * self.order()..], rows, self.order())
     }
 
-    /// Adds the products of the newest vectors to the products of all earlier vectors, a row for each vector.
+    /// Adds the newest vectors' products with F to those of all earlier vectors.
+    ///
+    /// One row for each vector.
     pub(super) fn extend_products(&self, products: &mut Vec<f64>, rows: &[f64]) {
         let row_count = (rows.len() / self.order()).max(1);
         products.extend(self.products(products.len() / row_count, rows));
@@ -230,7 +238,9 @@ impl<'a> Subspace<'a> {
         rows
     }
 
-    /// The modal basis in degrees of freedom; vectors that were added after the modes are not used.
+    /// The modal basis in degrees of freedom.
+    ///
+    /// Vectors that were added after the modes are not used.
     pub(crate) fn basis(self, modes: &RitzModes) -> ModalBasis {
         let count = modes.stiffness.len();
         let mut rows = self.rows.into_vectors();

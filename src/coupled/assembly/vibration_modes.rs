@@ -16,7 +16,9 @@ use crate::linalg::{Eigenpairs, Partition, SparseMatrix, dot, generalised_modes,
 
 /// Eigenvalues below this ratio to the largest count as zero.
 const ZERO_EIGENVALUE_RATIO: f64 = 1e-11;
-/// Smallest accepted ratio of an eigenvalue to the largest; between the two limits its value is uncertain.
+/// Smallest accepted ratio of a nonzero eigenvalue to the largest.
+///
+/// Between both limits the eigenvalue is uncertain.
 const MIN_NONZERO_EIGENVALUE_RATIO: f64 = 1e-8;
 /// Number of rigid motions of a part in the plane.
 const RIGID_MOTIONS_IN_PLANE: usize = 3;
@@ -25,7 +27,9 @@ const RIGID_MOTIONS_IN_SPACE: usize = 6;
 /// Relative asymmetry of a matrix that counts as rounding.
 pub(super) const ASYMMETRY_TOLERANCE: f64 = 1e-13;
 
-/// All modes that diagonalise mass, damping and stiffness; `None` if they do not exist or are not accurate.
+/// All modes, if they diagonalise mass, damping and stiffness.
+///
+/// `None` if there are no such modes, or they are not accurate.
 pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let matrices = assembled.matrices();
     if !assembled.is_linear

@@ -13,7 +13,9 @@ use crate::geometry::ContactElement;
 use crate::linalg::{CompressedMatrix, DenseFactor, SparseMatrix, dot, transposed_multiply_add};
 use crate::structure::{BaseNode, Triplets};
 
-/// Largest order of the compliance of a refined base; it bounds time and memory of the check.
+/// Largest order of the compliance of a base that is refined.
+///
+/// It limits time and memory of the check.
 const MAX_REFINED_ORDER: usize = 3600;
 /// Name in errors of the stiffness with springs for deviations from element means.
 const FIXED_MEANS_STIFFNESS_NAME: &str = "stiffness matrix with fixed contact elements";
@@ -32,7 +34,9 @@ pub(super) struct ZeroMeanShape {
     pub(super) face: usize,
 }
 
-/// Faces of the foundations: the number and the nodes of the foundation, and the elements of the face.
+/// Faces of the foundations.
+///
+/// Each has the number and the nodes of its foundation, and the elements of the face.
 ///
 /// A foundation without walls is one face.
 pub(super) fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
@@ -52,7 +56,9 @@ pub(super) struct RefinedBase {
 }
 
 impl RefinedBase {
-    /// Refines the elements of a base; `None` if the compliance is unknown, or too large for a check.
+    /// Refines the elements of a base.
+    ///
+    /// `None` if the compliance is unknown, or too large for a check.
     pub(super) fn new(parts: &Parts, base: &PlacedBase) -> Option<Self> {
         let patch = base.elements();
         if patch[0].parts().count() * patch.layout().len() > MAX_REFINED_ORDER {
@@ -73,7 +79,9 @@ impl RefinedBase {
 }
 
 impl ZeroMeanShape {
-    /// The shape with the smallest ρ on a ground; `None` if there is no such shape.
+    /// The shape with the smallest ρ on a ground.
+    ///
+    /// `None` if there is no such shape.
     ///
     /// `halves`: see [`soil_moduli`].
     pub(super) fn softest(
@@ -88,7 +96,7 @@ impl ZeroMeanShape {
         let mut deviation_springs = Triplets::new(dofs);
         for (point, rows) in base.deviations() {
             for (component, row) in rows.iter().enumerate() {
-                let modulus = moduli[layout.place(component, point.element)];
+                let modulus = moduli[layout.index_of(component, point.element)];
                 deviation_springs.add_outer(row, modulus * point.area);
             }
         }
@@ -133,14 +141,14 @@ impl ZeroMeanShape {
     }
 }
 
-/// Number of the face with the largest energy of deviations from element means in a shape.
+/// Number of the face with the largest energy of deviations from element means.
 fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize {
     let mut energies = vec![0.0; faces(base).count()];
     for (point, rows) in base.deviations() {
         let face = faces(base).position(|(.., elements)| elements.contains(&point.element));
         for (component, row) in rows.iter().enumerate() {
             let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
-            let modulus = moduli[base.layout().place(component, point.element)];
+            let modulus = moduli[base.layout().index_of(component, point.element)];
             energies[face.unwrap_or(0)] += modulus * point.area * value * value;
         }
     }
@@ -148,7 +156,9 @@ fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize
     largest.map_or(0, |(face, _)| face)
 }
 
-/// Factored matrix 1 + MEAN_SPRING_FACTOR · modulus · D, with the structure's part D of the Delassus operator.
+/// Factored matrix of springs that fix the element means.
+///
+/// It is 1 + MEAN_SPRING_FACTOR · modulus · D, with the structure's part D of the Delassus operator.
 ///
 /// The right-hand sides are the element means without springs, times MEAN_SPRING_FACTOR · modulus. The solutions are
 /// the tractions of springs that fix the element means.
@@ -180,7 +190,7 @@ fn soil_moduli(
     let faces: Vec<_> = faces(base).map(|(.., elements)| elements).collect();
     let mut moduli = Vec::with_capacity(layout.len());
     for i in 0..layout.len() {
-        let [component, e] = layout.origin(i);
+        let [component, e] = layout.component_and_element(i);
         let face = faces.iter().position(|elements| elements.contains(&e));
         let face_elements = face.map_or(e..e + 1, |face| faces[face].clone());
         let neighbours = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
@@ -215,20 +225,22 @@ fn alternating_compliance(
 ) -> f64 {
     let order = base.layout().len();
     let row = |element: usize| {
-        &ground_compliance[base.layout().place(component, element) * order..][..order]
+        &ground_compliance[base.layout().index_of(component, element) * order..][..order]
     };
-    let i = base.layout().place(component, elements[0]);
-    let j = base.layout().place(component, elements[1]);
+    let i = base.layout().index_of(component, elements[0]);
+    let j = base.layout().index_of(component, elements[1]);
     0.5 * (row(elements[0])[i] + row(elements[1])[j] - row(elements[0])[j] - row(elements[1])[i])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::magnitude;
+    use crate::linalg::magnitude_sum;
     use basemat_testkit::random::Random;
 
-    /// REFERENCE: the matrix with the springs that fix the means, (K + Σ MEAN_SPRING_FACTOR · modulus · area · b bᵀ) x = f.
+    /// REFERENCE: the matrix with the springs that fix the means.
+    ///
+    /// (K + Σ MEAN_SPRING_FACTOR · modulus · area · b bᵀ) x = f.
     #[test]
     fn spring_tractions_are_those_of_the_matrix_with_springs() {
         let mut random = Random(7);
@@ -278,7 +290,7 @@ mod tests {
             computed
                 .iter()
                 .zip(&expected)
-                .all(|(a, b)| (a - b).abs() < 1e-8 * magnitude(&expected))
+                .all(|(a, b)| (a - b).abs() < 1e-8 * magnitude_sum(&expected))
         );
     }
 }

@@ -52,7 +52,9 @@ fn triangle_weights([a, b, c]: [Point; 3], p: Point) -> [f64; 3] {
     [weight_a, weight_b, 1.0 - weight_a - weight_b]
 }
 
-/// Weights of the corners of a quadrilateral at coordinates s, t, which are from 0 to 1 inside.
+/// Weights of the corners of a quadrilateral at coordinates s, t.
+///
+/// Inside, both coordinates are from 0 to 1.
 pub(crate) fn bilinear_weights([s, t]: [f64; 2]) -> [f64; 4] {
     [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]
 }
@@ -67,7 +69,9 @@ impl Quadrilateral {
         weights[1] * corners[0][k] + weights[2] * corners[1][k] + weights[3] * corners[2][k]
     }
 
-    /// Newton step from the coordinates `[s, t]` towards a point; `None` for a singular Jacobian.
+    /// Newton step from the coordinates `[s, t]` towards a point.
+    ///
+    /// `None` for a singular Jacobian.
     fn newton_step(&self, [s, t]: [f64; 2], p: Point) -> Option<[f64; 2]> {
         let weights = bilinear_weights([s, t]);
         let residual = [0, 1].map(|k| p[k] - self.weighted_sum(weights, k));

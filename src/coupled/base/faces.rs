@@ -10,7 +10,9 @@ use crate::error::{Error, Result, require};
 use crate::geometry::{ContactElement, Patch};
 use crate::structure::BaseNode;
 
-/// Distance of a Gauss point from the middle of an interval, relative to the interval's length: 1/(2√3).
+/// Distance of a Gauss point from the middle of its interval: 1/(2√3).
+///
+/// It is relative to the length of the interval.
 pub(crate) const GAUSS_POINT_OFFSET: f64 = 0.288_675_134_594_812_9;
 /// Smallest number of integration points of an element, as with 2 × 2 Gauss points.
 const MIN_POINTS_PER_ELEMENT: usize = 4;
@@ -160,10 +162,10 @@ impl<'a> DividedFaces<'a> {
         Weights::Sparse(terms)
     }
 
-    /// Indices and weights of nodes in the mean displacement of an element, by 2 × 2 Gauss points.
+    /// Indices and weights of nodes in the mean displacement of an element.
     ///
-    /// A point outside all faces has the continued displacement of the nearest face. A point with a distance of more than
-    /// `max_distance` (m) from the faces is an error that names the element.
+    /// The mean is that of 2 × 2 Gauss points. A point outside all faces has the continued displacement of the nearest
+    /// face. A point with a distance of more than `max_distance` (m) from the faces is an error that names the element.
     fn mean_weights(
         &self,
         element: usize,
@@ -185,7 +187,9 @@ impl<'a> DividedFaces<'a> {
         Ok(weights)
     }
 
-    /// Indices and weights of nodes in the displacement of a point, and its distance from the faces, m.
+    /// Indices and weights of nodes in the displacement of a point.
+    ///
+    /// The second result is the distance of the point from the faces, m.
     fn corner_weights(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
         let (piece, corners, distance) = self.nearest(point);
         (piece.iter().copied().zip(corner_weights(&corners, point)).collect(), distance)

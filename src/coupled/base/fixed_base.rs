@@ -17,11 +17,13 @@ use crate::structure::{
     mass_and_stiffness, max_diagonal_stiffness,
 };
 
-/// Stiffness of the ground over 4 m/Δt², the resistance of the structure's mass m in a step.
+/// Stiffness of the almost rigid ground, relative to 4 m/Δt².
+///
+/// This is the resistance of the structure's mass m in a step.
 const FIXED_GROUND_STIFFNESS_RATIO: f64 = 1e6;
 /// Stiffness that makes foundations rigid, relative to the structure's largest stiffness.
 const RIGID_FOUNDATION_STIFFNESS_RATIO: f64 = 1e5;
-/// Fraction of a node's displacement or of a motion's norm that counts as rounding.
+/// Fraction of a displacement, or of the norm of a motion, that counts as rounding.
 const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 
 /// The structure with rigid foundations, and an almost rigid ground under it.
@@ -206,7 +208,7 @@ impl Structure for StructureOnRigidFoundations {
     }
 }
 
-/// What stays in a wrapper without its structure.
+/// Placeholder in a wrapper after its structure has been moved out.
 struct NoStructure;
 
 impl Structure for NoStructure {

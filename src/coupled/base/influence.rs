@@ -8,7 +8,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::SparseVector;
 use crate::error::{Error, Result};
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::structure::BaseNode;
 
 /// The influence vectors of all connected parts.
@@ -107,8 +107,8 @@ impl Influence {
 
     /// Mean translation of the base of one part.
     ///
-    /// Of a part without foundations it is the translation of the part on which it stands, and the relative displacement
-    /// at one element of the joint between them.
+    /// For a part without foundations it is the sum of two terms: the translation of the part on which it stands, and
+    /// the relative displacement at one element of the joint between both parts.
     pub(crate) fn base_translation(
         &self,
         part: &ConnectedPart,
@@ -123,9 +123,9 @@ impl Influence {
         [0, 1, 2].map(|k| translation[k] + sign * relative[k])
     }
 
-    /// Sets the entries of the joints in soil displacements from which the translation of each part is subtracted.
+    /// Sets the joints' entries of soil displacements relative to translating parts.
     ///
-    /// They are the translation y of the ground under the lower side minus that under the upper side.
+    /// The entries are the translation y of the ground under the lower side minus that under the upper side.
     pub(crate) fn set_joint_distortion(
         &self,
         base: &PlacedBase,
@@ -141,7 +141,7 @@ impl Influence {
             for e in joint.elements.clone() {
                 let values = base.element(e).components([right, along_y, up]);
                 for (component, value) in (0..layout.components()).zip(values) {
-                    distortion[layout.place(component, e)] = value;
+                    distortion[layout.index_of(component, e)] = value;
                 }
             }
         }
@@ -186,7 +186,7 @@ impl Influence {
     pub(crate) fn part_vectors(&self, dofs: usize) -> Vec<f64> {
         let vectors = self.parts.iter().flat_map(|part| &part.vectors);
         let nonempty_vectors = vectors.filter(|vector| !vector.is_empty());
-        nonempty_vectors.flat_map(|vector| spread(vector, dofs)).collect()
+        nonempty_vectors.flat_map(|vector| dense_vector(vector, dofs)).collect()
     }
 
     /// The vectors of the whole structure for all directions, with `dofs` entries each.
@@ -213,7 +213,9 @@ impl ConnectedPart {
         if self.support.is_some() { &[] } else { &self.elements }
     }
 
-    /// The contact nodes of its foundations; of a part without foundations, of its side of the joint below it.
+    /// The contact nodes of the part's foundations.
+    ///
+    /// For a part without foundations they are the nodes on its side of the joint that supports it.
     pub(crate) fn nodes<'a>(&self, base: &'a PlacedBase) -> Vec<&'a BaseNode> {
         if let Some(Support { element, sign, .. }) = self.support {
             let joint = base.joints().iter().find(|joint| joint.elements.contains(&element));
@@ -268,7 +270,7 @@ impl ConnectedPart {
         for &e in self.elements() {
             let values = base.elements()[e].components([right, along_y, up]);
             for (component, value) in (0..layout.components()).zip(values) {
-                displacement[layout.place(component, e)] -= value;
+                displacement[layout.index_of(component, e)] -= value;
             }
         }
     }
@@ -302,7 +304,7 @@ struct NextPart {
     support: Support,
 }
 
-/// Finds a part that stands on, or else hangs from, a part that is connected to the ground.
+/// Finds a part that stands on, or hangs from, a part connected to the ground.
 fn next_supported(
     base: &PlacedBase,
     joint_labels: &[[usize; 2]],

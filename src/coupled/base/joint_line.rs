@@ -6,7 +6,9 @@ use crate::error::{Result, at_least, finite, require};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::structure::BaseNode;
 
-/// Distance of a node from the straight line of its side that counts as rounding, relative to the line's length.
+/// Distance of a node from the line of its side that counts as rounding.
+///
+/// It is relative to the length of the line.
 const STRAIGHTNESS_TOLERANCE: f64 = 1e-6;
 
 /// Two lines of nodes of a structure, and contact elements between them.
@@ -14,7 +16,9 @@ const STRAIGHTNESS_TOLERANCE: f64 = 1e-6;
 pub(crate) struct JointLine {
     /// Nodes of the upper side, then nodes of the lower side.
     sides: [Vec<BaseNode>; 2],
-    /// Contact elements, in the order of the nodes, with the normal from the upper side into the lower side.
+    /// Contact elements, in the order of the nodes.
+    ///
+    /// Their normals lead from the upper side into the lower side.
     elements: Vec<ContactElement>,
     /// Gap of the unloaded structure, m.
     pub(crate) gap: f64,
@@ -67,7 +71,7 @@ impl JointLine {
         &self.sides
     }
 
-    /// Error for weights that are not finite, and for degrees of freedom that a structure lacks.
+    /// Checks that the weights are finite, and that the structure has the degrees of freedom.
     pub(crate) fn check(&self, dof_count: usize) -> Result<()> {
         for row in self.sides.iter().flatten().flat_map(BaseNode::rows) {
             row.check("degree of freedom of a contact node", dof_count)?;
@@ -75,7 +79,9 @@ impl JointLine {
         Ok(())
     }
 
-    /// Number of straight segments along the elements, of the side that bends most; 1 for rigid sides.
+    /// Number of straight segments along the elements.
+    ///
+    /// It is that of the side with more segments, and 1 for rigid sides.
     pub(crate) fn segments(&self) -> usize {
         let first = &self.elements[0];
         let ends = [first.span()[0], first.span()[0] + self.length()];

@@ -10,7 +10,9 @@ use crate::error::Result;
 use crate::geometry::{ContactElement, ContactLayout, check_count};
 
 impl PlacedBase {
-    /// Adds joints: their nodes to the contact nodes, and their elements after those of the ground.
+    /// Adds joints, with their nodes and contact elements.
+    ///
+    /// The elements of joints follow those of the ground.
     pub(crate) fn with_joints(mut self, lines: &[JointLine]) -> Result<Self> {
         if lines.is_empty() {
             return Ok(self);
@@ -33,7 +35,7 @@ impl PlacedBase {
         for joint in &self.joints {
             for (e, components) in joint.elements.clone().zip(element_rows(&joint.line)) {
                 for (component, row) in components.into_iter().enumerate() {
-                    rows[self.layout.place(component, e)] = row;
+                    rows[self.layout.index_of(component, e)] = row;
                 }
             }
             self.areas.extend(joint.line.elements().iter().map(ContactElement::area));
@@ -82,8 +84,8 @@ impl PlacedBase {
 
     /// Index in a contact vector of an entry of the ground's elements.
     fn contact_index(&self, ground_index: usize) -> usize {
-        let [component, element] = self.elements.layout().origin(ground_index);
-        self.layout.place(component, element)
+        let [component, element] = self.elements.layout().component_and_element(ground_index);
+        self.layout.index_of(component, element)
     }
 
     /// Copies the entries of the ground's elements out of a contact vector.
@@ -148,7 +150,9 @@ impl PlacedBase {
     }
 }
 
-/// Rows of B of a joint's elements: mean displacement of the upper side minus that of the lower side, by components.
+/// Rows of B of a joint's elements, by elements and components.
+///
+/// A row is the mean displacement of the upper side minus that of the lower side.
 fn element_rows(line: &JointLine) -> Vec<Vec<SparseVector>> {
     let sides = line.sides();
     let nodes = sides.concat();

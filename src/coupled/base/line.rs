@@ -76,7 +76,7 @@ impl PlacedBase {
     }
 }
 
-/// Error for nodes out of order: nodes of one height must run from left to right.
+/// Returns an error unless nodes of one height run from left to right.
 fn check_order(nodes: &[BaseNode]) -> Result<()> {
     let mut level_pairs = nodes.windows(2).filter(|pair| pair[0].z == pair[1].z);
     level_pairs.try_for_each(|pair| check_left_to_right(pair[0].x, pair[1].x))
@@ -124,7 +124,9 @@ impl NodesOnElement {
         Self { first_node: 0, coordinates, ends: element.span() }
     }
 
-    /// Selects the nodes on the line of an element; an error unless they cover the element.
+    /// Selects the nodes on the line of an element.
+    ///
+    /// Returns an error unless the nodes cover the element.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         // Coordinates along the element's normal and tangent.
         let local = |node: &BaseNode| element.components([node.x, node.y, node.z]);
@@ -186,7 +188,9 @@ impl NodesOnElement {
         weights
     }
 
-    /// Gauss points on each piece of the element: length (m), and indices and weights of nodes.
+    /// Gauss points on each piece of the element.
+    ///
+    /// Each has a length (m), and the indices and weights of its nodes.
     fn gauss_points(&self) -> Vec<(f64, Vec<(usize, f64)>)> {
         let mut points = Vec::new();
         for ElementPiece { node, x0, x1, start, end } in self.pieces() {
@@ -204,10 +208,12 @@ impl NodesOnElement {
 struct ElementPiece {
     /// Index of the first of the two nodes.
     node: usize,
-    /// Coordinates of the nodes along the element's tangent, m.
+    /// Coordinate of the first node along the element's tangent, m.
     x0: f64,
+    /// Coordinate of the second node, m.
     x1: f64,
-    /// Ends of the piece along the element's tangent, m.
+    /// Coordinate of the piece's first end along the element's tangent, m.
     start: f64,
+    /// Coordinate of the second end, m.
     end: f64,
 }

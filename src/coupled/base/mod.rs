@@ -1,4 +1,4 @@
-//! Base of a structure on contact elements: mean displacements of the elements, and forces of tractions.
+//! Base of a structure on contact elements: means of displacement, and forces.
 
 mod corner_weights;
 pub(crate) mod faces;
@@ -24,10 +24,14 @@ use crate::geometry::{ContactElement, ContactLayout, Patch};
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
-/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the pass before.
+/// Number of passes that correct the translations of the contact nodes.
+///
+/// Each pass removes the rounding of the pass before.
 const TRANSLATION_CORRECTION_COUNT: usize = 4;
 
-/// Base on contact elements: B from coordinates to element means of displacement, and BᵀA from tractions to forces.
+/// Base on contact elements.
+///
+/// B maps coordinates to element means of displacement, and BᵀA maps tractions to forces.
 ///
 /// Normal components are positive downwards. The coordinates are the structure's degrees of freedom or its stepping
 /// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes B is the matrix T of halves of
@@ -69,7 +73,9 @@ pub(crate) struct PlacedFoundation {
     pub(crate) elements: Range<usize>,
     /// Settlement, downwards.
     pub(crate) settlement: Weights,
-    /// Rotation of the chord in the plane; in plan the rotations about y, about x and about the vertical.
+    /// Rotation of the chord in the plane; in plan three rotations.
+    ///
+    /// These are about y, about x and about the vertical.
     pub(crate) rotations: Vec<Weights>,
     /// Corners of the convex outline in plan, counter-clockwise; empty in the plane.
     pub(crate) corners: Vec<[f64; 2]>,
@@ -118,7 +124,7 @@ impl PlacedBase {
         for (e, element_weights) in weights.into_iter().enumerate() {
             let means = element_components(&nodes, &element_weights, &elements[e]);
             for (component, terms) in means.into_iter().enumerate() {
-                rows[layout.place(component, e)] = terms;
+                rows[layout.index_of(component, e)] = terms;
             }
         }
         Self {
@@ -150,7 +156,7 @@ impl PlacedBase {
                 &self.elements[point.element],
             );
             for (component, terms) in rows.iter_mut().enumerate() {
-                accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
+                accumulate(terms, &self.mean_row(layout.index_of(component, point.element)), -1.0);
             }
             (point, rows)
         })
@@ -237,7 +243,7 @@ impl PlacedBase {
 
     /// Area of the element of contact component `i`, m²; in the plane its length, m.
     pub(crate) fn area(&self, i: usize) -> f64 {
-        self.areas()[self.layout().origin(i)[1]]
+        self.areas()[self.layout().component_and_element(i)[1]]
     }
 
     /// Writes the element means B u to `out`.
@@ -257,7 +263,7 @@ impl PlacedBase {
         let layout = self.layout();
         let mut components = [0.0; 3];
         for (component, value) in components.iter_mut().take(layout.components()).enumerate() {
-            *value = displacement[layout.place(component, e)];
+            *value = displacement[layout.index_of(component, e)];
         }
         let vector = self.element(e).vector(components);
         [vector[0], vector[2], vector[1]]
@@ -381,7 +387,7 @@ fn element_components(
     components
 }
 
-/// Error for a foundation without elements.
+/// Returns an error for a foundation without elements.
 pub(crate) fn check_covered(foundations: &[PlacedFoundation]) -> Result<()> {
     let quantity = "list of contact elements under a foundation";
     foundations

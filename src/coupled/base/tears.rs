@@ -57,7 +57,9 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
     Ok(torn_points.first().map(|point| (torn_points.len(), points.point(*point))))
 }
 
-/// Whether some degree of freedom raises a node and a weighted mean of other nodes by different amounts.
+/// Whether a degree of freedom can part a node from a weighted mean of nodes.
+///
+/// It then raises both by different amounts.
 ///
 /// Only vertical displacements count. Shells of different thickness have undersides at different heights. Where the
 /// shells rotate, the undersides move horizontally by different amounts, but rise together.

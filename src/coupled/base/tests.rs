@@ -50,9 +50,11 @@ fn means_of_a_linear_field_are_exact_on_any_mesh() {
     assert!((force_work - traction_work).abs() < 1e-13);
 }
 
-/// Rigid motions by hand of a block 4 m wide and 3 m deep, along the normals into the soil and along the outline.
+/// Rigid motions by hand of a block 4 m wide and 3 m deep.
+///
+/// Components are along the normals into the soil and along the outline.
 #[test]
-fn walls_move_along_their_own_directions() {
+fn walls_move_along_their_normals_and_tangents() {
     let node = |x: f64, z: f64| BaseNode {
         x,
         z,

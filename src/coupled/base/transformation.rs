@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::linalg::matrix::{SparseMatrix, spread};
+use crate::linalg::matrix::{SparseMatrix, dense_vector};
 use crate::linalg::{dense_multiply_add, dot, largest, transposed_multiply_add};
 use crate::structure::DofCombination;
 
@@ -59,7 +59,9 @@ impl Transformation {
         }
     }
 
-    /// Stepping coordinates of a motion u of the degrees of freedom; q = Φᵀ M u for modes.
+    /// Stepping coordinates of a motion u of the degrees of freedom.
+    ///
+    /// For modes they are q = Φᵀ M u.
     pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
         match self {
             Self::Identity => dofs.to_vec(),
@@ -246,7 +248,7 @@ impl ModalBasis {
         vector: &[(usize, f64)],
         mass: &SparseMatrix,
     ) -> Vec<(usize, f64)> {
-        let coordinates = self.coordinates(&spread(vector, mass.order()), mass);
+        let coordinates = self.coordinates(&dense_vector(vector, mass.order()), mass);
         let rounding = RIGID_COORDINATE_ROUNDING * largest(&coordinates);
         let mut rigid_terms = Vec::new();
         for (j, (q, stiffness)) in coordinates.into_iter().zip(&self.stiffness).enumerate() {

@@ -3,7 +3,9 @@
 use super::PlacedBase;
 use crate::geometry::{axis_name, enclosing_interval, span};
 
-/// Fraction of a foundation's length that may extend beyond the elements: its effect on the response is small.
+/// Fraction of a foundation's length that may extend beyond the elements.
+///
+/// Its effect on the response is small.
 const MAX_UNCOVERED_FRACTION: f64 = 0.1;
 
 impl PlacedBase {

@@ -17,7 +17,7 @@ use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
 use crate::error::{Error, Result, at_least};
 use crate::geometry::Patch;
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, SpringSupportedBase, Structure, StructureError, Tangent, Triplets, check_attached,
@@ -39,7 +39,9 @@ pub(crate) struct Assembled {
     pub(crate) mass: Arc<SparseMatrix>,
     pub(crate) damping: Arc<SparseMatrix>,
     pub(crate) stiffness: Arc<SparseMatrix>,
-    /// K with the tangent of the nonlinear force at rest; `None` for a linear structure.
+    /// K with the tangent of the nonlinear force at rest.
+    ///
+    /// `None` for a linear structure.
     pub(super) tangent_stiffness: Option<SparseMatrix>,
     pub(crate) base: PlacedBase,
     pub(crate) influence: Arc<Influence>,
@@ -48,7 +50,7 @@ pub(crate) struct Assembled {
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements` with joints, and factors its stiffness at rest with a fixed base.
+    /// Assembles a structure, and factors its stiffness at rest with a fixed base.
     ///
     /// Returns an error for matrices of wrong sign, parts without connection to the base, supports besides the ground, and
     /// mechanisms that cannot be factored.
@@ -104,7 +106,11 @@ impl Assembled {
         Ok((assembled, fixed_factor))
     }
 
-    /// Error with the load factor at which the structure buckles on a fixed base; `None` if it does not.
+    /// Error for a structure that buckles on a fixed base.
+    ///
+    /// `None` if it does not.
+    ///
+    /// The error contains the load factor.
     fn buckling(&self, structure: &dyn Structure) -> Option<Error> {
         let loaded = LoadedStiffness::new(structure, &self.stiffness)?;
         let factor = loaded.critical_factor(1.0, |stiffness| {
@@ -113,16 +119,16 @@ impl Assembled {
         Some(StructureError::Buckling { factor }.into())
     }
 
-    /// Coefficients β and α of a damping β (K − P–Δ) + α M; `None` for any other damping.
+    /// Coefficients β and α of a damping β (K − P–Δ) + α M, if the damping is of this form.
     pub(crate) fn damping_without_p_delta(&self, structure: &dyn Structure) -> Option<[f64; 2]> {
         let elastic = LoadedStiffness::new(structure, &self.stiffness)?.at_factor(0.0).ok()?;
         proportional_factors(&self.damping, [&elastic, &self.mass])
     }
 
-    /// Error for a damping that is not positive semi-definite, unless the structure declares active damping.
+    /// Returns an error for a damping that is not positive semi-definite.
     ///
-    /// `shifted_stiffness` is K + εM if this matrix is positive definite. Damping in proportion to it and to the mass then
-    /// needs no factorization.
+    /// A structure may declare active damping, which is not checked. `shifted_stiffness` is K + εM if this
+    /// matrix is positive definite. Damping in proportion to it and to the mass then needs no factorization.
     pub(crate) fn check_damping(
         &self,
         structure: &dyn Structure,
@@ -217,14 +223,14 @@ impl Assembled {
         StructureAtRest { structure, stiffness, mass: &self.mass, base: &self.base }
     }
 
-    /// Largest damping of a translation along the ground over the moving mass, r·C r / r·M r, 1/s.
+    /// Largest damping of a translation over the moving mass, 1/s.
     ///
-    /// It is the largest of all parts and horizontal directions.
+    /// It is r·C r / r·M r for a translation r along the ground. It is the largest of all parts and horizontal directions.
     pub(crate) fn translation_damping_rate(&self) -> f64 {
         let parts = self.influence.parts().iter();
         let vectors = parts.flat_map(|part| [&part.vectors[0], &part.vectors[2]]);
         let rates = vectors.filter(|vector| !vector.is_empty()).map(|vector| {
-            let translation = spread(vector, self.dofs());
+            let translation = dense_vector(vector, self.dofs());
             let quadratic_form = |matrix: &SparseMatrix| matrix.form(&translation, &translation);
             quadratic_form(&self.damping) / quadratic_form(&self.mass)
         });
@@ -339,10 +345,11 @@ impl<'a> LoadedStiffness<'a> {
         SparseMatrix::sum("stiffness matrix", self.stiffness.order(), &terms)
     }
 
-    /// Smallest factor of the forces at rest at which the structure is unstable, between 0 and `limit`.
+    /// Smallest factor of the forces at rest at which the structure is unstable.
     ///
-    /// `is_stable` returns whether the structure is stable with a stiffness. The result is `None` if it is stable under
-    /// `limit` times its forces at rest, or unstable without them.
+    /// The factor is between 0 and `limit`. `is_stable` returns whether the structure is stable with a
+    /// stiffness. The result is `None` if it is stable under `limit` times its forces at rest, or unstable without
+    /// them.
     pub(crate) fn critical_factor(
         &self,
         limit: f64,

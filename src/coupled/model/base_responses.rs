@@ -1,4 +1,4 @@
-//! Responses of a large yielding structure to unit tractions, on the degrees of freedom of its base alone.
+//! Responses of the base of a large yielding structure to unit tractions.
 //!
 //! The contact problem needs B K_eff⁻¹ BᵀA only. If the base is eliminated last, this matrix follows from a small dense
 //! factor. The response to the tractions of the contact problem then needs one more solution with K_eff.
@@ -19,7 +19,7 @@ pub(super) struct BaseResponses {
     unit_forces: Vec<f64>,
     /// Responses K_eff⁻¹ BᵀA on the base, one column after the other.
     responses: Vec<f64>,
-    /// Entries of each row of B: position among the degrees of freedom of the base, and weight.
+    /// Entries of each row of B: index in `dofs`, and weight.
     mean_rows: Vec<Vec<(usize, f64)>>,
 }
 

@@ -126,7 +126,9 @@ impl Condensed {
         displacement
     }
 
-    /// Factored K + εm, from the condensed matrix S + εm; `None` unless it is positive definite.
+    /// Factored K + εm, from the condensed matrix S + εm.
+    ///
+    /// `None` unless it is positive definite.
     pub(crate) fn shifted_factor(self, condensed: &SparseMatrix) -> Option<SparseFactor> {
         let order = condensed.order();
         let mut dense = vec![0.0; order * order];

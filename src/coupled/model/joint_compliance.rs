@@ -15,13 +15,15 @@ const JOINT_COMPLIANCE_RATIO: f64 = 1e-10;
 /// A body without ground stands on the fictitious springs of the static state there, whose compliance is far above that of a
 /// structure. With a ratio of 1e-10 the thrust of a portal with joints is wrong by 2e-4, with 1e-13 by 4e-8.
 pub(crate) const STATIC_JOINT_COMPLIANCE_RATIO: f64 = 1e-13;
-/// Time step below which the compliance is that for this step, s.
+/// Time step whose compliance joints have in all shorter steps, s.
 ///
 /// A body falls by 0.5 mm in this time. Penetrations of 5e-14 m are far above the rounding of displacements, so that the
 /// distribution of tractions has three digits or more.
 const MIN_REFERENCE_TIME_STEP: f64 = 1e-2;
 
-/// Compliance of joints in steps of this length (s), relative to that of the structure in such a step.
+/// Compliance of joints, relative to that of the structure in a step.
+///
+/// `time_step`: length of the step, s.
 pub(crate) fn step_compliance_ratio(time_step: f64) -> f64 {
     let reference = f64::max(MIN_REFERENCE_TIME_STEP / time_step, 1.0);
     JOINT_COMPLIANCE_RATIO * reference * reference
@@ -39,7 +41,7 @@ pub(crate) fn with_joint_compliance(
     ratio: f64,
 ) -> CompressedMatrix {
     let layout = base.layout();
-    let is_joint = |i: &usize| layout.origin(*i)[1] >= base.elements().len();
+    let is_joint = |i: &usize| layout.component_and_element(*i)[1] >= base.elements().len();
     let indices: Vec<usize> = (0..layout.len()).filter(is_joint).collect();
     let mut responses = vec![0.0; indices.len() * dofs];
     let mut unit_traction = vec![0.0; layout.len()];

@@ -7,7 +7,9 @@ use crate::coupled::base::transformation::Transformation;
 use crate::coupled::model::Model;
 use crate::coupled::scheme::SchemeCoefficients;
 
-/// Mean translation of the free field under a part, `[right, up, along_y]`; the last is zero in the plane.
+/// Mean translation of the free field under a part, `[right, up, along_y]`.
+///
+/// The last component is zero in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Translation {
     /// Translation y at the end of the step, m.
@@ -62,7 +64,7 @@ pub(crate) struct Kinematics {
     pub(crate) translations: Vec<Translation>,
     influence: Arc<Influence>,
     transformation: Transformation,
-    /// Degrees of freedom computed so far, by [`DofResponse`].
+    /// Quantities in degrees of freedom that have been computed, by [`DofResponse`].
     dof_cache: [OnceLock<Vec<f64>>; 4],
 }
 

@@ -106,7 +106,9 @@ impl Load {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }
 
-    /// `force` times the accelerations of a record in m/s², linear between its samples and zero beyond its ends.
+    /// `force` times the accelerations of a record in m/s².
+    ///
+    /// The load is linear between the samples and zero beyond the ends of the record.
     pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
         let record = record.clone();
         Self::new(row, move |time| force * record.at(time).acceleration)
@@ -158,7 +160,7 @@ impl Load {
         (self.value)(time)
     }
 
-    /// Error for degrees of freedom that the structure lacks, and for a value at t = 0 that is not finite.
+    /// Checks the degrees of freedom, and that the value at t = 0 is finite.
     ///
     /// `index` is the load's number in errors.
     pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {

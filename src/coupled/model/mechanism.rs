@@ -7,7 +7,9 @@ use crate::structure::{SpringSupportedBase, Structure, Triplets, dof_list_text};
 
 /// Largest regularising term on the diagonal, relative to the largest stiffness.
 const REGULARISATION_RATIO: f64 = 1e-12;
-/// Largest work of a mechanism on the stiffness, relative to the sum of the magnitudes of its terms.
+/// Largest relative work of a mechanism on the stiffness.
+///
+/// It is relative to the sum of the magnitudes of the terms of the work.
 const MAX_MECHANISM_WORK_RATIO: f64 = 1e-12;
 /// Largest relative work of a mechanism where no factorization has failed.
 ///
@@ -18,7 +20,9 @@ const MAX_CERTAIN_MECHANISM_WORK_RATIO: f64 = f64::EPSILON;
 const FIRM_WORK_RATIO: f64 = 1e-6;
 /// Smallest displacement of a degree of freedom of a mechanism, relative to the largest.
 const MIN_MECHANISM_DISPLACEMENT_RATIO: f64 = 0.1;
-/// Largest number of independent mechanisms that are reported; it bounds the search time.
+/// Largest number of independent mechanisms that are reported.
+///
+/// It limits the time of the search.
 const MAX_REPORTED_MECHANISMS: usize = 32;
 /// Number of inverse iterations for each mechanism; the gap to the next eigenvalue is large.
 const INVERSE_ITERATION_COUNT: usize = 3;
@@ -33,7 +37,7 @@ pub(crate) struct StructureAtRest<'a> {
 }
 
 impl StructureAtRest<'_> {
-    /// Error for a mechanism, also for one that the loads do not move.
+    /// Returns an error for a mechanism, also for one that the loads do not move.
     ///
     /// `fixed_factor` is the factored stiffness with a fixed base. For most structures it excludes a mechanism.
     pub(crate) fn check(&self, fixed_factor: &mut SparseFactor) -> Result<()> {
@@ -56,7 +60,9 @@ impl StructureAtRest<'_> {
         self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
     }
 
-    /// The mechanism, with a base on firm springs, whose relative work on the stiffness is at most `max_work_ratio`.
+    /// The mechanism of the structure on firm springs; `None` without one.
+    ///
+    /// `max_work_ratio`: largest relative work of a mechanism on the stiffness.
     fn mechanism_up_to(&self, max_work_ratio: f64) -> Option<StabilityError> {
         if self.base.dofs().is_empty() {
             return None;
@@ -90,7 +96,9 @@ fn names_of_dofs(structure: &dyn Structure, dofs: &[usize]) -> String {
     structure.describe(dofs).unwrap_or_else(|| dof_list_text(dofs))
 }
 
-/// A stiffness that is regular even if the structure has mechanisms, due to small terms on its diagonal.
+/// A stiffness that small terms on its diagonal make regular.
+///
+/// It is regular even if the structure has mechanisms.
 pub(crate) struct RegularisedStiffness {
     matrix: Triplets,
     /// Reference stiffness, about as large as the largest entry, N/m.
@@ -109,7 +117,9 @@ impl RegularisedStiffness {
         Self::on_springs(at_rest, 1.0)
     }
 
-    /// The stiffness at rest with springs under the contact nodes, `stiffness_ratio` times as stiff as its largest entry.
+    /// The stiffness at rest with springs under the contact nodes.
+    ///
+    /// The springs are `stiffness_ratio` times as stiff as the largest entry.
     pub(crate) fn on_springs<'a>(
         at_rest: &StructureAtRest<'a>,
         stiffness_ratio: f64,

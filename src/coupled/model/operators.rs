@@ -20,13 +20,19 @@ pub(crate) struct Operators {
     /// Tangent ∂f/∂u of the nonlinear force.
     pub(crate) tangent: SparseMatrix,
     factorization: StiffnessFactorization,
-    /// K_eff⁻¹BᵀA, stored column by column; not used after a change of the tangent of a large structure.
+    /// K_eff⁻¹BᵀA, stored column by column.
+    ///
+    /// It is not used after the tangent of a large structure has changed.
     pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
-    /// Buffer of zeros for the tractions of the elements; empty before the first change of the tangent.
+    /// Buffer of zeros for the tractions of the elements.
+    ///
+    /// Empty before the first change of the tangent.
     unit_traction: Vec<f64>,
-    /// Buffer for the mean displacements of the elements; empty before the first change of the tangent.
+    /// Buffer for the mean displacements of the elements.
+    ///
+    /// Empty before the first change of the tangent.
     means: Vec<f64>,
 }
 

@@ -28,7 +28,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
 use crate::error::{Error, Result, StructureError, require, require_part};
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{NEGLIGIBLE_SQUARED_FREQUENCY, Structure, Tangent};
 
@@ -38,7 +38,9 @@ const MAX_CONTACT_NODE_LAG: f64 = 1e-6;
 const MAX_IGNORED_REACTION: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
 const ROW_FORCE_TOLERANCE: f64 = 3e-10;
-/// Largest force of a row of K s, relative to the diagonal, for rows in which all entries are rounding.
+/// Largest force of a row of K s, relative to the diagonal.
+///
+/// For rows in which all entries are rounding.
 const DIAGONAL_FORCE_TOLERANCE: f64 = 1e-13;
 /// Work r·K r that counts as rounding, relative to |r|·|K| |r|; the sum of elements has 3e-17.
 const WORK_ROUNDING_TOLERANCE: f64 = 1e-15;
@@ -47,20 +49,26 @@ const BENDING_TOLERANCE: f64 = 1e-9;
 /// Largest |r − s| at which r is replaced by s.
 const MAX_ROUNDING_DISTANCE: f64 = 0.25;
 
-/// Rounding of a nonlinear force at the static state, relative to ε, the largest stiffness and the displacement.
+/// Factor of the rounding of a nonlinear force at the static state.
+///
+/// The rounding is this factor times ε, the largest stiffness and the largest displacement.
 const NONLINEAR_ROUNDING_FACTOR: f64 = 16.0;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
 const TRANSLATION_ERROR_TOLERANCE: f64 = 1e-14;
-/// Tolerance of an element's mean displacement over that of a node, apart from the rounding of its terms.
+/// Tolerance of an element's mean displacement, relative to that of a node.
+///
+/// The rounding of the terms of the mean is added.
 const MEAN_TOLERANCE_FACTOR: f64 = 10.0;
-/// Translations (m) that no nonlinear force may resist: from a small slip to the extent of a site.
+/// Translations that no nonlinear force may resist, m.
+///
+/// From a small slip to the extent of a site.
 const TRIAL_TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 
 /// Names of the directions of translation in errors.
 const TRANSLATION_NAMES: [&str; 3] = ["to the right", "upwards", "along y"];
 
-/// Error unless a structure translates freely; rounds its translations to whole numbers.
+/// Returns an error unless a structure translates freely; rounds its translations to whole numbers.
 ///
 /// `translations` are those to the right, upwards, and in plan along y. Entries close to whole numbers are rounded, and
 /// the displacements of the contact nodes become exact. `stiffness` does not contain the springs at the contact nodes.
@@ -107,7 +115,9 @@ pub(crate) fn check(
     Ok(())
 }
 
-/// Error for a part whose base does not translate as a whole: B R must be 1 in its directions of motion.
+/// Returns an error for a part whose base does not translate as a whole.
+///
+/// B R must be 1 in the directions in which the part moves.
 pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes of an element, and each term may be rounded.
@@ -115,7 +125,7 @@ pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize)
         + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
-            base.means(&spread(vector, dofs), &mut means);
+            base.means(&dense_vector(vector, dofs), &mut means);
             for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
                 let mean = base.element_displacement(e, &means)[direction];
                 if (mean - 1.0).abs() > tolerance {
@@ -182,7 +192,7 @@ pub(crate) fn parts_connected_by_force(
     if parts.len() > 1 {
         for (part, is_connected) in parts.iter().zip(&mut is_connected) {
             for vector in &part.vectors {
-                *is_connected |= find_resistance(&spread(vector, dofs))?.is_some();
+                *is_connected |= find_resistance(&dense_vector(vector, dofs))?.is_some();
             }
         }
     }

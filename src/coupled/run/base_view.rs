@@ -1,4 +1,6 @@
-//! The base after a step, as a whole or one foundation: sums, means and extremes over its elements.
+//! The base after a step, as a whole or one foundation.
+//!
+//! It gives sums, means and extremes over the elements.
 
 use std::ops::Range;
 
@@ -98,7 +100,9 @@ impl<'a> BaseView<'a> {
         self.state.context.elements.areas().get(self.elements()).unwrap_or_default()
     }
 
-    /// Left and right, front and back end: of the elements in the plane, of the outline in plan.
+    /// Left and right end, front and back end.
+    ///
+    /// They are those of the elements in the plane, and those of the outline in plan.
     pub(crate) fn ends(&self) -> [[f64; 2]; 2] {
         let footings = &self.state.context.footings;
         let indices = self.foundation.map_or(0..footings.len(), |k| k..k + 1);

@@ -3,9 +3,9 @@
 use crate::bem::ContactElement;
 use crate::coupled::run::Extremes;
 use crate::coupled::run::peak::Peak;
+use crate::coupled::state::ResultContext;
 use crate::coupled::{State, Warning};
-use crate::geometry::Patch;
-use crate::interface::ContactState;
+use crate::interface::{ContactState, Mode};
 
 /// Envelopes of one contact element in a run; tractions are means over the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,24 +81,34 @@ pub(crate) fn tension_warning(
     (limit > 0.0 && tension > limit).then_some(warning)
 }
 
-/// Envelopes of all elements at the start of a run.
-pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
-    let contacts = elements.iter().zip(&state.contact);
-    contacts
-        .map(|(element, contact)| ElementEnvelope::start(element, contact, state.time))
-        .collect()
+/// Envelopes of the elements of the ground, and of each joint, at the start of a run.
+pub(crate) fn start(state: &State) -> (Vec<ElementEnvelope>, Vec<Vec<ElementEnvelope>>) {
+    let start = |elements: &[ContactElement], contact: &[ContactState]| {
+        let pairs = elements.iter().zip(contact);
+        pairs
+            .map(|(element, contact)| ElementEnvelope::start(element, contact, state.time))
+            .collect()
+    };
+    let ResultContext { elements, joint_elements, .. } = state.context.as_ref();
+    let joints = joint_elements.iter().zip(&state.joints);
+    let joint_envelopes = joints.map(|(elements, joint)| start(elements, &joint.contact));
+    (start(elements, &state.contact), joint_envelopes.collect())
 }
 
-/// Extends the envelopes by a step of `step_duration`, s.
-pub(crate) fn update(envelopes: &mut [ElementEnvelope], state: &State, step_duration: f64) {
-    let modes = state.modes.iter();
-    for ((envelope, contact), mode) in envelopes.iter_mut().zip(&state.contact).zip(modes) {
-        envelope.pressure.update(contact.pressure, state.time);
-        envelope.shear.update(contact.shear, state.time);
-        envelope.gap.update(contact.gap, state.time);
-        envelope.slip.update(contact.slip, state.time);
-        envelope.shear_across.update(contact.shear_across, state.time);
-        envelope.slip_across.update(contact.slip_across, state.time);
+/// Extends envelopes of elements by a step of `step_duration` (s) with this contact at its end, at `time` (s).
+pub(crate) fn update(
+    envelopes: &mut [ElementEnvelope],
+    (contact, modes): (&[ContactState], &[Mode]),
+    time: f64,
+    step_duration: f64,
+) {
+    for ((envelope, contact), mode) in envelopes.iter_mut().zip(contact).zip(modes) {
+        envelope.pressure.update(contact.pressure, time);
+        envelope.shear.update(contact.shear, time);
+        envelope.gap.update(contact.gap, time);
+        envelope.slip.update(contact.slip, time);
+        envelope.shear_across.update(contact.shear_across, time);
+        envelope.slip_across.update(contact.slip_across, time);
         if !mode.is_closed() {
             envelope.open += step_duration;
         }

@@ -3,11 +3,13 @@
 use crate::coupled::state::foundation::Foundation;
 use crate::geometry::{Patch, enclosing_interval, min_interval_count};
 
-/// Ratios of base moment to base shear times width, and the number of elements that a foundation needs above each.
+/// Limits of base moment over base shear and width, with the needed number of elements.
 ///
-/// Below the last ratio rocking is negligible.
+/// A foundation needs this number of elements above the limit. Below the last ratio rocking is negligible.
 const ELEMENTS_FOR_ROCKING: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
-/// Smallest number of elements of any foundation: a single element resists no moment and does not rock.
+/// Smallest number of elements of any foundation.
+///
+/// A single element resists no moment and does not rock.
 pub(crate) const MIN_FOUNDATION_ELEMENTS: usize = 2;
 /// Deviation of a ratio of sides from a whole number that is due to rounding.
 const WHOLE_RATIO_TOLERANCE: f64 = 1e-6;
@@ -20,7 +22,7 @@ pub(crate) struct FoundationAxis {
     static_moment: f64,
     /// Largest shear so far, N (in the plane N/m).
     max_shear: f64,
-    /// Largest change of the moment from the static state so far, N·m (in the plane N·m/m).
+    /// Largest change of the moment from the static one so far, N·m (in the plane N·m/m).
     max_moment_change: f64,
 }
 

@@ -26,7 +26,9 @@ pub struct GroundMotion {
 }
 
 impl GroundMotion {
-    /// The motion of a run that ended at `end` (s), with this largest acceleration at its steps (m/s²).
+    /// The motion of a run that ended at `end`, s.
+    ///
+    /// `max_acceleration_at_steps`: largest acceleration at the steps of the run, m/s².
     pub(crate) fn new(motion: &dyn FreeField, end: f64, max_acceleration_at_steps: f64) -> Self {
         let records = motion.records();
         let strongest = records.iter().max_by(|a, b| squared_sum(a).total_cmp(&squared_sum(b)));
@@ -53,7 +55,9 @@ fn squared_sum(record: &Record) -> f64 {
     record.accelerations().iter().map(|a| a * a).sum()
 }
 
-/// Fraction of a record's Arias intensity until the time `end`, s; `None` for a record of zeros.
+/// Fraction of a record's Arias intensity until the time `end`, s.
+///
+/// `None` for a record of zeros.
 fn passed_intensity(record: &Record, end: f64) -> Option<f64> {
     let samples = record.accelerations().iter().enumerate();
     let passed_samples = samples.filter(|(k, _)| *k as f64 * record.time_step() <= end);

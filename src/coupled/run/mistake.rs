@@ -2,7 +2,9 @@
 
 use crate::coupled::run::warning_text::{likely_motion_unit, likely_soil_units, point_count_text};
 
-/// Number, mesh or ground that is probably a mistake: numbers in another unit, unless the model is not to scale.
+/// Number, mesh or ground that is probably a mistake.
+///
+/// Such numbers are in another unit, unless the model is not to scale.
 ///
 /// [`Warning::Mistake`](crate::coupled::Warning::Mistake) contains it.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -10,10 +12,10 @@ use crate::coupled::run::warning_text::{likely_motion_unit, likely_soil_units, p
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Mistake {
-    /// Faces of a base in plan meet and move apart: nodes at one point that nothing ties together, or a node on the edge
-    /// of another face.
+    /// Faces of a base in plan meet and move apart.
     ///
-    /// The base is cut there, as between two meshes side by side.
+    /// Nodes at one point are not tied together, or a node lies on the edge of another face. The base is cut there, as
+    /// between two meshes side by side.
     #[error(
         "base torn at {}, first at x = {x:.2} m, y = {y:.2} m: faces meet there and move apart (merge coincident nodes, \
          tie nodes on an edge to its ends)",
@@ -27,7 +29,9 @@ pub enum Mistake {
         /// Coordinate y of the first of these points, m.
         y: f64,
     },
-    /// Shells or sides of solids at the height of the base do not touch the ground: the base does not include them.
+    /// Shells or sides of solids at the height of the base do not touch the ground.
+    ///
+    /// The base does not include them.
     #[error(
         "faces at the height of the base that do not touch the ground: {faces}, first at x = {x:.2} m, y = {y:.2} m; \
          include them in the base if they stand on the ground"
@@ -40,9 +44,9 @@ pub enum Mistake {
         /// Coordinate y of the middle of the first of these faces, m.
         y: f64,
     },
-    /// An elastic part of a user's ground applies the traction of a step at the end of the step, s₁ = C τ.
+    /// An elastic part of a user's ground applies a traction at the end of its step.
     ///
-    /// The ground is then of first order in the time step, and adds numerical damping. See
+    /// Its displacement is s₁ = C τ. The ground is then of first order in the time step, and adds numerical damping. See
     /// [`Ground`](crate::bem::Ground#elastic-parts-in-the-mid-step-form).
     #[error(
         "ground of first order: an elastic part applies the traction of a step at the end of the step, which adds \
@@ -61,8 +65,9 @@ pub enum Mistake {
     /// A structure with an unusually long period: probably a stiffness in another unit.
     #[error("structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?")]
     LongPeriod {
-        /// Period on a fixed base, s: Rayleigh's quotient of the deflection under a horizontal force equal to the
-        /// weight.
+        /// Period on a fixed base, s.
+        ///
+        /// By Rayleigh's quotient of the deflection under a horizontal force equal to the weight.
         period: f64,
     },
     /// Ground acceleration above 2 g, or a record too weak in m/s²: probably in another unit.
@@ -79,7 +84,7 @@ pub enum Mistake {
         /// Time step of the record, s.
         time_step: f64,
     },
-    /// The time step exceeds half the mean period of a record, and does not resolve the record.
+    /// The time step exceeds half the mean period of a record, which it does not resolve.
     #[error(
         "steps of {time_step:.2e} s do not resolve a record of period {period:.2e} s; take {needed:.1e} s"
     )]
@@ -93,10 +98,10 @@ pub enum Mistake {
         /// Time step that resolves the record, and a structure with a longer period, s.
         needed: f64,
     },
-    /// The velocity of a record does not return to zero: an offset of the recorder, or a record that is cut off.
+    /// The velocity of a record does not return to zero.
     ///
-    /// The ground drifts with this velocity. [`Record::with_baseline`](crate::motion::Record::with_baseline) removes
-    /// an offset.
+    /// The recorder has an offset, or the record is cut off. The ground drifts with this velocity.
+    /// [`Record::with_baseline`](crate::motion::Record::with_baseline) removes an offset.
     #[error("record ends at {velocity:.3} m/s: baseline not corrected, or cut off?")]
     DriftingRecord {
         /// Velocity at the end of the record, m/s.
@@ -111,7 +116,9 @@ pub enum Mistake {
     HeavyStructure {
         /// Weight over the area of the contact elements, Pa.
         pressure: f64,
-        /// Shear modulus of the soil at the surface, Pa; for a base with walls, of the stiffest soil.
+        /// Shear modulus of the soil at the surface, Pa.
+        ///
+        /// For a base with walls it is that of the stiffest soil.
         shear_modulus: f64,
     },
     /// Masses of vertical and of horizontal motion that differ by more than a tenth.
@@ -122,7 +129,9 @@ pub enum Mistake {
     UnequalMasses {
         /// Mass of the structure moving up, kg (in the plane kg/m).
         vertical: f64,
-        /// Mass of the structure moving along x, in plan along x or y, kg (in the plane kg/m).
+        /// Mass of the structure moving sideways, kg (in the plane kg/m).
+        ///
+        /// Along x; in plan along x or y.
         horizontal: f64,
     },
     /// A material of implausible density: probably in another unit.

@@ -111,6 +111,9 @@ pub struct Run {
     pub serviceability: Vec<ServiceCheck>,
     /// Envelopes of the contact elements, from left to right.
     pub envelope: Vec<ElementEnvelope>,
+    /// Envelopes of the contact elements of each joint, in the order of the builder.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub joint_envelopes: Vec<Vec<ElementEnvelope>>,
     /// Changes of contact mode; each is in [`State::transitions`] of its step.
     pub mode_changes: usize,
     /// Changes by which an element opened.
@@ -122,7 +125,7 @@ pub struct Run {
     /// Largest energy error of the run; NaN without an energy balance.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub energy_error: f64,
-    /// Total number of linear solutions of the mode search.
+    /// Total number of trials of the search for contact modes, as in [`State::trials`].
     pub trials: usize,
     /// Steps that the first search for contact modes did not solve.
     pub fallbacks: Fallbacks,
@@ -172,6 +175,7 @@ impl Run {
                 extremes: Extremes::single(*value, time),
             });
         }
+        let (envelope, joint_envelopes) = envelope::start(state);
         Self {
             steps: 0,
             start: time,
@@ -185,7 +189,8 @@ impl Run {
                 .map(|k| Summary::start(state, Some(k)))
                 .collect(),
             serviceability: ServiceCheck::all(limits, state),
-            envelope: envelope::start(elements, state),
+            envelope,
+            joint_envelopes,
             mode_changes: 0,
             debondings: 0,
             rebondings: 0,
@@ -231,7 +236,11 @@ impl Run {
             probe.extremes.update(*value, time);
         }
         self.serviceability.iter_mut().for_each(|check| check.update(state));
-        envelope::update(&mut self.envelope, state, time - step_start);
+        let duration = time - step_start;
+        envelope::update(&mut self.envelope, (&state.contact, &state.modes), time, duration);
+        for (envelopes, joint) in self.joint_envelopes.iter_mut().zip(&state.joints) {
+            envelope::update(envelopes, (&joint.contact, &joint.modes), time, duration);
+        }
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|change| change.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|change| change.is_rebonding()).count();

@@ -13,7 +13,9 @@ use crate::text::table::Table;
 
 /// Approximate number of rows above which the pressure envelope omits elements.
 const MAX_PRESSURE_ROWS: usize = 12;
-/// Ratio of the outermost elements' lever to half the width, above which the page omits the hint on its error.
+/// Ratio of the outermost elements' lever to half the width that counts as accurate.
+///
+/// Above it the page omits the hint on the error of factors of safety.
 const ACCURATE_LEVER_RATIO: f64 = 0.93;
 /// Fraction of open base above which small changes of a scene may change its peaks.
 const MOSTLY_OPEN_FRACTION: f64 = 0.5;
@@ -64,6 +66,9 @@ impl fmt::Display for Run {
         };
         let faces = if self.has_walls() { "on base and walls" } else { "under the base" };
         writeln!(f, "\nPressure {faces}{selection}\n{}", pressures.text())?;
+        if !self.joint_envelopes.is_empty() {
+            writeln!(f, "\n{}", self.joint_table().text())?;
+        }
         self.write_energies(f)?;
         self.write_effort(f)?;
         for warning in &self.warnings {
@@ -268,6 +273,26 @@ impl Run {
         }
         let repeated_column_count = axes.len();
         Table { heading, repeated_column_count, rows }
+    }
+
+    /// Extremes of each joint over all its elements.
+    fn joint_table(&self) -> Table {
+        let heading = ["Joint", "gap mm", "slip mm", "largest kPa", "open s", "of s"];
+        let mut rows = Vec::with_capacity(self.joint_envelopes.len());
+        for (joint, envelopes) in self.joint_envelopes.iter().enumerate() {
+            let largest = |value: fn(&ElementEnvelope) -> f64| {
+                envelopes.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
+            };
+            rows.push(vec![
+                joint.to_string(),
+                number(1e3 * largest(|element| element.gap.value)),
+                number(1e3 * largest(|element| element.slip.value.abs())),
+                number(1e-3 * largest(|element| element.pressure.highest.value)),
+                format!("{:.3}", largest(|element| element.open)),
+                format!("{:.3}", self.end - self.start),
+            ]);
+        }
+        Table { heading: heading.map(str::to_owned).to_vec(), repeated_column_count: 1, rows }
     }
 
     fn write_effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -16,7 +16,9 @@ use crate::text::column::column;
 use crate::text::readable_number::{PrintedUnit, printed_unit, whole_body_unit};
 use crate::text::words::unknown_word_error;
 
-/// Declares the enum, its table, and the summary of a run or a foundation, from rows in the order of columns.
+/// Declares the quantities, their table, and the summary of a base.
+///
+/// The rows are in the order of columns.
 macro_rules! quantities {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $name:literal, $unit:literal, $scale:expr, [$($place:ident),*],
         $value:expr;)+) => {
@@ -89,7 +91,7 @@ macro_rules! quantities {
         }
 
         impl State {
-            /// Appends the values of the whole base or of one foundation, one to each of the `series`.
+            /// Appends a value of the base or of one foundation to each of the `series`.
             ///
             /// The values are the first quantities in the order of columns.
             pub(crate) fn append_values(&self, foundation: Option<usize>, series: &mut [Vec<f64>]) {
@@ -146,8 +148,9 @@ quantities! {
     /// Horizontal force on the soil, positive to the right, N/m.
     BaseShear base_shear, "base shear", "N/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
         |base| base.whole_or(base.state.base_shear, |foundation| foundation.base_shear);
-    /// Moment on the soil, counter-clockwise, static part included, N·m/m; in plan about the axis along y, by the
-    /// right-hand rule.
+    /// Moment on the soil, counter-clockwise, static part included, N·m/m.
+    ///
+    /// In plan about the axis along y, by the right-hand rule.
     BaseMoment base_moment, "base moment", "N·m/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
         |base| base.whole_or(base.state.base_moment, |foundation| foundation.base_moment);
     /// Total pressure on the soil, N/m.
@@ -218,7 +221,9 @@ quantities! {
     /// In plan: horizontal force on the soil along y, N.
     ShearAcross shear_across, "base shear across", "N/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
         |base| base.sum(|foundation, _| foundation.shear_across);
-    /// In plan: moment on the soil about the axis along x, by the right-hand rule, static part included, N·m.
+    /// In plan: moment on the soil about the axis along x, N·m.
+    ///
+    /// By the right-hand rule, static part included.
     MomentAcross moment_across, "base moment across", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
         |base| base.sum(|foundation, [_, y]| foundation.moment_across - foundation.normal_force * y);
     /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
@@ -245,7 +250,7 @@ quantities! {
     /// In plan: mean displacement of the free field under the base along y, m.
     FreeFieldAcross free_field_across, "free field, across", "m", Scale::Unit, [Plan],
         |base| base.state.free_field_across;
-    /// In plan: safety against overturning over the front or the back edge, otherwise as over left and right.
+    /// In plan: safety against overturning over the front or the back edge.
     OverturningSafetyAcross overturning_safety_across, "factor of safety against overturning across", "",
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
         |base| base.smallest_safety(|checks| checks.overturning[1]);
@@ -254,7 +259,7 @@ quantities! {
 /// First of the quantities that are not updated in the plane.
 const FIRST_QUANTITY_IN_PLAN: usize = Quantity::ShearAcross as usize;
 
-/// Number of slip events of a base for which memory is reserved at the start of a run.
+/// Number of slip events for which a run reserves memory.
 const RESERVED_SLIP_EVENTS: usize = 1000;
 
 /// Extremes at the start of a run: both are the initial value.
@@ -307,7 +312,9 @@ impl Quantity {
         PrintedUnit { symbol: whole_body_unit(unit.symbol, in_plan), ..unit }
     }
 
-    /// Label of the limit of one for a factor of safety; `None` for other quantities.
+    /// Label of the limit of one for a factor of safety.
+    ///
+    /// `None` for other quantities.
     pub(crate) fn limit_label(self) -> Option<&'static str> {
         match self.row().scale {
             Scale::Safety(label) => Some(label),

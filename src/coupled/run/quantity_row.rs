@@ -21,7 +21,7 @@ pub(super) enum Scale {
     Unit,
     /// A ratio, printed in per cent.
     Percent,
-    /// A factor of safety, drawn as its inverse with a limit of one; the text is the label of the limit.
+    /// A factor of safety, drawn as its inverse, with the label of its limit of one.
     Safety(&'static str),
 }
 

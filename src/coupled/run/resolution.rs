@@ -53,23 +53,29 @@ const CONTACT_VIBRATION_FACTOR: f64 = 2.0;
 const FREE_VIBRATION_STEPS: f64 = 30.0;
 /// Recommended number of steps per period if the base shear follows the ground.
 const FOLLOWING_STEPS: f64 = 15.0;
-/// Largest r of the ground: the largest base shear then has an error of about 0.9 r² = 5 %.
+/// Largest r of the ground.
+///
+/// The largest base shear then has an error of about 0.9 r² = 5 %.
 const MAX_GROUND_RATIO: f64 = 0.236;
 /// Recommended r of the ground, for an error of 3 %.
 const RECOMMENDED_GROUND_RATIO: f64 = 0.183;
-/// Largest r of the ground if the base shear varies as the ground does: an error of about 0.3 r² = 5 %.
+/// Largest r of the ground if the base shear varies as the ground does.
+///
+/// The error is then about 0.3 r² = 5 %.
 const MAX_FOLLOWED_GROUND_RATIO: f64 = 0.408;
-/// Recommended r of the ground if the base shear varies as the ground does, for an error of 3 %.
+/// Recommended r of the ground if the base shear varies with it, for 3 % error.
 const RECOMMENDED_FOLLOWED_GROUND_RATIO: f64 = 0.316;
 /// Multiples of the ground's r between which the base shear varies as the ground does.
 const FOLLOWING_RATIO_RANGE: [f64; 2] = [0.95, 1.1];
 /// Smallest number of steps for an estimate of a frequency.
 const MIN_SAMPLED_STEPS: usize = 8;
-/// Time step above which samples at the steps may not contain the motion of an earthquake, s.
+/// Time step above which steps may not sample the motion of an earthquake, s.
 const LONG_TIME_STEP: f64 = 0.1;
 /// Base shear that is due to rounding, relative to the normal force.
 const SHEAR_ROUNDING: f64 = 1e-9;
-/// Second difference of the free field that is due to rounding, relative to the largest free field so far.
+/// Second difference of the free field that counts as rounding.
+///
+/// It is relative to the largest free field so far.
 const FREE_FIELD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Fineness that elements in the plane need.
 const STRIP_FINENESS: Fineness = Fineness {
@@ -262,16 +268,18 @@ impl Resolution {
         (low..high).contains(&self.base_shear.ratio())
     }
 
-    /// Wavelength of shear waves at the frequency of the base shear, without vibrations of the contact, m.
+    /// Wavelength of shear waves at the frequency of the base shear, m.
     ///
-    /// `None` if the steps do not resolve the motion.
+    /// Vibrations of the contact are excluded. `None` if the steps do not resolve the motion.
     fn wavelength(&self) -> Option<f64> {
         let ratio = self.base_shear.ratio().min(self.ground.ratio());
         let wavelength = self.shear_wave_speed? * PI * self.time_step / ratio;
         (self.has_response() && ratio <= MAX_FOLLOWING_RATIO).then_some(wavelength)
     }
 
-    /// Wavelength of the base shear, m; `None` unless it is too short for the elements.
+    /// Wavelength of the base shear, m.
+    ///
+    /// `None` unless it is too short for the elements.
     fn short_wavelength(&self) -> Option<f64> {
         self.wavelength()
             .filter(|length| *length < self.fineness.per_wavelength[0] * self.max_element_length)

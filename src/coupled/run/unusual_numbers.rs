@@ -38,10 +38,13 @@ const RECORD_INTERVALS: [f64; 2] = [1e-4, 0.2];
 ///
 /// Records with a corrected baseline end with some per cent.
 const MAX_END_VELOCITY_RATIO: f64 = 0.3;
-/// Weight over the area of a base below which masses are probably in another unit, Pa: the weight of a timber
-/// floor.
+/// Smallest usual weight over the area of a base, Pa: that of a timber floor.
+///
+/// Below it masses are probably in another unit.
 const MIN_BASE_PRESSURE: f64 = 2e3;
-/// Largest weight over the area of a base that a soil can resist, relative to the soil's shear modulus.
+/// Largest weight over the area of a base that a soil can resist.
+///
+/// It is relative to the soil's shear modulus.
 ///
 /// Clay fails at 5.14 times its undrained strength (Prandtl 1921), and its shear modulus at small strains is at least
 /// a hundred times that strength: failure at 0.05 or less. The limit is half of that.
@@ -224,7 +227,7 @@ impl Warning {
         Some(Self::Mistake(Mistake::LongTimeStep { time_step, interval, period, needed }))
     }
 
-    /// Removes the warning of a long time step if the run has a warning of unresolved motion.
+    /// Removes the warning of a long time step beside one of unresolved motion.
     pub(super) fn drop_superseded(warnings: &mut Vec<Self>) {
         let has_unresolved_motion = warnings.iter().any(|warning| {
             matches!(warning, Self::UnresolvedMotion { .. } | Self::UnresolvedPeriod { .. })

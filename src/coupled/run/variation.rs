@@ -11,10 +11,11 @@ use crate::motion::FreeField;
 
 /// Largest r if the structure vibrates freely, with a longer period than the ground.
 pub(crate) const MAX_FREE_VIBRATION_RATIO: f64 = 0.25;
-/// Squared difference of the free field between the ends of the base, relative to its square, above which waves run along
-/// the base.
+/// Squared difference of the free field at which waves run along the base.
+///
+/// It is the difference between the ends of the base, relative to the square of the free field.
 const RUNNING_WAVE_THRESHOLD: f64 = 0.1;
-/// Largest ratio of r after to r before the sample interval is halved, if the samples resolve the motion.
+/// Largest ratio of r for half the sample interval to r, of samples that resolve the motion.
 ///
 /// For resolved motions the ratio is near a half.
 const MAX_HALVING_RATIO: f64 = 0.75;
@@ -109,7 +110,7 @@ impl Sampler<'_> {
             let samples = [-1.5, -0.5, 0.5, 1.5].map(|shift| {
                 self.ground.free_field(self.motion, time + shift * interval, &mut field);
                 let sample: [f64; COMPONENTS_IN_SPACE] = std::array::from_fn(|k| {
-                    field.get(layout.place(k, elements.len() / 2)).copied().unwrap_or(0.0)
+                    field.get(layout.index_of(k, elements.len() / 2)).copied().unwrap_or(0.0)
                 });
                 sample
             });

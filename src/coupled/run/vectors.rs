@@ -24,9 +24,10 @@ impl State {
         self.value(Quantity::ShearAcross)
     }
 
-    /// In plan: moment on the soil about the axis along x, by the right-hand rule, N·m; zero in the plane.
+    /// In plan: moment on the soil about the axis along x, N·m; zero in the plane.
     ///
-    /// About the point of [`base_moment`](State::base_moment), which is the moment about the axis along y.
+    /// By the right-hand rule, about the point of [`base_moment`](State::base_moment), which is the moment about the
+    /// axis along y.
     pub fn moment_across(&self) -> f64 {
         self.value(Quantity::MomentAcross)
     }

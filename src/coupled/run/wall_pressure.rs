@@ -12,7 +12,9 @@ const STRONG_SOIL_RATIO: f64 = 5.828_427_124_746_19;
 /// Fraction of a wall's thrust beyond the passive limit, above which a run warns.
 const EXCESS_FRACTION_LIMIT: f64 = 0.1;
 
-/// Pressure of the soil above the middle of each element, Pa; empty without walls or weight.
+/// Pressure of the soil above the middle of each element, Pa.
+///
+/// Empty without walls or weight.
 ///
 /// `masses`: mean mass of the soil above each element, kg/m². The pressure is infinite for elements of the base, and for
 /// elements whose law has a largest pressure: these are not checked.
@@ -33,7 +35,9 @@ pub(crate) fn pressures_above(scene: &Scene, masses: &[f64], gravity: f64) -> Ve
     pressures
 }
 
-/// Warning of the wall with the largest fraction of its thrust beyond the passive pressure of strong soil.
+/// Warning of a wall that presses beyond the passive pressure of strong soil.
+///
+/// It names the wall with the largest fraction of its thrust beyond that pressure.
 ///
 /// `pressures_above`: as returned by [`pressures_above`].
 pub(crate) fn wall_warning(

@@ -77,7 +77,9 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         made: f64,
     },
-    /// The base shear vibrates with a period that the time step does not resolve: fewer than twelve steps a period.
+    /// The time step does not resolve the period of the base shear.
+    ///
+    /// There are fewer than twelve steps a period.
     ///
     /// Five steps are enough where the base shear follows the ground. The ground's acceleration needs 13 steps a period
     /// itself, or 8 where the base shear follows it. [`refine`](crate::analyses::refine()) finds the error.
@@ -92,7 +94,7 @@ pub enum Warning {
         /// Time step that resolves the motion, s.
         needed: f64,
     },
-    /// Ground and base shear vary faster than the time step resolves: fewer than five steps a period.
+    /// Ground and base shear vary faster than five steps a period resolve.
     #[error(
         "steps of {time_step:.2e} s for a ground motion of {frequency:.3} Hz: take {needed:.1e} s"
     )]
@@ -144,9 +146,13 @@ pub enum Warning {
         elements: usize,
         /// Approximate number needed.
         needed: usize,
-        /// Relative change of the static shape with twice the elements; `None` if it was not computed.
+        /// Relative change of the static shape with twice the elements.
+        ///
+        /// `None` if it was not computed.
         difference: Option<f64>,
-        /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
+        /// In plan: `x` for elements of a row, `y` for elements of a column.
+        ///
+        /// In the plane `z` for elements of a wall.
         axis: Option<char>,
     },
     /// A flexible side of a joint on fewer contact elements than segments between its nodes.
@@ -158,12 +164,12 @@ pub enum Warning {
         joint: usize,
         /// Elements of the joint.
         elements: usize,
-        /// Number needed: of the segments between nodes, along the elements.
+        /// Number needed: one for each segment between nodes, along the elements.
         needed: usize,
     },
-    /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
+    /// The base extends too far beyond the ground's elements.
     ///
-    /// That part of the base has no ground.
+    /// By more than one element, or a tenth of its length. That part of the base has no ground.
     #[error("foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: no ground supports it there",
         axis_text(*axis))]
     UncoveredBase {
@@ -174,7 +180,9 @@ pub enum Warning {
         /// In plan: axis along which the base extends too far, `x` or `y`.
         axis: Option<char>,
     },
-    /// Too many cells in plan for a full passivity check: only a sample of them was checked.
+    /// The passivity of a ground in plan was checked on a sample of its cells.
+    ///
+    /// There are too many cells for a full check.
     ///
     /// The check searches for errors of the quadrature and for damping laws that are not passive. Steps are the
     /// same as with a full check.
@@ -185,10 +193,10 @@ pub enum Warning {
         /// Number of all cells.
         cells: usize,
     },
-    /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
+    /// In plan, steps were solved with less friction than the law's.
     ///
-    /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
-    /// simulation was built, the static state as one.
+    /// The law's friction is infinite or above 100. In these steps an element slid with the lower coefficient times its
+    /// pressure. Steps are counted since the simulation was built, the static state as one.
     #[error(
         "steps with friction {friction:.0} instead of the law's larger one: {steps}; shear is too small there"
     )]

@@ -13,8 +13,9 @@ use crate::motion::FreeField;
 impl Warning {
     /// Rotation above which a run warns, rad: its cosine is 0.995.
     const ROTATION_LIMIT: f64 = 0.1;
-    /// Settlement over the width of a foundation above which a run warns: usual criterion of bearing failure in
-    /// load tests.
+    /// Settlement over the width of a foundation above which a run warns.
+    ///
+    /// It is the usual criterion of bearing failure in load tests.
     const SETTLEMENT_LIMIT: f64 = 0.1;
     /// Energy error at the end of a run above which it warns.
     ///
@@ -30,14 +31,17 @@ impl Warning {
     const MIN_PASSED_INTENSITY: f64 = 2.0 / 3.0;
     /// Reduction of a slip event by damping above which a run warns.
     const SLIP_LOSS_LIMIT: f64 = 0.1;
-    /// Ratio of damping force to friction below which the loss of slip follows from the first term of its series.
+    /// Ratio of damping force to friction below which a series gives the loss of slip.
+    ///
+    /// The first term of the series is sufficient.
     const SERIES_LIMIT: f64 = 1e-3;
-    /// Ground acceleration of a run, over its records' peak, above which the ground has moved in the run.
+    /// Smallest acceleration of a moving ground, relative to the peak of its records.
     const MIN_SHAKING_FRACTION: f64 = 0.01;
-    /// Response that is due to rounding: slip in m, rotation in rad, and shear or moment (with a lever of 1 m) relative to
-    /// the normal force.
+    /// Response that counts as rounding: slip in m, rotation in rad.
+    ///
+    /// Shear, and moment with a lever of 1 m, are relative to the normal force.
     const RESPONSE_ROUNDING: f64 = 1e-9;
-    /// Relative growth of a response in the last step, up to which the response is regarded as constant.
+    /// Relative growth in the last step of a response that counts as constant.
     const CONSTANT_RESPONSE_GROWTH: f64 = 1e-4;
     /// Smallest number of steps of a run whose peaks are checked.
     const MIN_CHECKED_STEPS: usize = 8;
@@ -91,7 +95,7 @@ impl Warning {
         })
     }
 
-    /// Warnings of the end of a run: an early end, a peak at the end, or an overturned base.
+    /// Warnings of an early end, a peak at the end, or an overturned base.
     ///
     /// `acceleration`: largest ground acceleration of the run, m/s². A run that an observer or the caller's own loop ended
     /// does not warn of an early end.
@@ -145,12 +149,16 @@ impl Warning {
         (loss > Self::SLIP_LOSS_LIMIT).then_some(Self::DampedSliding { rate, loss })
     }
 
-    /// Warning of points where faces of a base move apart: their number, and the first one (m).
+    /// Warning of points where faces of a base move apart.
+    ///
+    /// `tears`: number of these points, and coordinates of the first one, m.
     pub(crate) fn of_tears(tears: Option<(usize, [f64; 2])>) -> Option<Self> {
         tears.map(|(points, [x, y])| Self::Mistake(Mistake::TornBase { points, x, y }))
     }
 
-    /// Warning of faces at the height of the base that do not touch the ground: their number, and the first one (m).
+    /// Warning of faces at the height of the base that do not touch the ground.
+    ///
+    /// `faces`: their number, and the middle of the first one, m.
     pub(crate) fn of_faces_off_ground(faces: Option<(usize, [f64; 2])>) -> Option<Self> {
         faces.map(|(faces, [x, y])| Self::Mistake(Mistake::FacesOffGround { faces, x, y }))
     }
@@ -178,7 +186,9 @@ impl Warning {
         warnings.push(Self::LessFriction { steps: 1, friction: substituted });
     }
 
-    /// Warning of a `foundation` (by its index) of this `width` (m) if its `settlement` (m) exceeds the limit.
+    /// Warning of a foundation whose settlement exceeds the limit.
+    ///
+    /// `foundation`: its index. `settlement` and `width` are in m.
     pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
         let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
         is_large.then_some(Self::LargeSettlement { foundation, settlement, width })

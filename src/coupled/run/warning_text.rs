@@ -26,7 +26,9 @@ pub(crate) fn point_count_text(count: usize) -> String {
     if count == 1 { "1 point".into() } else { format!("{count} points") }
 }
 
-/// Text of the relative change of a base's static deformed shape if its elements are halved; empty for `None`.
+/// Text of the change of a base's static shape if its elements are halved.
+///
+/// `relative_change`: `None` gives an empty text.
 pub(crate) fn refinement_text(relative_change: Option<f64>) -> String {
     match relative_change {
         Some(change) => format!(" (twice as many: {:.1} % of its static shape)", 100.0 * change),

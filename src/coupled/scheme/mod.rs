@@ -101,7 +101,9 @@ impl TimeScheme for Theta {
     }
 }
 
-/// Coefficients of u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀), with the same weights in the equation of motion.
+/// Coefficients of the θ-method: u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀).
+///
+/// The equation of motion has the same weights.
 fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
     let acceleration = [1.0 / (theta * time_step * time_step), -1.0 / (theta * time_step), 0.0];
     SchemeCoefficients {
@@ -115,7 +117,7 @@ fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
 }
 
 impl SchemeCoefficients {
-    /// Error for coefficients that are not finite.
+    /// Returns an error for coefficients that are not finite.
     pub(crate) fn check(&self) -> Result<()> {
         let motion = [self.displacement, self.velocity, self.acceleration];
         let end_motion = [self.new_velocity, self.new_acceleration, [self.load_fraction; 3]];

@@ -8,9 +8,9 @@ use crate::text::readable_number::{number, whole_body_unit};
 /// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
-    /// Left-hand side of the balance: energy that is stored, and energy that the time scheme creates or removes.
+    /// Left-hand side: energy that is stored, or changed by the time scheme.
     Balance,
-    /// Left-hand side of the balance: energy that the structure has lost as heat or to the ground.
+    /// Left-hand side: energy lost by the structure, as heat or to the ground.
     Lost,
     /// Right-hand side of the balance.
     Input,
@@ -18,7 +18,9 @@ enum Side {
     Beside,
 }
 
-/// Declares the terms as an enum, and the energy balance with a field for each, from rows in the order of columns.
+/// Declares the terms, and the energy balance with a field for each.
+///
+/// The rows are in the order of columns.
 macro_rules! energies {
     ($($(#[$doc:meta])* $variant:ident $field:ident $(($default:ident))?, $side:ident, $name:literal;)+) => {
         /// A term of the [`EnergyBalance`].
@@ -111,7 +113,9 @@ energies! {
     MidstepRemainder midstep_remainder (default), Balance, "mid-step remainder";
     /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
-    /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
+    /// Loss by friction and impact.
+    ///
+    /// It includes the loss by the springs of a compliant interface that opens and closes.
     ///
     /// It is the work of the total tractions on minus the change of the jump, without the elastic part of this change.
     /// It decreases only by the work of the weight of soil that follows a wall
@@ -130,10 +134,10 @@ energies! {
     /// Work of the loads, and of the inertia forces −M R ÿ of the free field's translation y, on displacements
     /// relative to it. Compare it with the value of a structure on a fixed base.
     RelativeInput relative_input, Beside, "relative input";
-    /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is approximate.
+    /// Error bound of `soil`; zero unless the ground's history is approximate.
     ///
-    /// The terms above balance with the approximate history, so the residual does not contain this error. With the
-    /// exact history the energy of the soil may be larger or smaller by up to this bound.
+    /// It is Σ A |τ| |error of Δs|. The terms above balance with the approximate history, so the residual does not
+    /// contain this error. With the exact history the energy of the soil may be larger or smaller by up to this bound.
     SoilErrorBound soil_error_bound, Beside, "error bound of the soil";
     /// Largest energy since the start, to which residuals are relative.
     ///
@@ -144,7 +148,9 @@ energies! {
 }
 
 impl EnergyTerm {
-    /// Name of the term in tables and pictures, which show terms of the same name as their sum.
+    /// Name of the term in tables and pictures.
+    ///
+    /// These show terms of the same name as their sum.
     pub(crate) fn name(self) -> &'static str {
         ENERGY_TERM_ROWS[self as usize].2
     }
@@ -187,7 +193,9 @@ impl EnergyBalance {
         terms.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
     }
 
-    /// Left-hand side of the balance, J, in the plane J/m, as sums of terms of the same [name](EnergyTerm::name).
+    /// Left-hand side of the balance, J, in the plane J/m.
+    ///
+    /// Terms of the same [name](EnergyTerm::name) are added up.
     pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
         for (term, energy) in self.left_hand_side() {
@@ -199,7 +207,9 @@ impl EnergyBalance {
         parts
     }
 
-    /// Terms of the left-hand side relative to the input, by name; `None` if the input is not positive.
+    /// Terms of the left-hand side relative to the input, by name.
+    ///
+    /// `None` if the input is not positive.
     pub fn fractions(&self) -> Option<Vec<(&'static str, f64)>> {
         if self.input <= 0.0 || self.input.is_nan() {
             return None;

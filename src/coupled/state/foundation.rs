@@ -1,4 +1,4 @@
-//! One foundation after a step: forces on the soil, motion of its base, and factors of safety.
+//! One foundation after a step: forces, motion and factors of safety.
 //!
 //! Factors of safety against sliding and overturning are computed from the actual contact tractions. Tractions of
 //! a base that may open and slide cannot exceed its strength: such a factor stays at or above one, and reaches it
@@ -52,10 +52,14 @@ pub struct Foundation {
     /// In plan: force on the soil along y, N; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub shear_across: f64,
-    /// In plan: moment on the soil about the axis along x through the middle, by the right-hand rule, N·m.
+    /// In plan: moment on the soil about the axis along x, N·m.
+    ///
+    /// The axis passes through the middle of the foundation; by the right-hand rule.
     #[cfg_attr(feature = "serde", serde(default))]
     pub moment_across: f64,
-    /// In plan: moment on the soil about the vertical axis through the middle, counter-clockwise from above, N·m.
+    /// In plan: moment on the soil about the vertical axis, N·m.
+    ///
+    /// The axis passes through the middle of the foundation; counter-clockwise from above.
     #[cfg_attr(feature = "serde", serde(default))]
     pub torque: f64,
     /// In plan: slip along y averaged over the elements, m.
@@ -64,7 +68,7 @@ pub struct Foundation {
     /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub rotation_across: f64,
-    /// In plan: work of the moment about the axis along x on the soil since t = 0, J; zero in the plane.
+    /// In plan: work of `moment_across` on the soil since t = 0, J; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub rocking_work_across: f64,
     /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
@@ -228,7 +232,9 @@ pub(crate) fn in_axes(
     if in_plan { [x, y, up] } else { [x, up, y] }
 }
 
-/// N b over the moment of the pressure about the middle of the base, b the half width.
+/// Factor of safety against overturning.
+///
+/// It is N b over the moment of the pressure about the middle of the base, with b the half width.
 ///
 /// In plan the smallest over the edges that face along `axis` (x 0, y 1), at their distances b from the middle of
 /// the outline; infinite along y in the plane.
@@ -283,7 +289,7 @@ mod tests {
         })
     }
 
-    /// N = 2·30 + 10 = 70, H = −14, middle 0.5, half width 1.5, moment 60·(−0.5) + 10·1 = −20.
+    /// Half width 1.5, N = 2·30 + 10 = 70, H = −14, moment 60·(−0.5) + 10·1 = −20.
     #[test]
     fn factors_of_safety_by_hand() {
         let state = contact([30.0, 10.0], [-10.0, 6.0]);
@@ -295,8 +301,10 @@ mod tests {
         assert_eq!(checks(&[]).overturning[1], f64::INFINITY);
     }
 
-    /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5)
-    /// along x 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
+    /// Elements in plan, 3 m and 1 m deep.
+    ///
+    /// N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5) along x 180·(−0.5) + 10·1, along y
+    /// 180·0 + 10·(−1).
     #[test]
     fn factors_of_safety_by_hand_in_plan() {
         let mut state = contact([30.0, 10.0], [-10.0, 6.0]);

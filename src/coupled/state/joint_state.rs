@@ -35,9 +35,10 @@ pub struct JointState {
     pub mean_slip: f64,
     /// Largest gap of an element, m.
     pub largest_gap: f64,
-    /// Energy lost by friction and impact since t = 0, J/m; NaN if the energy balance is omitted.
+    /// Energy lost by friction and impact since t = 0, J/m.
     ///
-    /// Its part of [`EnergyBalance::contact`](crate::coupled::EnergyBalance::contact).
+    /// It is NaN if the energy balance is omitted. It is the joint's part of
+    /// [`EnergyBalance::contact`](crate::coupled::EnergyBalance::contact).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub contact_energy: f64,
 }

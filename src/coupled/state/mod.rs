@@ -20,7 +20,7 @@ use crate::coupled::state::foundation::{Foundation, FoundationChecks};
 use crate::coupled::state::joint_state::JointState;
 use crate::error::Result;
 use crate::geometry::resultant;
-use crate::geometry::{Footing, Patch};
+use crate::geometry::{ContactElement, Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
 use crate::structure::Probe;
 use crate::structure::probe_index;
@@ -42,19 +42,25 @@ impl SimulationId {
 pub(crate) struct ResultContext {
     pub(crate) probes: Vec<Probe>,
     pub(crate) elements: Patch,
-    /// Distance of the resultant pressure below the middle of each element, m; empty if it acts at the middle.
+    /// Distance of the resultant pressure below the middle of each element, m.
+    ///
+    /// Empty if the pressure acts at the middle.
     pub(crate) pressure_depths: Vec<f64>,
-    /// Friction coefficients for the factor of safety against sliding: one for all elements, one for each, or none.
+    /// Friction coefficients for the factor of safety against sliding.
+    ///
+    /// One for all elements, one for each, or none.
     pub(crate) friction: Vec<f64>,
     /// Shape of each foundation.
     pub(crate) footings: Vec<Footing>,
+    /// Contact elements of each joint.
+    pub(crate) joint_elements: Vec<Vec<ContactElement>>,
 }
 
 /// Results of a simulation at the end of an accepted step.
 ///
 /// Displacements are changes from the static state, relative to the free field's translation unless stated otherwise.
 /// Forces act from the structure **on the soil**. In the plane they are per metre of thickness, in plan total forces.
-/// Tractions of the step act at its middle.
+/// Tractions are constant over the step.
 ///
 /// States of different simulations may be equal.
 #[derive(Debug, Clone)]
@@ -84,8 +90,9 @@ pub struct State {
     pub normal_force: f64,
     /// Length of open elements over the length of the base; in plan area over area.
     pub uplifted_fraction: f64,
-    /// Slip averaged over the length of the base, in plan over its area, m; positive if the structure has moved to the
-    /// right.
+    /// Slip averaged over the length of the base, in plan over its area, m.
+    ///
+    /// It is positive if the structure has moved to the right.
     pub mean_slip: f64,
     /// Rotation of the base's chord, counter-clockwise, rad; with several foundations the largest.
     ///
@@ -101,7 +108,10 @@ pub struct State {
     pub free_field_across: f64,
     /// The energy balance; every term is NaN if the balance is omitted.
     pub energy_balance: EnergyBalance,
-    /// Number of linear solutions of the mode search.
+    /// Number of trials of the search for contact modes.
+    ///
+    /// In the plane a trial is a linear solution or a sweep over the elements, in plan a sweep or an iteration of
+    /// Newton's method.
     pub trials: usize,
     /// Method that solved the contact problem; for a nonlinear structure the slowest method of all iterations.
     pub method: SearchMethod,
@@ -190,7 +200,9 @@ impl State {
         self.kinematics.dofs(DofResponse::AbsoluteDisplacement)
     }
 
-    /// Total (not relative) velocities of the degrees of freedom at the end of the step, m/s and rad/s.
+    /// Total velocities of the degrees of freedom at the end of the step.
+    ///
+    /// They are not relative to the free field; m/s and rad/s.
     pub fn velocity(&self) -> &[f64] {
         self.kinematics.dofs(DofResponse::Velocity)
     }

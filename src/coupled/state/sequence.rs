@@ -3,14 +3,14 @@
 use super::{SimulationId, State};
 use std::ops::Range;
 
-/// Check that states belong to one simulation and that their time increases.
+/// Checks that states belong to one simulation and that their times increase.
 #[derive(Debug, Clone)]
 pub(crate) struct StateSequence {
     simulation: SimulationId,
     element_count: usize,
     probe_count: usize,
     /// Elements of each foundation.
-    foundations: Vec<Range<usize>>,
+    foundation_elements: Vec<Range<usize>>,
     /// Time of the last state, s.
     last_time: f64,
 }
@@ -22,7 +22,7 @@ impl StateSequence {
             simulation: state.simulation,
             element_count: state.contact.len(),
             probe_count: state.probes.len(),
-            foundations: state
+            foundation_elements: state
                 .foundations
                 .iter()
                 .map(|foundation| foundation.elements.clone())
@@ -31,20 +31,20 @@ impl StateSequence {
         }
     }
 
-    /// Sequence that accepts no state, for a run read from a file.
+    /// Sequence that accepts no state, for a run read from a file without the time of its last state.
     #[cfg(feature = "serde")]
     pub(crate) fn closed() -> Self {
-        Self::ended(f64::INFINITY)
+        Self::closed_at(f64::INFINITY)
     }
 
-    /// Sequence that accepts no state, with the time of its last state, s.
+    /// Sequence that accepts no further state; the last one was at `last_time`, s.
     #[cfg(feature = "serde")]
-    pub(crate) fn ended(last_time: f64) -> Self {
+    pub(crate) fn closed_at(last_time: f64) -> Self {
         Self {
             simulation: SimulationId::new(),
             element_count: 0,
             probe_count: 0,
-            foundations: Vec::new(),
+            foundation_elements: Vec::new(),
             last_time,
         }
     }
@@ -53,9 +53,9 @@ impl StateSequence {
     #[cfg(feature = "serde")]
     pub(crate) fn write_end<S: serde::Serializer>(
         &self,
-        to: S,
+        serializer: S,
     ) -> std::result::Result<S::Ok, S::Error> {
-        to.serialize_f64(self.last_time)
+        serializer.serialize_f64(self.last_time)
     }
 
     /// Whether `state` belongs to the same simulation and is later than the last one.
@@ -65,11 +65,17 @@ impl StateSequence {
             && state.contact.len() == self.element_count
             && state.modes.len() == self.element_count
             && state.probes.len() == self.probe_count
-            && state.foundations.iter().map(|foundation| &foundation.elements).eq(&self.foundations)
+            && state
+                .foundations
+                .iter()
+                .map(|foundation| &foundation.elements)
+                .eq(&self.foundation_elements)
             && state.time > self.last_time
     }
 
-    /// Stores the time of `state` if it is the next one; returns whether it is.
+    /// Stores the time of `state` if it is the next one.
+    ///
+    /// Returns whether it is.
     pub(crate) fn accept(&mut self, state: &State) -> bool {
         let is_next = self.is_next(state);
         if is_next {
@@ -79,7 +85,7 @@ impl StateSequence {
     }
 
     /// Time of the last state, s.
-    pub(crate) fn end(&self) -> f64 {
+    pub(crate) fn last_time(&self) -> f64 {
         self.last_time
     }
 }

@@ -26,7 +26,9 @@ const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
 const GROUND_COMPLIANCE_NAME: &str = "static compliance of the ground";
 /// Compliance of an element of a joint, relative to the largest entry of the ground's compliance.
 const CLOSED_JOINT_COMPLIANCE_RATIO: f64 = 1e-6;
-/// Uniform compliance that is added to a compliance without a datum, relative to the largest entry of the latter.
+/// Uniform compliance that is added to a compliance without a datum.
+///
+/// It is relative to the largest entry of that compliance.
 const UNIFORM_COMPLIANCE_FACTOR: f64 = 10.0;
 
 /// A structure on the static compliance of its ground.
@@ -51,7 +53,7 @@ pub(crate) fn has_p_delta(structure: &dyn Structure) -> bool {
     structure.geometric_stiffness(&mut geometric).is_ok() && !geometric.entries().is_empty()
 }
 
-/// Error for a structure with P–Δ whose static state is an unstable equilibrium.
+/// Returns an error for a structure with P–Δ whose static state is an unstable equilibrium.
 ///
 /// Elements that are closed at rest count as bonded to the ground. The error has the load factor with all elements bonded
 /// if this factor is below 1. `condensed` is the structure condensed on its base, if it exists. Its matrix takes much less
@@ -111,9 +113,9 @@ fn is_stable_with_tangent(
         .is_ok_and(|stiffness| ground.is_stable_with(&stiffness))
 }
 
-/// Load factor up to 1 at which a structure with P–Δ becomes unstable, with all elements bonded to the ground.
+/// Load factor up to 1 at which a structure with P–Δ becomes unstable.
 ///
-/// `None` for a stable structure, and without P–Δ.
+/// All elements are bonded to the ground. `None` for a stable structure, and without P–Δ.
 pub(super) fn load_factor(grounded: GroundedStructure<'_>) -> Option<f64> {
     let GroundedStructure { assembled, structure, .. } = grounded;
     // A structure condensed on its base has other degrees of freedom.
@@ -126,13 +128,16 @@ pub(super) fn load_factor(grounded: GroundedStructure<'_>) -> Option<f64> {
 }
 
 impl<'a> GroundStiffness<'a> {
-    /// Stiffness of the ground under the closed elements; `None` unless its compliance is positive definite.
+    /// Stiffness of the ground under the closed elements.
+    ///
+    /// `None` unless its compliance is positive definite.
     fn new(grounded: GroundedStructure<'a>, is_closed: impl Fn(usize) -> bool) -> Option<Self> {
         let assembled = grounded.assembled;
         let base = &assembled.base;
         let layout = base.layout();
-        let contact_indices: Vec<usize> =
-            (0..layout.len()).filter(|index| is_closed(layout.origin(*index)[1])).collect();
+        let contact_indices: Vec<usize> = (0..layout.len())
+            .filter(|index| is_closed(layout.component_and_element(*index)[1]))
+            .collect();
         let factor = factored_compliance(grounded, &contact_indices)?;
         let dofs = base.dofs();
         // Rows of Bᵀ.
@@ -191,7 +196,7 @@ fn factored_compliance(
     };
     let mut compliance = Triplets::new(contact_indices.len());
     for (row, &i) in contact_indices.iter().enumerate() {
-        let [component, element] = layout.origin(i);
+        let [component, element] = layout.component_and_element(i);
         let law_compliance = compliance_at_rest(law_of(laws, element))[component.min(1)];
         compliance.add(row, row, law_compliance / base.area(i));
         let has_diagonal = ground_compliance.as_diagonal().is_some();
@@ -208,7 +213,7 @@ fn factored_compliance(
     let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
     // The compliance of hard contact between bodies is zero.
     for (row, &i) in contact_indices.iter().enumerate() {
-        if layout.origin(i)[1] >= base.elements().len() {
+        if layout.component_and_element(i)[1] >= base.elements().len() {
             compliance.add(row, row, CLOSED_JOINT_COMPLIANCE_RATIO * max_entry);
         }
     }

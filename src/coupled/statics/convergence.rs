@@ -8,7 +8,9 @@ use crate::linalg::{SparseMatrix, largest};
 ///
 /// The condition number must explain the change: rounding limits the convergence of a very stiff structure.
 const LATE_ITERATION_COUNT: usize = 100;
-/// Largest change that is accepted after [`LATE_ITERATION_COUNT`] iterations: its error is far below the errors of the steps.
+/// Largest change that is accepted after [`LATE_ITERATION_COUNT`] iterations.
+///
+/// Its error is far below the errors of the steps.
 const LATE_CHANGE_TOLERANCE: f64 = 1e-8;
 /// Change at which the search has converged: near rounding of the sum of all forces.
 const CHANGE_TOLERANCE: f64 = 1e-13;
@@ -22,10 +24,10 @@ const STEADY_DRIFT_RATIO: f64 = 1e-3;
 const STEADY_DRIFT_TOLERANCE: f64 = 1e-8;
 /// Force of the springs, relative to the load, below which rounding may stop its decrease.
 const SPRING_FORCE_TOLERANCE: f64 = 1e-6;
-/// Number of iterations after which the condition number must explain a force of the springs as rounding.
+/// Number of iterations after which only rounding explains a force of the springs.
 ///
-/// Even a force below [`SPRING_FORCE_TOLERANCE`] can make an element with a small pressure alternate between two modes,
-/// with a large change of shear.
+/// The condition number must then explain it. Even a force below [`SPRING_FORCE_TOLERANCE`] can make an element with a
+/// small pressure alternate between two modes, with a large change of shear.
 const ROUNDING_CHECK_ITERATION: usize = 20;
 /// Smallest ratio of two successive steps that are extrapolated; with a smaller ratio they converge soon.
 const MIN_EXTRAPOLATED_RATIO: f64 = 0.5;
@@ -56,7 +58,7 @@ pub(super) fn has_converged(
         && change <= compliance.factor.condition() * f64::EPSILON
 }
 
-/// Force of the springs, relative to the load, that counts as rounding after a number of iterations.
+/// Force of the springs that counts as rounding, relative to the load.
 pub(super) fn spring_force_rounding(iterations: usize, compliance: &Compliance) -> f64 {
     match iterations {
         0..ROUNDING_CHECK_ITERATION => SPRING_FORCE_TOLERANCE,
@@ -64,10 +66,11 @@ pub(super) fn spring_force_rounding(iterations: usize, compliance: &Compliance) 
     }
 }
 
-/// Factor of the last step that extrapolates a geometric series of steps to its limit (Aitken 1926).
+/// Factor of the last step that extrapolates a geometric series of steps.
 ///
-/// The factor is zero unless the two steps are collinear, decrease, and decrease slowly. Elements that open increase the
-/// distance to the limit. The extrapolation therefore does not pass an unstable equilibrium.
+/// The extrapolation ends at the limit of the series (Aitken 1926). The factor is zero unless the two steps are
+/// collinear, decrease, and decrease slowly. Elements that open increase the distance to the limit. The extrapolation
+/// therefore does not pass an unstable equilibrium.
 pub(super) fn extrapolation_factor(
     mass: &SparseMatrix,
     previous_step: &[f64],

@@ -14,6 +14,7 @@ use crate::coupled::statics::convergence::{
 };
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
+use crate::geometry::resultant;
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
 use crate::linalg::{CompressedMatrix, SparseMatrix, dot, largest, transposed_multiply_add};
 use crate::structure::{Structure, Tangent, nonlinear_state};
@@ -36,7 +37,9 @@ const MIN_SPRING_FRACTION: f64 = 1e-9;
 ///
 /// A structure far softer than the ground converges only slowly with springs that are stiffer than itself.
 const SLOW_DECREASE_RATIO: f64 = 0.2;
-/// Largest factor by which the springs are stiffened for a structure that is unstable (P–Δ) without the ground.
+/// Largest factor by which the springs are stiffened.
+///
+/// A structure with P–Δ that is unstable without the ground needs stiffer springs.
 const MAX_STIFFENING_FACTOR: f64 = 1e4;
 /// Number of iterations between two extrapolations, for springs that must stay stiff (P–Δ).
 const EXTRAPOLATION_INTERVAL: usize = 20;
@@ -60,7 +63,9 @@ pub(crate) struct StaticProblem<'a> {
 }
 
 impl StaticProblem<'_> {
-    /// Computes u and τ with K u + f(u) + BᵀA τ = `load` and the static contact conditions.
+    /// Computes the displacement u and the tractions τ under `load`.
+    ///
+    /// They satisfy K u + f(u) + BᵀA τ = `load` and the static contact conditions.
     ///
     /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum. Springs ε M to the last
     /// iterate make each iteration regular, and their forces vanish at convergence (proximal point method). f is linearised
@@ -117,6 +122,7 @@ impl StaticProblem<'_> {
                     return Ok((state, states.clone()));
                 }
                 change = residual.max(inner_residual);
+                last_step = step;
                 break;
             }
             if !change.is_finite() {
@@ -135,7 +141,9 @@ impl StaticProblem<'_> {
             }
             last_step = step;
         }
-        Err(self.failure(&tangent.matrix, initial_shift, iterations, change))
+        let joint_element = self.joint_element_that_moves_most(&last_step);
+        let error = Error::Preload { iterations, residual: change, joint_element };
+        Err(self.ill_conditioned(&tangent.matrix, initial_shift).unwrap_or(error))
     }
 
     /// Unbalanced force of a nonlinear structure, relative to the load; zero for a linear one.
@@ -163,29 +171,42 @@ impl StaticProblem<'_> {
         self.shared_compliance.replace(compliance.filter(can_share));
     }
 
-    /// Error for a search without an equilibrium.
+    /// Error for a search without an equilibrium whose matrix is ill-conditioned; `None` for another matrix.
     ///
     /// It has the condition number of the matrix with the initial springs. With soft springs the matrix contains only
     /// rounding in rigid motions.
-    fn failure(
-        &self,
-        tangent: &SparseMatrix,
-        initial_shift: f64,
-        iterations: usize,
-        change: f64,
-    ) -> Error {
+    fn ill_conditioned(&self, tangent: &SparseMatrix, initial_shift: f64) -> Option<Error> {
         let initial_factor = ShiftedStiffnessFactor::new(self.assembled, tangent, initial_shift);
         let condition = initial_factor.map_or(1.0, |factor| factor.condition());
-        if condition <= MAX_ACCEPTED_CONDITION {
-            return Error::Preload { iterations, residual: change };
-        }
-        Error::IllConditioned {
+        (condition > MAX_ACCEPTED_CONDITION).then_some(Error::IllConditioned {
             matrix: STATIC_STIFFNESS_NAME,
             condition,
             limit: MAX_ACCEPTED_CONDITION,
             quantity: "stiffness of the structure over that of the ground",
             ratio: PROXIMAL_SPRING_FRACTION * condition,
+        })
+    }
+
+    /// Joint and its element whose sides move most against each other in a step of the displacement.
+    ///
+    /// `None` without joints or step, and if an element of the ground moves more.
+    fn joint_element_that_moves_most(&self, step: &[f64]) -> Option<[usize; 2]> {
+        let base = &self.assembled.base;
+        if base.joints().is_empty() || step.is_empty() {
+            return None;
         }
+        let layout = base.layout();
+        let mut means = vec![0.0; layout.len()];
+        base.means(step, &mut means);
+        let movement = |element: usize| {
+            let components = 0..layout.components();
+            components.fold(0.0, |sum, k| resultant(sum, means[layout.index_of(k, element)]))
+        };
+        let elements = 0..layout.elements();
+        let element = elements.max_by(|a, b| movement(*a).total_cmp(&movement(*b)))?;
+        let mut joints = base.joints().iter().enumerate();
+        let (joint, placed) = joints.find(|(_, joint)| joint.elements.contains(&element))?;
+        Some([joint, element - placed.elements.start])
     }
 
     /// Displacement of the next iterate; `None` if its contact problem has no solution.
@@ -316,7 +337,9 @@ impl FictitiousSprings {
         force
     }
 
-    /// Whether the springs have their smallest stiffness, as for a structure that is unstable on softer springs.
+    /// Whether the springs have their smallest stiffness.
+    ///
+    /// A structure may be unstable on softer springs.
     fn must_stay_stiff(&self) -> bool {
         self.min_shift == self.shift
     }

@@ -36,7 +36,9 @@ pub(super) struct LoadedPart {
 }
 
 impl LoadedPart {
-    /// Failure mode of the base under the load; `None` if the base resists the load.
+    /// Failure mode of the base under the load.
+    ///
+    /// `None` if the base resists the load.
     pub(super) fn failure(&self) -> Option<StabilityError> {
         if self.normal <= 0.0 {
             let ends = self.x_ends();
@@ -224,9 +226,9 @@ fn area_moment(elements: &[([f64; 3], f64)], middle: [f64; 2]) -> f64 {
     moments.sum()
 }
 
-/// Largest ratio of the eccentricity to the distance of an edge from `middle`, and the axis of the edge's normal.
+/// Largest ratio of the eccentricity to the distance of an edge, with an axis.
 ///
-/// The axis is the one along which the normal has its larger component.
+/// Distances are from `middle`. The axis is the one along which the normal has its larger component.
 fn largest_edge_ratio(edges: &[Edge], middle: [f64; 2], eccentricities: [f64; 2]) -> (f64, usize) {
     let ratios = edges.iter().map(|edge| {
         let faces_y = edge.normal[1].abs() > edge.normal[0].abs();

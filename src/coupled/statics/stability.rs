@@ -68,7 +68,7 @@ fn base_failure(
         return None;
     }
     assembled.influence.parts().iter().find_map(|part| {
-        let [right, upward, away] = part.resultants(load);
+        let [right, upward, along_y] = part.resultants(load);
         let nodes = part.nodes(base);
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         // A moment is the work of the load on a unit rotation.
@@ -97,7 +97,7 @@ fn base_failure(
                 .iter()
                 .map(|&(e, area)| (base.elements()[e].center(), area))
                 .collect(),
-            horizontal: resultant(right, away),
+            horizontal: resultant(right, along_y),
             normal,
             moments: [moment_x, moment_y],
             torque,

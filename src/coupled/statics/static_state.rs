@@ -11,7 +11,9 @@ pub(crate) struct StaticState {
     layout: ContactLayout,
     /// Tractions of all contact components, Pa.
     pub(crate) traction: Vec<f64>,
-    /// Gap of each element, m: positive if uplifted, negative for a compressed layer, zero in hard contact.
+    /// Gap of each element, m.
+    ///
+    /// Positive if uplifted, negative for a compressed layer, zero in hard contact.
     pub(crate) gap: Vec<f64>,
     /// Displacement of the degrees of freedom, m and rad.
     pub(crate) displacement: Vec<f64>,
@@ -19,14 +21,17 @@ pub(crate) struct StaticState {
     pub(crate) modes: Vec<Mode>,
     /// Load that the structure defines at t = 0, N.
     pub(crate) load: Vec<f64>,
-    /// State variables of each element's law; empty where the law starts with its initial state variables.
+    /// State variables of each element's law.
+    ///
+    /// Empty where the law starts with its initial state variables.
     pub(crate) state_variables: Vec<Vec<f64>>,
     /// Nonlinear force f(u), N; empty for a linear structure.
     pub(crate) force: Vec<f64>,
     /// Energies of the nonlinear force, if the structure returns them.
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
-    /// replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element.
+    ///
+    /// `None` if no coefficient was replaced.
     pub(crate) substituted_friction: Option<f64>,
 }
 
@@ -48,7 +53,9 @@ impl StaticState {
         }
     }
 
-    /// Contact modes at the start of the next static stage or of the run: closed elements stick.
+    /// Contact modes at the start of the next static stage or of the run.
+    ///
+    /// Closed elements stick.
     pub(crate) fn initial_modes(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {

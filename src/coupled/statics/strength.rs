@@ -102,7 +102,7 @@ pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     }
 }
 
-/// Smaller of a bond's tensile and shear strength on an element at rest, Pa; `None` without bonds.
+/// Smaller of a bond's tensile and shear strength at rest, Pa; `None` without bonds.
 ///
 /// `pressure` is the mean pressure, Pa. A law without limits has no bond strength.
 pub(crate) fn bond_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<f64> {
@@ -129,9 +129,10 @@ fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
     law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default()
 }
 
-/// Friction coefficient of a law, or ratio of shear traction to pressure at which an element slides.
+/// Friction coefficient of a law.
 ///
-/// It is infinite for an element that does not slide. `pressure` is in Pa.
+/// If the law has none, it is the ratio of shear traction to pressure at which an element slides. It is infinite for an
+/// element that does not slide. `pressure` is in Pa.
 fn sliding_ratio(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
     if let Some(coefficient) = law.friction_coefficient() {
         return coefficient;

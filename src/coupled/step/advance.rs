@@ -22,7 +22,7 @@ impl State {
             .map(|e| {
                 ContactState::from_components(
                     |component| if component == 0 { static_state.gap[e] } else { -0.0 },
-                    |component| static_state.traction[scene.layout().place(component, e)],
+                    |component| static_state.traction[scene.layout().index_of(component, e)],
                     scene.layout().is_plan(),
                 )
             })

@@ -19,11 +19,11 @@ use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
 use crate::coupled::step::joint_losses::JointLosses;
 use crate::error::LawError;
-use crate::linalg::matrix::spread;
+use crate::linalg::matrix::dense_vector;
 use crate::linalg::{LatticeScratch, dot};
 use crate::structure::{InternalEnergy, Structure};
 
-/// The energy balance so far, and the data of the last step that the next step needs.
+/// The energy balance so far, with data of the last step for the next one.
 #[derive(Clone)]
 pub(crate) struct EnergyAccumulator {
     pub(crate) energy_balance: EnergyBalance,
@@ -89,7 +89,7 @@ impl EnergyAccumulator {
         let mut mass = Vec::new();
         for part in parts {
             let products = part.vectors.each_ref().map(|vector| {
-                let translation = spread(vector, coordinates);
+                let translation = dense_vector(vector, coordinates);
                 let mut product = vec![0.0; coordinates];
                 scene.model.mass.multiply_add(1.0, &translation, &mut product);
                 (dot(&translation, &product), product)
@@ -147,14 +147,14 @@ impl EnergyAccumulator {
         energy_balance.largest = energy_balance.scale().max(static_energy);
     }
 
-    /// Energy of the static state in compliant interfaces, and in a nonlinear force that returns its energy.
+    /// Energy of the static state in compliant interfaces and the nonlinear force.
     ///
     /// The balance counts energies relative to the static state. Rounding of changes is proportional to this energy.
     fn static_energy(&self, scene: &Scene) -> f64 {
         let static_state = &scene.static_state;
         let layout = scene.layout();
         let interface_energies = static_state.traction.iter().enumerate().map(|(i, traction)| {
-            let [component, e] = layout.origin(i);
+            let [component, e] = layout.component_and_element(i);
             let compliance = self.compliance.get(e).map_or(0.0, |c| c[component.min(1)]);
             0.5 * scene.base.area(i) * compliance * traction * traction
         });
@@ -293,7 +293,7 @@ impl EnergyAccumulator {
         energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_energy;
     }
 
-    /// Adds the work of −M R ÿ between the middles of the last two steps, and of the loads.
+    /// Adds the work of −M R ÿ between the middles of the last two steps.
     ///
     /// ÿ = (Δy₁ − Δy₀)/Δt² at the time between the two steps.
     fn add_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
@@ -331,7 +331,7 @@ impl EnergyAccumulator {
         let joint_losses = &mut self.joint_losses;
         let error_bound = ground.increment_error_bound();
         for i in 0..layout.len() {
-            let [k, e] = layout.origin(i);
+            let [k, e] = layout.component_and_element(i);
             let area = scene.base.area(i);
             let change = increment.traction[i];
             let static_traction = scene.static_state.traction[i];

@@ -22,26 +22,35 @@ pub(crate) struct Forcing {
     pub(crate) load: Vec<f64>,
     /// Whether the load may have an entry.
     pub(crate) has_load: bool,
-    /// Displacement of the free field at the end of the step minus its value at t = 0, m, 2Q or 3Q.
+    /// Displacement of the free field at the end of the step, m, 2Q or 3Q.
+    ///
+    /// It is relative to the value at t = 0.
     pub(crate) free_field: Vec<f64>,
     /// Free field minus its translation y under each part, m, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
     /// Soil displacement minus free field without the contact tractions of this step, m, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
-    /// Mean tractions τ_ff of the free field in this step, Pa, 2Q; empty on the surface.
+    /// Mean tractions τ_ff of the free field in this step, Pa, 2Q.
+    ///
+    /// Empty on the surface.
     pub(crate) free_traction: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
     /// Increment R Δy of the translation, in stepping coordinates.
     pub(crate) translation_increment: Vec<f64>,
-    /// Velocity R ẏ of the translation at the time of v*, in stepping coordinates; zero without damping.
+    /// Velocity R ẏ of the translation at the time of v*; zero without damping.
+    ///
+    /// In stepping coordinates.
     pub(crate) translation_velocity: Vec<f64>,
     /// Load of the structure in degrees of freedom.
     dof_load: Vec<f64>,
     /// Time integral of the free field's tractions, Pa s; empty on the surface.
     impulse: Vec<f64>,
-    /// Displacements of the ground's elements, and the tractions' integral; empty without joints.
+    /// Displacements of the ground's elements, m; empty without joints.
     ground_displacement: Vec<f64>,
+    /// Time integral of the free field's tractions on the ground's elements, Pa s.
+    ///
+    /// Empty without joints.
     ground_impulse: Vec<f64>,
 }
 
@@ -138,7 +147,9 @@ impl Forcing {
 }
 
 impl Forcing {
-    /// Computes the convolution history of the ground; zero at joints. An error of the ground ends the step.
+    /// Computes the convolution history of the ground; zero at joints.
+    ///
+    /// An error of the ground ends the step.
     fn update_history(&mut self, scene: &Scene, ground: &mut dyn Ground) -> Result<(), StepError> {
         let part_error = StepError::part("history of the ground");
         if self.ground_displacement.is_empty() {
@@ -162,7 +173,9 @@ impl Forcing {
         Ok(())
     }
 
-    /// Computes displacements of the free field at `time` (s), and its mean tractions since the last step.
+    /// Computes displacements of the free field, and its mean tractions in the step.
+    ///
+    /// `time`: end of the step, s.
     fn update_free_field(
         &mut self,
         scene: &Scene,
@@ -182,7 +195,9 @@ impl Forcing {
         }
     }
 
-    /// Computes displacements of the free field at `time` (s), and the integral of its tractions; zero at joints.
+    /// Computes displacements of the free field, and the integral of its tractions.
+    ///
+    /// Both are those at `time` (s), and zero at joints.
     fn fill_free_field(
         &mut self,
         scene: &Scene,

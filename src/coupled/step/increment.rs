@@ -35,18 +35,23 @@ pub(crate) struct Increment {
     pub(crate) compliance: Vec<[f64; 2]>,
     /// State variables of the laws at the end.
     pub(crate) state_variables: Vec<f64>,
-    /// Number of linear solutions of the mode search.
+    /// Number of trials of the search for contact modes, as in `State::trials`.
     pub(crate) trials: usize,
     /// Last method of the mode search.
     pub(crate) method: SearchMethod,
-    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
-    /// replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element.
+    ///
+    /// `None` if no coefficient was replaced.
     pub(crate) substituted_friction: Option<f64>,
     /// f(u*) minus f at the static state; empty for a linear structure.
     pub(crate) nonlinear_force: Vec<f64>,
-    /// Displacement u* that f receives in the equation of motion; empty for a linear structure.
+    /// Displacement u* that f receives in the equation of motion.
+    ///
+    /// Empty for a linear structure.
     pub(crate) midstep_displacement: Vec<f64>,
-    /// Displacement at the end of the step that f receives; empty for a linear structure.
+    /// Displacement at the end of the step that f receives.
+    ///
+    /// Empty for a linear structure.
     pub(crate) force_displacement: Vec<f64>,
 }
 
@@ -78,7 +83,9 @@ impl Increment {
         }
     }
 
-    /// Computes the change of traction on the ground, without the tractions of the free field (empty on the surface).
+    /// Computes the change of traction on the ground.
+    ///
+    /// The tractions of the free field are subtracted; `free_traction` is empty on the surface.
     pub(crate) fn set_ground_traction(&mut self, scene: &Scene, free_traction: &[f64]) {
         let Self { traction, spread_traction, .. } = self;
         scene.base.copy_ground_part(traction, spread_traction);
@@ -87,8 +94,8 @@ impl Increment {
         }
         let ground_layout = scene.base.elements().layout();
         for (i, value) in spread_traction.iter_mut().enumerate() {
-            let [component, e] = ground_layout.origin(i);
-            *value -= free_traction[scene.layout().place(component, e)];
+            let [component, e] = ground_layout.component_and_element(i);
+            *value -= free_traction[scene.layout().index_of(component, e)];
         }
     }
 

@@ -20,7 +20,9 @@
 use crate::error::StepError;
 use crate::linalg::dot;
 
-/// Work of the out-of-balance force at which the search ends, relative to its work at the start of the increment.
+/// Work of the out-of-balance force at which the search ends.
+///
+/// It is relative to the work at the start of the increment.
 const WORK_TOLERANCE: f64 = 1e-3;
 /// Largest number of evaluations of the force in a search.
 const MAX_EVALUATIONS: usize = 30;
@@ -52,7 +54,7 @@ impl IncrementSearch {
         }
     }
 
-    /// Stores the start of an increment: an iterate, the force of the linear part, and the nonlinear force.
+    /// Stores the start of an increment: an iterate with its forces.
     pub(super) fn start_at(
         &mut self,
         iterate: &[f64],
@@ -116,9 +118,11 @@ fn work(nonlinear_force: &[f64], linear_force: &[f64], increment: &[f64]) -> f64
     forces.zip(increment).map(|((f, l), d)| (f - l) * d).sum()
 }
 
-/// Interval of an increment with a root of the work: positions and works at its ends (Illinois method).
+/// Interval of an increment with a root of the work, for the Illinois method.
 struct Bracket {
+    /// Position and work at the lower end.
     low: (f64, f64),
+    /// Position and work at the upper end.
     high: (f64, f64),
     /// Whether the last estimate replaced the lower end; `None` before the first.
     last_is_low: Option<bool>,

@@ -1,4 +1,4 @@
-//! Linear part of a step: the free increment, the contact problem, and the response to the tractions.
+//! Linear part of a step: free increment, contact, and response to tractions.
 //!
 //! | symbol | meaning |
 //! |---|---|

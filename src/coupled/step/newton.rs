@@ -57,7 +57,7 @@ pub(crate) struct NewtonIteration {
     force_scale: f64,
     /// Number of iterations so far.
     iterations: usize,
-    /// Number of linear solutions of the contact search so far.
+    /// Number of trials of the search for contact modes so far.
     trials: usize,
     /// Slowest method of the contact search so far.
     method: SearchMethod,

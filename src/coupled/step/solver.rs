@@ -8,7 +8,7 @@ use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
 use crate::coupled::step::linear::LinearStep;
 use crate::error::StepError;
-use crate::linalg::{largest, magnitude};
+use crate::linalg::{largest, magnitude_sum};
 
 /// Largest change of a degree of freedom in a step, in any units; beyond it a run has diverged.
 const MAX_STEP_CHANGE: f64 = 1e15;
@@ -57,10 +57,10 @@ impl StepSolver {
     }
 }
 
-/// Error for an increment that is not finite or too large.
+/// Returns an error for an increment that is not finite or too large.
 fn check_increment(increment: &[f64]) -> Result<(), StepError> {
     // A sum of magnitudes is not finite if one of them is not.
-    if magnitude(increment) <= MAX_STEP_CHANGE {
+    if magnitude_sum(increment) <= MAX_STEP_CHANGE {
         return Ok(());
     }
     StepError::check_finite("displacement of the structure", increment)?;

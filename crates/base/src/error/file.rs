@@ -68,7 +68,9 @@ pub enum FileFault {
     Value {
         /// Name of the quantity.
         quantity: String,
-        /// The value with its unit; text of the file is in quotation marks, cut to 40 characters.
+        /// The value with its unit.
+        ///
+        /// Text of the file is in quotation marks, cut to 40 characters.
         found: String,
         /// Requirement.
         needed: String,
@@ -144,7 +146,9 @@ impl FileFault {
         Self::Format { found: found.into(), needed: needed.into() }
     }
 
-    /// The error for a line of a file, or for the file as a whole if `line` is 0.
+    /// The error for a line of a file.
+    ///
+    /// If `line` is 0, it is an error of the file as a whole.
     #[doc(hidden)]
     pub fn of(self, file: impl Into<String>, line: usize) -> Error {
         FileError { file: file.into(), line, fault: self }.into()

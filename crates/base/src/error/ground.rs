@@ -44,7 +44,9 @@ pub enum SoilError {
         layer: usize,
         /// Horizontal slowness of the wave, absolute, s/m.
         slowness: f64,
-        /// Slowness of pressure waves (SH: shear waves) in the layer at the highest frequency of the motion, s/m.
+        /// Largest slowness: that of pressure waves in the layer, s/m; for SH waves that of shear waves.
+        ///
+        /// It belongs to the highest frequency of the motion.
         limit: f64,
     },
 }
@@ -114,7 +116,9 @@ pub enum GroundError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// A mat without a cell: no cell lies in its faces, or no entry of its mask is true.
+    /// A mat has no cell.
+    ///
+    /// No cell lies in its faces, or no entry of its mask is true.
     #[error("mat {mat} has no cell: cells are {} m x {} m (use more cells)", number_text(pitch[0]), number_text(pitch[1]))]
     NoCells {
         /// Number of the mat, from 0 in the order of the mats' first faces.

@@ -38,7 +38,9 @@ fn bytes_text(bytes: f64) -> String {
     }
 }
 
-/// Largest memory of one part, bytes: more than usual models need, less than a mistyped number would need.
+/// Largest memory of one part, bytes.
+///
+/// Usual models need less, a model with a mistyped number needs more.
 const MEMORY_LIMIT: u64 = 8 << 30;
 
 /// Memory limit of one mesh, matrix, ground, record or sweep: 8 GiB, in bytes.
@@ -66,7 +68,9 @@ pub fn memory_limit() -> u64 {
 )]
 pub fn set_memory_limit(_bytes: u64) {}
 
-/// Error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
+/// Returns an error if the `needed` bytes exceed the limit, or are NaN.
+///
+/// `asked`: number of `quantity` for which they are needed.
 pub fn check(
     quantity: &'static str,
     asked: f64,

@@ -193,17 +193,24 @@ pub enum Error {
         /// Value of the cause.
         ratio: f64,
     },
-    /// The iteration for the static state under the weight did not converge.
+    /// The search for the static state under weight and loads at t = 0 did not converge.
     #[error(
-        "no static equilibrium after {iterations} iterations: residual {residual:.2e} of the load \
+        "no static equilibrium after {iterations} iterations: residual {residual:.2e} of the load{} \
          (loads are balanced and the structure is not a mechanism: check whether a part of the structure, or of its \
-         soil, is loaded beyond its capacity)"
+         soil, is loaded beyond its capacity)",
+        joint_text(*.joint_element)
     )]
     Preload {
         /// Number of iterations.
         iterations: usize,
-        /// Change in the last iteration, relative to the load.
+        /// Largest unbalanced force of the last iteration, relative to the load.
+        ///
+        /// Unbalanced are forces of fictitious springs, resultants, or forces within a nonlinear structure.
         residual: f64,
+        /// Joint, and its element, whose sides moved most against each other in the last iteration.
+        ///
+        /// Both count from 0. `None` without joints, and if the base moved more.
+        joint_element: Option<[usize; 2]>,
     },
     /// Weight and loads at t = 0 have no stable equilibrium, and the reason.
     #[error("the structure cannot stand: {0}")]
@@ -293,6 +300,13 @@ impl From<PlanError> for Error {
     fn from(error: PlanError) -> Self {
         Self::Plan(error)
     }
+}
+
+/// Words for the joint and element that moved most, if there is one.
+fn joint_text(joint_element: Option<[usize; 2]>) -> String {
+    joint_element.map_or_else(String::new, |[joint, element]| {
+        format!(", element {element} of joint {joint} moves most")
+    })
 }
 
 impl std::fmt::Debug for Error {

@@ -22,7 +22,9 @@ pub fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
 }
 
-/// Returns `value`, or an error unless it is a damping ratio: a fraction of critical damping (5 % are 0.05).
+/// Returns `value`, or an error unless it is a damping ratio.
+///
+/// A damping ratio is a fraction of critical damping: 5 % are 0.05.
 pub fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
 }
@@ -69,7 +71,9 @@ pub fn require_part(
     if is_satisfied { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
 }
 
-/// Text of a point for a message, without z if z is zero for all `points`, as in the plane.
+/// Text of a point for a message.
+///
+/// It has no z if z is zero for all `points`, as in the plane.
 pub fn point_text([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
     if points.iter().all(|point| point[2] == 0.0) {
         format!("({x}, {y})")
@@ -84,7 +88,9 @@ const PRINTED_FIGURES: usize = 6;
 ///
 /// A value that rounding to [`PRINTED_FIGURES`] shortens to so few figures may differ slightly from a round number.
 const ROUND_NUMBER_FIGURES: usize = 3;
-/// Number of significant figures for such a value: they show the difference, but no rounding errors of a computation.
+/// Number of significant figures for such a value.
+///
+/// They show the difference, but no rounding errors of a computation.
 const PRECISE_FIGURES: usize = 12;
 
 /// Text of a number for a message, without rounding errors of its computation.

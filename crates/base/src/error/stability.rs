@@ -15,7 +15,9 @@ pub enum StabilityError {
     Uplift {
         /// Left and right end of the base of the lifted part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
+        /// Front and back end of this base along y, m; `None` in the plane.
+        ///
+        /// In plan, forces are those of the whole body.
         across: Option<[f64; 2]>,
         /// Upward resultant, N/m; zero if no part of the base is under pressure.
         upward: f64,
@@ -30,7 +32,9 @@ pub enum StabilityError {
     Sliding {
         /// Left and right end of the base of the sliding part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
+        /// Front and back end of this base along y, m; `None` in the plane.
+        ///
+        /// In plan, forces are those of the whole body.
         across: Option<[f64; 2]>,
         /// Horizontal resultant, positive to the right, N/m; in plan the resultant of both directions.
         horizontal: f64,
@@ -74,9 +78,11 @@ pub enum StabilityError {
     Overturning {
         /// Left and right end of the base of the overturning part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
+        /// Front and back end of this base along y, m; `None` in the plane.
+        ///
+        /// In plan, forces are those of the whole body.
         across: Option<[f64; 2]>,
-        /// In plan: `x` if it overturns to the left or the right, `y` if to the front or the back.
+        /// Axis along which it overturns in plan, `x` or `y`; `None` in the plane.
         axis: Option<char>,
         /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m.
         ///
@@ -84,7 +90,9 @@ pub enum StabilityError {
         moment: f64,
         /// Normal force, N/m.
         normal: f64,
-        /// Distance of the resultant from the middle of the base, positive to the right, in plan along the axis, m.
+        /// Distance of the resultant from the middle of the base, m.
+        ///
+        /// It is positive to the right, in plan along the axis.
         eccentricity: f64,
         /// Eccentricity divided by half the width.
         ///
@@ -130,11 +138,15 @@ pub enum StabilityError {
     BearingFailure {
         /// Left and right end of the base of the overloaded part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
+        /// Front and back end of this base along y, m; `None` in the plane.
+        ///
+        /// In plan, forces are those of the whole body.
         across: Option<[f64; 2]>,
         /// Normal force, N/m.
         normal: f64,
-        /// Effective width: the width minus twice the eccentricity (Meyerhof 1953), m; in plan the effective area, m².
+        /// Effective width, m; in plan the effective area, m².
+        ///
+        /// The effective width is the width minus twice the eccentricity (Meyerhof 1953).
         width: f64,
         /// Bearing pressure times the effective width or area, N/m.
         capacity: f64,
@@ -154,7 +166,9 @@ pub enum StabilityError {
     Beyond {
         /// Left and right end of the base of the part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
+        /// Front and back end of this base along y, m; `None` in the plane.
+        ///
+        /// In plan, forces are those of the whole body.
         across: Option<[f64; 2]>,
         /// In plan: axis along which the resultant passes beyond the elements, `x` or `y`.
         axis: Option<char>,
@@ -221,7 +235,7 @@ fn range_text([start, end]: [f64; 2]) -> String {
     format!("{} to {} m", number_text(start), number_text(end))
 }
 
-/// Unit of forces: of the whole body in plan, where the base has ends along y.
+/// Unit of forces; in plan, where the base has ends along y, that of the whole body.
 fn force_unit(y_ends: Option<[f64; 2]>) -> &'static str {
     if y_ends.is_some() { "N" } else { "N/m" }
 }
@@ -265,14 +279,21 @@ pub struct CoarseBaseError {
     pub needed: usize,
     /// Relative change of the static shape with twice the elements; `None` if it was not computed.
     pub difference: Option<f64>,
-    /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
+    /// Axis along which the elements follow each other.
+    ///
+    /// In plan `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall, `None`
+    /// for elements of a base.
     pub axis: Option<char>,
 }
 
-/// Largest plausible ratio of needed to existing elements: a larger ratio implies a softer base than any real one.
+/// Largest plausible ratio of needed to existing elements.
+///
+/// A larger ratio implies a softer base than any real one.
 const MAX_PLAUSIBLE_ELEMENT_RATIO: usize = 16;
 
-/// Hint to check the units if a base is implausibly soft, as with moduli in GPa or lengths in mm.
+/// Hint to check the units if a base is implausibly soft; empty otherwise.
+///
+/// Moduli in GPa or lengths in mm make a base so soft.
 pub fn units_hint(element_count: usize, needed_count: usize) -> &'static str {
     if needed_count / MAX_PLAUSIBLE_ELEMENT_RATIO < element_count {
         ""

@@ -21,22 +21,23 @@ pub enum StepError {
         residual: f64,
         /// Words (`Mode`'s `Display`) of the modes of the last trial, left to right.
         modes: Vec<&'static str>,
-        /// Number of all sets of modes, if all were tried: the step then has no solution.
+        /// Number of all sets of modes, if all were tried.
         ///
-        /// `None` for more than 65 536 sets.
+        /// The step then has no solution. `None` if not all were tried, as for more than 65 536 sets.
         sets: Option<usize>,
     },
-    /// In plan, or on soil that hardens: the iteration found no contact forces that satisfy the interface laws.
+    /// No contact forces satisfied the interface laws, in plan or on soil that hardens.
     #[error(
         "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
          (`analyses::largest_convergent_step` finds a time step that converges)",
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
-        /// Number of sweeps and Newton iterations, including the proximal method's; on soil that hardens, of its
-        /// tangents.
+        /// Number of sweeps and Newton iterations, including the proximal method's.
+        ///
+        /// On soil that hardens, the number of linearisations of its law.
         iterations: usize,
-        /// Largest difference between an element's force and the force by its law, relative to the largest force.
+        /// Largest difference of an element's force from its law, relative to the largest force.
         residual: f64,
         /// Elements with too large a difference of forces.
         elements: Vec<usize>,
@@ -92,12 +93,16 @@ pub enum StepError {
     /// still closes.
     #[error("the structure is unstable: its displacement grows by {increment:e} in one step")]
     Runaway {
-        /// Largest change of a degree of freedom in the step, m or rad (m √kg in modal coordinates).
+        /// Largest change of a degree of freedom in the step, m or rad.
+        ///
+        /// In modal coordinates its unit is m √kg.
         increment: f64,
     },
 }
 
-/// Text for a step that has no solution, because all sets of modes were tried; empty otherwise.
+/// Text for a step without a solution; empty otherwise.
+///
+/// `set_count`: number of all sets of modes, if all were tried.
 fn no_solution_text(set_count: Option<usize>) -> String {
     set_count.map_or_else(String::new, |count| {
         format!(": the step has no solution: none of all {count} sets of modes satisfies the laws")

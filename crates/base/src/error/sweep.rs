@@ -67,7 +67,9 @@ pub enum SweepError {
     Missing {
         /// Numbers of the cases, ascending.
         cases: Vec<usize>,
-        /// The missing shards, `[index, count]`, if the files and the missing cases form equal shards; else empty.
+        /// The missing shards, as `[index, count]`.
+        ///
+        /// Empty unless the files and the missing cases form equal shards.
         shards: Vec<[usize; 2]>,
     },
 }

@@ -9,7 +9,9 @@ use crate::error::{Result, finite, positive, require};
 const SURFACE_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 /// Ends along y of an element in the plane, m: it is one metre deep.
 const UNIT_DEPTH_ENDS: [f64; 2] = [-0.5, 0.5];
-/// Largest upward component of a normal that points down; walls have normals with a component of zero.
+/// Largest upward component of a normal that points down.
+///
+/// For normals of walls it is zero.
 const MAX_DOWNWARD_COMPONENT: f64 = -0.5;
 
 /// Contact element between base and soil: a flat rectangle.
@@ -64,16 +66,18 @@ impl ContactElement {
         Self { in_plan: false, ..Self::in_plan([left, right], UNIT_DEPTH_ENDS) }
     }
 
-    /// Element in plan: a rectangle of the surface by its ends along x and along y, m.
+    /// Element in plan: a rectangle of the surface.
+    ///
+    /// The arguments are its ends along x and along y, m.
     pub const fn in_plan([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Self {
         let corners = [[left, front, 0.0], [right, back, 0.0]];
         Self { corners, directions: SURFACE_DIRECTIONS, in_plan: true, inside: 1.0 }
     }
 
-    /// Sets the fraction of the area that is inside the outline of the base, above 0 and at most 1.
+    /// Sets the fraction of the area that is inside the outline of the base.
     ///
-    /// Pressures, shear tractions and strengths of a simulation refer to the area inside. Tractions of a ground are
-    /// means over the whole element.
+    /// It is above 0 and at most 1. Pressures, shear tractions and strengths of a simulation refer to the area inside.
+    /// Tractions of a ground are means over the whole element.
     #[must_use]
     pub const fn with_fraction_inside(self, fraction_inside: f64) -> Self {
         Self { inside: fraction_inside, ..self }
@@ -237,7 +241,9 @@ impl ContactElement {
         self
     }
 
-    /// Returns an error unless ends are finite, sides are positive, and the fraction inside is above 0 and at most 1.
+    /// Returns an error for an element with an invalid number.
+    ///
+    /// Ends must be finite, sides positive, and the fraction inside above 0 and at most 1.
     pub(super) fn check(&self) -> Result<()> {
         let ends = self.ends();
         finite("left end of a contact element", ends[0][0])?;
@@ -254,7 +260,9 @@ impl ContactElement {
     /// Largest overlap of neighbours relative to their sides: the rounding error of a common node.
     pub(super) const MAX_OVERLAP_FRACTION: f64 = 1e-9;
 
-    /// Whether the ends of two elements along `axis` (x 0, y 1) overlap by more than rounding.
+    /// Whether two elements overlap along `axis` by more than rounding.
+    ///
+    /// `axis`: 0 for x, 1 for y.
     pub(super) fn overlaps(&self, other: &Self, axis: usize) -> bool {
         let ends = self.ends()[axis];
         let other_ends = other.ends()[axis];

@@ -1,14 +1,20 @@
-//! Shape of a foundation: outline of a circle, outward edges of an outline, and lever arms about the centre.
+//! Shape of a foundation.
+//!
+//! It consists of an outline with outward edges, and of lever arms about the centre.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::{Patch, enclosing_interval, middle, span};
 
-/// Number of corners of the polygon that replaces a circle: more would only lengthen lists of edges.
+/// Number of corners of the polygon that replaces a circle.
+///
+/// More corners would only lengthen lists of edges.
 const CIRCLE_CORNER_COUNT: usize = 32;
 
-/// Corners of a regular polygon about the origin with the area of a circle of this `radius`.
+/// Corners of a regular polygon that replaces a circle about the origin.
+///
+/// The polygon has the area of a circle of this `radius`.
 pub fn circle(radius: f64) -> impl Iterator<Item = [f64; 2]> {
     let sector_angle = TAU / CIRCLE_CORNER_COUNT as f64;
     let corner_radius = radius * (sector_angle / sector_angle.sin()).sqrt();
@@ -66,20 +72,26 @@ impl Edge {
     }
 }
 
-/// Lever arms of a foundation about its centre: the middle of its elements, in plan of its outline.
+/// Lever arms of a foundation about its centre.
+///
+/// The centre is the middle of its elements, in plan the middle of its outline.
 #[derive(Debug)]
 pub struct Footing {
-    /// Left and right end, front and back end, m; no depth in the plane.
+    /// Left and right end, front and back end, m; in the plane both ends along y are zero.
     pub ends: [[f64; 2]; 2],
     /// Centre of the foundation relative to the point of the base moment, m.
     pub center: [f64; 2],
-    /// Middle of each element relative to the foundation's centre and to the height of its floor, m.
+    /// Middle of each element relative to the foundation's centre, m.
+    ///
+    /// Heights are relative to the floor of the foundation.
     pub arms: Vec<[f64; 3]>,
     /// Sign of base moment and rotation relative to the right-hand rule about y.
     ///
     /// −1 in the plane, where both are positive counter-clockwise; 1 in plan.
     pub rotation_sign: f64,
-    /// Edges that face along x, and edges that face along y, each with its [reach](Edge::reach) from the centre.
+    /// Edges that face along x, and edges that face along y.
+    ///
+    /// Each has its [reach](Edge::reach) from the centre.
     pub edges: [Vec<(Edge, f64)>; 2],
 }
 
@@ -134,7 +146,9 @@ impl Footing {
 mod tests {
     use super::*;
 
-    /// A triangle with sides of 3, 4 and 5, whose inscribed circle has the radius 1 about (1, 1).
+    /// A triangle with sides of 3, 4 and 5.
+    ///
+    /// Its inscribed circle has the radius 1 about (1, 1).
     #[test]
     fn edges_by_hand() {
         let edges: Vec<Edge> = Edge::all(&[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).collect();

@@ -4,7 +4,9 @@ use std::ops::Mul;
 
 use super::{COMPONENTS_IN_SPACE, ContactElement};
 
-/// Largest distance of an element from its cell, relative to a cell's sides: rounding errors of coordinates.
+/// Largest distance of an element from its cell, relative to a cell's sides.
+///
+/// It is above rounding errors of coordinates.
 const CELL_POSITION_TOLERANCE: f64 = 1e-9;
 /// Largest number of cells per element: transforms over emptier lattices are slower than direct products.
 const MAX_CELLS_PER_ELEMENT: f64 = 4.0;

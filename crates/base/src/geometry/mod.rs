@@ -1,5 +1,4 @@
-//! Geometry: contact elements and the order of their numbers, cells of a lattice, directions, and shapes of
-//! foundations.
+//! Geometry of contact elements, lattices, directions and foundations.
 
 mod direction;
 mod element;
@@ -80,21 +79,23 @@ impl ContactLayout {
     }
 
     /// Index in a contact vector of a component (0: the normal one) of `element`.
-    pub const fn place(self, component: usize, element: usize) -> usize {
+    pub const fn index_of(self, component: usize, element: usize) -> usize {
         component * self.elements + element
     }
 
     /// Indices in a contact vector of the first N components of `element`.
-    pub fn places<const N: usize>(self, element: usize) -> [usize; N] {
-        std::array::from_fn(|component| self.place(component, element))
+    pub fn indices_of<const N: usize>(self, element: usize) -> [usize; N] {
+        std::array::from_fn(|component| self.index_of(component, element))
     }
 
     /// Component and element of an index in a contact vector.
-    pub const fn origin(self, index: usize) -> [usize; 2] {
+    pub const fn component_and_element(self, index: usize) -> [usize; 2] {
         [index / self.elements, index % self.elements]
     }
 
-    /// The first N components of a contact vector, each for all elements; a short vector gives short slices.
+    /// The first N components of a contact vector, each for all elements.
+    ///
+    /// A short vector gives short slices.
     pub fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
         std::array::from_fn(|_| {
             let entry_count = self.elements.min(vector.len());
@@ -157,7 +158,9 @@ pub fn middle([low, high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// Name of the axis x (0) or y (1) in plan; `None` in the plane, which has one axis along the surface.
+/// Name of an axis along the surface in plan; `None` in the plane.
+///
+/// `axis`: 0 for x, 1 for y. The plane has only one axis along the surface.
 pub fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
 }

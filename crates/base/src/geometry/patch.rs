@@ -70,8 +70,9 @@ impl Patch {
         self.layout().is_plan()
     }
 
-    /// Areas of the elements inside the outline, m²; in the plane their lengths, m. Tractions refer to these
-    /// areas.
+    /// Areas of the elements inside the outline, m²; in the plane their lengths, m.
+    ///
+    /// Tractions refer to these areas.
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
@@ -154,7 +155,9 @@ fn check_sizes(elements: &[ContactElement]) -> Result<()> {
     elements.iter().try_for_each(ContactElement::check)
 }
 
-/// Returns an error unless elements are in the plane, with positive lengths, in order and without overlap.
+/// Returns an error unless the elements are a base in the plane.
+///
+/// They must have positive lengths, be in order, and not overlap.
 pub fn check_order(elements: &[ContactElement]) -> Result<()> {
     check_count(elements.len(), COMPONENTS_IN_PLANE)?;
     check_sizes(elements)?;

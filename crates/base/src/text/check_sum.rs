@@ -10,8 +10,9 @@ pub struct CheckSum(u64);
 const FNV_OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 /// Factor of FNV-1a for 64 bits.
 const FNV_PRIME: u64 = 0x0000_0100_0000_01b3;
-/// Rotation after each word: a product carries changes of bits only to higher bits, and the rotation returns them to
-/// low bits.
+/// Number of bits by which the sum is rotated after each word.
+///
+/// A product carries changes of bits only to higher bits; the rotation returns them to low bits.
 const ROTATED_BITS: u32 = 23;
 
 impl Default for CheckSum {
@@ -31,7 +32,9 @@ impl CheckSum {
         self.add(number.to_bits());
     }
 
-    /// Adds the length and the entries of a list, so that the sum depends on where one list ends.
+    /// Adds the length and the entries of a list.
+    ///
+    /// The sum therefore depends on where one list ends.
     pub fn add_list(&mut self, words: impl ExactSizeIterator<Item = u64>) {
         self.add(words.len() as u64);
         for word in words {

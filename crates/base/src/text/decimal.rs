@@ -2,7 +2,7 @@
 //!
 //! [`finite`] defines which text counts as a number.
 
-/// Converts a text that is a finite decimal number as a whole; `None` for any other text.
+/// The number in a text that is one finite decimal number; `None` otherwise.
 ///
 /// The exponent may have the form of C or Fortran: `1.5`, `-2E+3`, `.5D-2`. A unit after the number, a
 /// decimal comma and `inf` are not accepted.
@@ -22,8 +22,11 @@ pub fn quoted(text: &str) -> String {
     format!("'{}'", excerpt(text))
 }
 
-/// Converts a field of Fortran's format `kPFw.d`, where k is `scale` and d is `decimals`; `None` if it is no number.
+/// The number in a field of Fortran's format `kPFw.d`.
 ///
+/// `None` if it is no number.
+///
+/// `scale` is k, and `decimals` is d.
 /// Without a decimal point in the field, the last d digits are decimals. Without an exponent, the field contains 10ᵏ
 /// times the value.
 pub fn fortran_field_value(text: &str, decimals: u16, scale: u16) -> Option<f64> {

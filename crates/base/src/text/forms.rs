@@ -2,7 +2,8 @@
 
 /// Implements `Deserialize` through a constructor, which checks the values.
 ///
-/// The macro defines a struct of the stored fields, and the conversion to the type, which has `serde(try_from)`.
+/// The macro defines a struct `$form` of the stored fields, and its conversion to `$type`. The type needs the attribute
+/// `serde(try_from = "$form")`.
 #[macro_export]
 macro_rules! validated {
     ($type:ident as $form:ident {

@@ -1,4 +1,4 @@
-//! Text: words of choices, numbers, tables and columns, lines of files, stored forms in serde's formats.
+//! Text in messages and files: words, numbers, tables, lines and stored forms.
 
 #[macro_use]
 pub mod words;

@@ -21,7 +21,7 @@ pub fn printed_unit(unit: &str) -> PrintedUnit<'_> {
     }
 }
 
-/// Unit of a quantity of the whole body: in plan without the "per metre" of the plane.
+/// Unit of a quantity, in plan without the "per metre" of the plane.
 pub fn whole_body_unit(unit: &str, in_plan: bool) -> &str {
     unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
 }
@@ -31,7 +31,9 @@ const ROUNDING_LIMIT: f64 = 1e-9;
 /// Magnitudes that are printed without an exponent.
 const PLAIN_MAGNITUDES: std::ops::Range<f64> = 1e-3..1e6;
 
-/// Number with at least three significant figures; an exponent only below 1e-3 and from 1e6 on, and no negative zero.
+/// Text of a number with at least three significant figures.
+///
+/// It has an exponent only below 1e-3 and from 1e6 on, and there is no negative zero.
 pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude < ROUNDING_LIMIT {

@@ -86,7 +86,9 @@ macro_rules! words_with_numbers {
     };
 }
 
-/// Error for an unknown word; for another spelling of a valid word, the error lists only this word.
+/// Error for an unknown word.
+///
+/// For another spelling of a valid word, the error lists only this word.
 pub fn unknown_word_error(
     quantity: &'static str,
     text: &str,

@@ -2,9 +2,13 @@
 
 use std::collections::HashMap;
 
-/// Largest number of vertices of a graph that is not coarsened: halves of such a graph are found directly.
+/// Largest number of vertices of a graph that is not coarsened.
+///
+/// Halves of such a graph are found directly.
 pub(super) const MAX_COARSEST_VERTICES: usize = 80;
-/// Smallest number of coarse vertices: a joined vertex has at most the graph's weight over this number.
+/// Smallest number of coarse vertices.
+///
+/// A joined vertex has at most the graph's weight over this number.
 const MIN_COARSE_VERTICES: i64 = 40;
 /// Index that stands for no vertex: outside the subgraph, or without a partner.
 pub(super) const NO_VERTEX: usize = usize::MAX;

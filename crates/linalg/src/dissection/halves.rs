@@ -4,11 +4,15 @@ use std::collections::BinaryHeap;
 
 use super::graph::Graph;
 
-/// Largest weight of a half, in per cent of the graph's weight: equal halves would cut more edges.
+/// Largest weight of a half, in per cent of the graph's weight.
+///
+/// Equal halves would cut more edges.
 const MAX_HALF_PERCENT: i64 = 55;
 /// Largest number of improvement passes: most halves improve in two or three.
 const MAX_IMPROVEMENT_PASSES: usize = 8;
-/// Number of moves without a better cut after which a pass ends: longer passes seldom find one.
+/// Number of moves without a better cut after which a pass ends.
+///
+/// Longer passes seldom find one.
 const MAX_MOVES_WITHOUT_GAIN: usize = 100;
 /// Gain stored for a vertex that has already moved in a pass.
 const GAIN_IF_MOVED: i64 = i64::MIN;
@@ -44,7 +48,9 @@ impl<'a> GraphHalves<'a> {
         Self { graph, is_second, weights, cut_weight: double_cut_weight / 2, max_half_weight }
     }
 
-    /// Halves whose first half grows from a vertex; it takes up the neighbour that cuts the fewest edges.
+    /// Halves whose first half grows from a vertex.
+    ///
+    /// It takes up the neighbour that cuts the fewest edges.
     pub(super) fn from_seed(graph: &'a Graph, seed: usize) -> Self {
         let mut halves = Self::new(graph, vec![true; graph.len()]);
         let mut heap = BinaryHeap::from([(halves.gain(seed), seed)]);

@@ -15,14 +15,19 @@ pub(crate) use graph::Adjacency;
 use graph::{CoarseGraph, Graph, MAX_COARSEST_VERTICES, NO_VERTEX, PatternGraph};
 use halves::GraphHalves;
 
-/// Largest number of vertices of a graph that is not dissected: the order of minimum degree is as good for so few.
+/// Largest number of vertices of a graph that is not dissected.
+///
+/// For so few vertices the order of minimum degree is as good.
 const MAX_LEAF_VERTICES: usize = 60;
-/// Number of halvings of the coarsest graph, of which the best is used: a halving of so few vertices costs little.
+/// Number of halvings of the coarsest graph, of which the best is used.
+///
+/// A halving of so few vertices costs little.
 const COARSEST_HALVING_COUNT: usize = 12;
 /// Index of the separator among the parts; the halves are parts 0 and 1.
 const SEPARATOR_PART: u8 = 2;
-/// Largest size of a coarser graph, in per cent of the finer one: with a slower reduction, further levels cost too
-/// much.
+/// Largest size of a coarser graph, in per cent of the finer one.
+///
+/// With a slower reduction, further levels cost too much.
 const MAX_COARSE_PERCENT: usize = 95;
 
 /// Rows in the order of elimination.
@@ -118,7 +123,9 @@ fn parts_with_separator(graph: &Graph, is_second: &[bool]) -> Vec<u8> {
     parts
 }
 
-/// Number of edges from a vertex to the other half; 0 for a vertex of the separator.
+/// Number of edges from a vertex to the other half.
+///
+/// Zero for a vertex of the separator.
 fn cut_edge_count(graph: &Graph, parts: &[u8], v: usize) -> usize {
     if parts[v] == SEPARATOR_PART {
         return 0;
@@ -130,7 +137,9 @@ fn cut_edge_count(graph: &Graph, parts: &[u8], v: usize) -> usize {
 mod tests {
     use super::*;
 
-    /// Columns of the rows of a block of nodes, with two rows per node and neighbours in all directions.
+    /// Columns of the rows of a block of nodes.
+    ///
+    /// Each node has two rows, and neighbours in all directions.
     fn block_pattern(sides: [usize; 3]) -> Vec<Vec<usize>> {
         let count: usize = sides.iter().product();
         let position = |v: usize| [v % sides[0], v / sides[0] % sides[1], v / sides[0] / sides[1]];

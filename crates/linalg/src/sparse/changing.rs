@@ -37,10 +37,14 @@ pub struct ChangingFactor {
     lu: Option<ReusedFactor>,
     /// Method of the last factorization.
     method: Method,
-    /// Buffer for the solution of a factor's test, and for solutions of right-hand sides on the last rows.
+    /// Buffer for solutions.
+    ///
+    /// They belong to the test of a factor, and to right-hand sides on the last rows.
     solution: Vec<f64>,
     last_rows: Vec<usize>,
-    /// Entries of Cholesky's factor in the last rows; `None` unless they are a dense block.
+    /// Entries of Cholesky's factor in the last rows.
+    ///
+    /// `None` unless they are a dense block.
     last_entries: Option<Vec<LastEntry>>,
     /// Cholesky's factor of the matrix condensed on the last rows, row-major.
     last_lower: Vec<f64>,
@@ -54,9 +58,9 @@ enum Method {
     Lu,
 }
 
-/// Largest unbalanced value of the solution for a test vector, relative to the largest sum of its terms.
+/// Largest imbalance of the solution for a test vector, relative to the largest sum of terms.
 ///
-/// Pivots that would need an exchange beyond a front leave more.
+/// The imbalance is larger if pivots would have to be exchanged between fronts.
 const MAX_TEST_IMBALANCE: f64 = 1e-10;
 
 /// A factor with the workspaces of its factorization and of solves.
@@ -217,7 +221,9 @@ impl ChangingFactor {
         self.lu.as_mut().is_some_and(|factor| factor.refactor(&self.columns, &[]))
     }
 
-    /// Whether the solution for a test vector is finite: the pivots of a singular matrix may be rounding errors.
+    /// Whether the solution for a test vector is finite.
+    ///
+    /// The pivots of a singular matrix may be rounding errors.
     fn solves_test(&mut self) -> bool {
         let mut solution = std::mem::take(&mut self.solution);
         solution.fill(1.0);
@@ -253,9 +259,9 @@ impl ChangingFactor {
         }
     }
 
-    /// Overwrites right-hand sides that are zero but for the last rows, with A⁻¹ rhs on these rows.
+    /// Overwrites right-hand sides on the last rows with A⁻¹ rhs on these rows.
     ///
-    /// `rhs`: the values on the last rows, one right-hand side after the other.
+    /// `rhs`: the values on the last rows, one right-hand side after the other. On other rows they are zero.
     pub fn solve_on_last_rows(&mut self, rhs: &mut [f64]) {
         let count = self.last_rows.len().max(1);
         if self.method == Method::Cholesky && self.last_entries.is_some() {

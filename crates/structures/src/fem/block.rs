@@ -10,12 +10,13 @@ use crate::error::{Result, at_least, memory};
 const BYTES_PER_ELEMENT: f64 = 900.0;
 
 impl Mesh {
-    /// Block of [`Quad8`] between the vertical lines at `x` and the horizontal lines at `y` (m, ascending).
+    /// Block of [`Quad8`] between vertical and horizontal lines.
     ///
-    /// Uses are columns and boxes of soil, with narrow elements where stresses vary. `material(column, row)` returns
-    /// the material of an element, a [`Material`](super::Material) or a [`SharedMaterial`]; columns count from the left
-    /// and rows from the bottom. Elements are added row by row from the bottom, each from left to right, with reduced
-    /// integration. [`node_at`](Mesh::node_at) and [`nodes_at_height`](Mesh::nodes_at_height) return the nodes.
+    /// The vertical lines are at `x`, the horizontal lines at `y` (m, ascending). Uses are columns and boxes of soil,
+    /// with narrow elements where stresses vary. `material(column, row)` returns the material of an element, a
+    /// [`Material`](super::Material) or a [`SharedMaterial`]; columns count from the left and rows from the bottom.
+    /// Elements are added row by row from the bottom, each from left to right, with reduced integration.
+    /// [`node_at`](Mesh::node_at) and [`nodes_at_height`](Mesh::nodes_at_height) return the nodes.
     ///
     /// ```
     /// use basemat::fem::{Material, Mesh};

@@ -2,8 +2,9 @@
 
 use super::element::{Element, ElementFace, MassKind};
 
-/// Relative difference up to which matrix entries count as equal, and below which an entry counts as zero; rounding is
-/// far smaller.
+/// Relative difference up to which matrix entries count as equal.
+///
+/// An entry below this fraction of the largest one counts as zero. Rounding is far smaller.
 const MATRIX_ENTRY_TOLERANCE: f64 = 1e-12;
 
 /// Key by which duplicates of an element are found: its sorted nodes.

@@ -81,7 +81,9 @@ pub trait Element: Any + Send + Sync {
     /// It is symmetric; a rigid motion of all nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]);
 
-    /// Force of an element with internal variables, in place of K u. Default: `None`, for a linear element.
+    /// Force of an element with internal variables, in place of K u.
+    ///
+    /// Default: `None`, for a linear element.
     ///
     /// [`stiffness`](Element::stiffness) is then the stiffness of small displacements. Rayleigh damping and the static
     /// forces of P–Δ use it, but the force of the element in a run is the [`InelasticForce`] alone.
@@ -107,12 +109,10 @@ pub trait Element: Any + Send + Sync {
 
     /// Adds the geometric stiffness (P–Δ) of the static axial force, N/m.
     ///
-    /// In the plane it is per metre.
-    ///
-    /// The matrix is symmetric. A translation of all nodes must give no force; a rotation gives the moment of the
-    /// axial force at its lever arm. The matrix is part of the structure's stiffness, but not of its
-    /// stiffness-proportional damping. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) adds the
-    /// geometric stiffness of the element's other forces, if the element has all displacements. Default: none.
+    /// In the plane it is per metre. The matrix is symmetric. A translation of all nodes must give no force; a rotation
+    /// gives the moment of the axial force at its lever arm. The matrix is part of the structure's stiffness, but not
+    /// of its stiffness-proportional damping. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) adds
+    /// the geometric stiffness of the element's other forces, if the element has all displacements. Default: none.
     fn geometric_stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
     /// Copy of this element with the axial force that it has under the structure's weight.

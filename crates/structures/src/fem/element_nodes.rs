@@ -8,7 +8,9 @@ use crate::geometry::Direction;
 ///
 /// Rounding of the stiffness gives far less. Unbalanced forces would do work in a rigid rotation.
 const MAX_FORCE_IMBALANCE: f64 = 1e-8;
-/// Largest distance of nodes from a line on which they count as lying, relative to the radius of the element.
+/// Largest distance of nodes from a line, relative to the radius of the element.
+///
+/// Nodes up to this distance count as lying on the line.
 ///
 /// It is far above the rounding of coordinates.
 const MAX_DISTANCE_FROM_LINE: f64 = 1e-6;
@@ -237,7 +239,9 @@ impl ElementNodes {
         symmetric_inverse(&inertia)
     }
 
-    /// Unit vector of the line on which all nodes lie; `None` if they do not.
+    /// Unit vector of the line on which all nodes lie.
+    ///
+    /// `None` if they do not.
     fn line_direction(&self) -> Option<[f64; 3]> {
         let longest_arm = self
             .arms

@@ -57,7 +57,9 @@ impl Grid {
         })
     }
 
-    /// Corner nodes of the cell between two rows and after a column; a pole counts as one corner.
+    /// Corner nodes of the cell between two rows and after a column.
+    ///
+    /// A pole counts as one corner.
     fn cell(lower: &[usize], upper: &[usize], column: usize) -> Vec<usize> {
         let next_column = column + 1;
         let mut corners = vec![

@@ -235,7 +235,9 @@ const NODE_COORDINATES: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-/// Gauss points of the 2 × 2 × 2 rule in the order of the nodes; all weights are 1.
+/// Gauss points of the 2 × 2 × 2 rule in the order of the nodes.
+///
+/// All weights are 1.
 fn gauss_points() -> [[f64; 3]; 8] {
     let gauss_coordinate = gauss::rule(2).nodes[1];
     NODE_COORDINATES.map(|node| node.map(|coordinate| gauss_coordinate * coordinate))

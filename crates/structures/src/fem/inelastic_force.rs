@@ -64,7 +64,9 @@ pub trait InelasticForce: Send + Sync {
         variables: &[f64],
     ) -> Result<InternalEnergy>;
 
-    /// Work of the force inside a step that is neither stored nor dissipated, J (in the plane per metre).
+    /// Work of the force inside a step that is neither stored nor dissipated, J.
+    ///
+    /// In the plane it is per metre.
     ///
     /// It is f(`midstep`)·(`end` − `start`) less the changes of [`energy`](InelasticForce::energy) from `start`, the
     /// committed displacement, to `end`; `displacements` are start, midstep and end. Compute it from a separate formula

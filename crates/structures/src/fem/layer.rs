@@ -52,9 +52,9 @@ impl<M: Clone + Into<SharedMaterial>> Layer<M> {
 }
 
 impl Mesh {
-    /// Block of equal columns over the range `x` (m), with layers listed upwards from y = 0.
+    /// Block of equal columns over the range `x` (m).
     ///
-    /// Nodes are numbered row by row from the base, left to right.
+    /// Layers are listed upwards from y = 0. Nodes are numbered row by row from the base, left to right.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) or [`Error::Size`](crate::Error::Size) when the range is empty or not

@@ -48,7 +48,9 @@ pub struct Mesh {
     /// Indices of the elements with each [`element_key`].
     elements_by_key: HashMap<Vec<usize>, Vec<usize>>,
     has_depth: bool,
-    /// Geometric stiffness of static forces that rotate with each element; empty without a static state.
+    /// Geometric stiffness of static forces that rotate with each element.
+    ///
+    /// Empty without a static state.
     force_rotations: Vec<Option<ForceRotation>>,
 }
 
@@ -219,7 +221,9 @@ impl Mesh {
         }
     }
 
-    /// Index of the node nearest to (`x`, `y`), at any distance; `None` for an empty mesh.
+    /// Index of the node nearest to (`x`, `y`), at any distance.
+    ///
+    /// `None` for an empty mesh.
     ///
     /// In space the point lies at z = 0. Of several equally near nodes the first one is returned. [`Mesh::node_at`]
     /// returns an error for a point without a node.
@@ -241,11 +245,10 @@ impl Mesh {
         })
     }
 
-    /// Indices of the nodes at a `height`, within `tolerance` (m).
+    /// Indices of the nodes at a `height` (m), within `tolerance` (m).
     ///
-    /// The height is y in the plane and z in space, m.
-    ///
-    /// They are listed from left to right, in space at each x from front to back.
+    /// The height is y in the plane and z in space. Nodes are listed from left to right, in space at each x from front
+    /// to back.
     ///
     /// # Errors
     /// [`Error::Input`] unless `height` is finite and `tolerance` finite and not negative.

@@ -16,7 +16,9 @@ use crate::linalg::gauss;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum QuadFormulation {
-    /// 2 × 2 Gauss points. Far too stiff in bending (shear locking) and as ν → 1/2.
+    /// 2 × 2 Gauss points.
+    ///
+    /// The element is far too stiff in bending (shear locking) and as ν → 1/2.
     Full,
     /// 2 × 2 Gauss points and two internal bending modes. The default.
     ///
@@ -39,10 +41,11 @@ pub enum QuadFormulation {
         /// Hourglass stiffness, in per cent of the hourglass stiffness of `Full`.
         percent: u8,
     },
-    /// 2 × 2 Gauss points, each with the mean dilatation of the element (B-bar: Hughes 1980, IJNME 15, 1413–1418).
+    /// 2 × 2 Gauss points, each with the mean dilatation of the element.
     ///
-    /// Nothing locks as ν → 1/2. A cantilever with two elements over its depth deflects 4 to 8 % too far, with four
-    /// elements less than 1 %. This is the only formulation for inelastic materials.
+    /// This is the B-bar element (Hughes 1980, IJNME 15, 1413–1418). Nothing locks as ν → 1/2. A cantilever with two
+    /// elements over its depth deflects 4 to 8 % too far, with four elements less than 1 %. This is the only
+    /// formulation for inelastic materials.
     MeanDilatation,
 }
 
@@ -80,10 +83,12 @@ pub struct Quad4 {
 pub(super) const DOF_COUNT: usize = 8;
 /// Number of degrees of freedom of the nodes, and of the two bending modes along x and y.
 const FULL_DOF_COUNT: usize = 12;
-/// Weight of the integration rule with one point: the area of the square −1 ≤ ξ, η ≤ 1.
+/// Weight of the rule with one point: the area of the square −1 ≤ ξ, η ≤ 1.
 const ONE_POINT_WEIGHT: f64 = 4.0;
 
-/// Strains `[ε_xx, ε_yy, γ_xy]` due to a displacement along x, and due to an equal displacement along y.
+/// Strains due to a displacement along x, and due to an equal displacement along y.
+///
+/// They are `[ε_xx, ε_yy, γ_xy]`.
 ///
 /// The argument holds the derivatives (∂/∂x, ∂/∂y) of the displacement: those of a shape function.
 pub(super) fn plane_strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
@@ -311,7 +316,9 @@ impl Element for Quad4 {
 pub(super) const NODE_COORDINATES: [[f64; 2]; 4] =
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// Gauss points of the 2 × 2 rule in the order of the corners; all weights are 1.
+/// Gauss points of the 2 × 2 rule in the order of the corners.
+///
+/// All weights are 1.
 pub(super) fn gauss_points() -> [[f64; 2]; 4] {
     let gauss_coordinate = gauss::rule(2).nodes[1];
     NODE_COORDINATES.map(|[xi, eta]| [gauss_coordinate * xi, gauss_coordinate * eta])

@@ -17,7 +17,9 @@ use crate::linalg::gauss;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quad8Integration {
-    /// 2 × 2 Gauss points, the default: rectangles bend exactly, and no element locks as ν → 1/2.
+    /// 2 × 2 Gauss points, the default.
+    ///
+    /// Rectangles bend exactly, and no element locks as ν → 1/2.
     ///
     /// A single element has no stiffness against one hourglass pattern. Two neighbouring elements resist it.
     #[default]

@@ -181,7 +181,7 @@ impl Dashpot {
         }))
     }
 
-    /// Dashpot against the rate of the distance between two nodes.
+    /// Dashpot against the rate of change of the distance between two nodes.
     ///
     /// `coefficient` in N s/m per metre of thickness.
     ///
@@ -196,7 +196,9 @@ impl Dashpot {
         }))
     }
 
-    /// Dashpot of a mesh in space, against the rate of the distance between two nodes.
+    /// Dashpot of a mesh in space, against the rate of change of a distance.
+    ///
+    /// It is the distance between two nodes.
     ///
     /// `coefficient` in N s/m.
     ///

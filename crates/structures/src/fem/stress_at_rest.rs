@@ -44,7 +44,7 @@ impl LayerAtRest {
     /// Layer with checked density and pressure ratio.
     fn new(top: f64, density: f64, ratio: f64, top_pressure: f64) -> Result<Self> {
         not_negative("density of the soil at rest", density)?;
-        not_negative("pressure at rest over the vertical pressure", ratio)?;
+        not_negative("horizontal over vertical pressure of the soil at rest", ratio)?;
         Ok(Self { top, density, ratio, top_pressure })
     }
 }
@@ -75,7 +75,9 @@ impl StressAtRest {
         Ok(Self { layers, ..self })
     }
 
-    /// Stresses `[xx, yy, zz, xy]` at a position [x, y], Pa; tension is positive, and zero above the surface.
+    /// Stresses `[xx, yy, zz, xy]` at a position [x, y] (m), Pa.
+    ///
+    /// Tension is positive. Above the surface all stresses are zero.
     pub fn at(&self, position: [f64; 2]) -> [f64; 4] {
         let depth = (-position[1]).max(0.0);
         let vertical = self.vertical_pressure(depth);

@@ -60,8 +60,9 @@ impl Base {
         parts.into_iter().flatten().collect()
     }
 
-    /// Returns an error for too few nodes, for coordinates or weights that are not finite, and for degrees of freedom
-    /// of at least `dof_count`.
+    /// Returns an error for too few nodes, or an invalid node.
+    ///
+    /// Coordinates and weights must be finite, and degrees of freedom below `dof_count`.
     #[doc(hidden)]
     pub fn check(&self, dof_count: usize) -> Result<()> {
         at_least("list of contact nodes", self.nodes().count(), 2)?;

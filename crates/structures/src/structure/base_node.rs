@@ -24,7 +24,9 @@ pub struct BaseNode {
     pub z: f64,
     /// Displacement to the right as a weighted sum of degrees of freedom.
     pub horizontal: DofCombination,
-    /// Displacement along y as a weighted sum of degrees of freedom; empty in the plane.
+    /// Displacement along y as a weighted sum of degrees of freedom.
+    ///
+    /// Empty in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub across: DofCombination,
     /// Displacement upwards as a weighted sum of degrees of freedom.
@@ -123,9 +125,10 @@ impl BaseNode {
         rotations
     }
 
-    /// Displacements along x, along y and up of a point that is rigidly connected to the base.
+    /// Displacements of a point that is rigidly connected to the base.
     ///
-    /// The point lies at `[x, y]` (m), `height` above the base, and moves with the plane that fits the nodes best.
+    /// They are along x, along y and up. The point lies at `[x, y]` (m), `height` above the base, and moves with the
+    /// plane that fits the nodes best.
     #[doc(hidden)]
     pub fn rigid_displacements(
         nodes: &[Self],
@@ -241,7 +244,9 @@ impl BaseNode {
         [self.x, self.y]
     }
 
-    /// Displacements to the right, upwards and away; the last one is empty for a node in the plane.
+    /// Displacements to the right, upwards and away.
+    ///
+    /// The last one is empty for a node in the plane.
     #[doc(hidden)]
     pub fn rows(&self) -> [&DofCombination; 3] {
         [&self.horizontal, &self.vertical, &self.across]
@@ -268,7 +273,9 @@ impl BaseNode {
         terms.filter(|(_, weight)| *weight != 0.0).map(|(dof, _)| *dof)
     }
 
-    /// Returns an error for a coordinate or weight that is not finite, or a degree of freedom of at least `dof_count`.
+    /// Returns an error for an invalid coordinate, weight or degree of freedom.
+    ///
+    /// Coordinates and weights must be finite, and degrees of freedom below `dof_count`.
     pub(super) fn check(&self, dof_count: usize) -> Result<()> {
         for coordinate in [self.x, self.y, self.z] {
             finite("coordinate of a contact node", coordinate)?;
@@ -281,7 +288,9 @@ impl BaseNode {
     }
 }
 
-/// Largest positive value and its index, the first one of equal values; zero and index 0 without a positive value.
+/// Largest positive value and its index, the first one of equal values.
+///
+/// Both are zero without a positive value.
 fn largest_value(values: impl Iterator<Item = f64>) -> LargestValue {
     let mut largest = LargestValue { value: 0.0, index: 0 };
     for (index, value) in values.enumerate() {
@@ -308,7 +317,9 @@ fn largest_weight(row: &DofCombination) -> f64 {
     row.iter().fold(0.0_f64, |max, (_, weight)| max.max(weight.abs()))
 }
 
-/// Returns an error unless a contact node at `x` lies to the right of the previous node, at `previous_x`.
+/// Returns an error unless a contact node lies to the right of the previous one.
+///
+/// The nodes are at `x` and at `previous_x`.
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input).

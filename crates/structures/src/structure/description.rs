@@ -11,9 +11,10 @@ pub struct StructureDescription {
     ///
     /// A run warns of an implausible density: `Mistake::UnusualDensity`.
     pub densities: Option<[f64; 2]>,
-    /// Number of element faces at the height of the base that are not part of it, and the middle of the first one, m.
+    /// Number of element faces beside the base, and the middle of the first one, m.
     ///
-    /// These faces do not touch the ground. A run warns of them: `Mistake::FacesOffGround`.
+    /// They are at the height of the base, but not part of it. These faces do not touch the ground. A run warns of
+    /// them: `Mistake::FacesOffGround`.
     pub faces_off_ground: Option<(usize, [f64; 2])>,
 }
 

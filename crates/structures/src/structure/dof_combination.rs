@@ -44,9 +44,10 @@ impl DofCombination {
         self.0.iter().map(|&(dof, weight)| (new_dof(dof), weight)).collect()
     }
 
-    /// Returns an error for a weight that is not finite, or a degree of freedom of at least `dof_count`.
+    /// Returns an error for an invalid weight or degree of freedom.
     ///
-    /// `quantity`: name of the degree of freedom in the error.
+    /// Weights must be finite, and degrees of freedom below `dof_count`. `quantity`: name of the degree of freedom in
+    /// the error.
     #[doc(hidden)]
     pub fn check(&self, quantity: &'static str, dof_count: usize) -> Result<()> {
         for &(dof, weight) in &self.0 {

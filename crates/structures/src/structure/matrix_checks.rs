@@ -94,7 +94,9 @@ pub fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -> Resul
     check_semi_definite(MATRIX_NAME, damping, elimination)
 }
 
-/// Factors [β, α] of a matrix that is βA + αB up to rounding; `None` for other matrices.
+/// Factors [β, α] of a matrix that is βA + αB up to rounding.
+///
+/// `None` for other matrices.
 ///
 /// The sparsity pattern of A contains the patterns of B and of the matrix. If A is positive definite and B positive
 /// semi-definite, the matrix is positive semi-definite within the tolerance of [`check_damping`].

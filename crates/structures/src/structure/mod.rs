@@ -160,12 +160,12 @@ pub trait Structure: Any + Send {
     /// Any: `build` returns it.
     fn mass(&self, matrix: &mut Triplets) -> Result<()>;
 
-    /// Mass of soil at rest, which has inertia but no weight, on each of the n degrees of freedom, kg. Default: `None`.
+    /// Mass of soil at rest on each of the n degrees of freedom, kg. Default: `None`.
     ///
-    /// It is the product of the soil's part of the [`mass`](Structure::mass) and an upward translation by 1 m. The weight of
-    /// this soil is in equilibrium with its stresses and pressures at rest ([`Mesh::with_stress_at_rest`]), and does not
-    /// act in a run. With `Some`, the structure is bonded to a trench from the start, and the ground's pressures at rest do
-    /// not act on it.
+    /// This soil has inertia, but no weight. The mass is the product of the soil's part of the
+    /// [`mass`](Structure::mass) and an upward translation by 1 m. The weight of this soil is in equilibrium with its
+    /// stresses and pressures at rest ([`Mesh::with_stress_at_rest`]), and does not act in a run. With `Some`, the
+    /// structure is bonded to a trench from the start, and the ground's pressures at rest do not act on it.
     ///
     /// [`Mesh::with_stress_at_rest`]: crate::fem::Mesh::with_stress_at_rest
     ///
@@ -203,8 +203,8 @@ pub trait Structure: Any + Send {
 
     /// Adds the geometric stiffness of the static forces (P–Δ), n × n, to `matrix`. Default: none.
     ///
-    /// [`stiffness`](Structure::stiffness) contains this part. From this part, errors compute the load factor at which
-    /// the structure buckles, and `build` returns an error for a structure that buckles on its ground
+    /// [`stiffness`](Structure::stiffness) contains this part. The load factor at which the structure buckles, which
+    /// errors state, is computed from it. `build` returns an error for a structure that buckles on its ground
     /// (`StabilityError::Buckling`).
     ///
     /// # Errors
@@ -228,7 +228,9 @@ pub trait Structure: Any + Send {
         false
     }
 
-    /// Properties by which a run warns of probable mistakes, such as numbers in another unit. Default: none.
+    /// Properties by which a run warns of probable mistakes. Default: none.
+    ///
+    /// An example of such a mistake is a number in another unit.
     fn description(&self) -> StructureDescription {
         StructureDescription::default()
     }

@@ -69,7 +69,9 @@ const MAX_RIGID_ENERGY_FRACTION: f64 = 0.5;
 ///
 /// Frequencies on these springs differ by about a millionth from those on a rigid support.
 const FIXED_BASE_STIFFNESS_RATIO: f64 = 1e6;
-/// Values of 1/ω² below this fraction of the largest value are rounding: the modes of massless degrees of freedom.
+/// Values of 1/ω² below this fraction of the largest value are rounding.
+///
+/// They belong to modes of massless degrees of freedom.
 const MASSLESS_EIGENVALUE_RATIO: f64 = 1e-13;
 /// Fraction of a mode's elastic energy in the structure above which the mode deforms the structure.
 ///

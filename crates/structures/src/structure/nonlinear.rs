@@ -114,7 +114,9 @@ pub trait NonlinearForce {
         None
     }
 
-    /// Where f has its largest plastic deformation, for an error of a step that does not converge. Default: `None`.
+    /// Text of the place where f is out of balance, and of its state. Default: `None`.
+    ///
+    /// It is for the error of a step that does not converge.
     ///
     /// `dofs` are the degrees of freedom with the largest out-of-balance force, the largest first. The text names the
     /// element and its state, such as "element 12 on nodes [3, 4, 9, 8]: plastic strain 0.021, 98 % of its strength".

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::linalg::{Partition, SparseMatrix, dot};
 use crate::structure::{BaseNode, SpringSupportedBase, max_diagonal_stiffness};
 
-/// A part counts as at rest in a motion if its norm is below this fraction of the motion's norm.
+/// Fraction of a motion's norm below which a part counts as at rest.
 const RESTING_PART_FRACTION: f64 = 1e-8;
 /// A motion is linearly dependent if its norm after orthogonalisation is below this fraction.
 const DEPENDENT_MOTION_FRACTION: f64 = 1e-6;

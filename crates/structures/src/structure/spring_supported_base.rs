@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | N | displacements of the contact nodes |
+//! | N | matrix from the degrees of freedom to the displacements of the contact nodes |
 //! | γ | stiffness of the springs |
 
 use super::{BaseNode, DofCombination, Triplets};

@@ -57,9 +57,9 @@ fn doubled_columns_are_columns_side_by_side() {
     assert!(max_difference < 1e-12 * doubled_stiffness.largest(), "{max_difference:e}");
 }
 
-/// Coarse elements on rigid bedrock, with layers and backfill: the mobility is positive real at any s.
+/// The mobility s F(s) is positive real, also with coarse elements, layers and backfill.
 #[test]
-fn mobility_is_positive_at_random_places() {
+fn mobility_is_positive_at_random_laplace_variables() {
     let mut random = Random(45);
     let law = GeneralizedMaxwell::constant_q(0.05, [0.01, 10.0], 1.0).unwrap();
     let mut smallest_ratio = f64::INFINITY;
@@ -98,7 +98,9 @@ fn mobility_is_positive_at_random_places() {
     assert!(smallest_ratio > 0.0, "{smallest_ratio:e}");
 }
 
-/// Without depth, of degree 6, extrapolated from 16 and 32 elements as the tables were.
+/// A trench without depth is a strip.
+///
+/// Elements have degree 6. Results of 16 and 32 elements are extrapolated, as in the tables.
 #[test]
 fn strips_on_damped_layers_match_the_tables() {
     let layer = Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap();
@@ -136,9 +138,10 @@ fn strips_on_damped_layers_match_the_tables() {
     }
 }
 
-/// An elastic layer on rock with three times its wave speed: only Re s damps guided waves, which need a deep bottom.
+/// Guided waves in an elastic layer on rock need a deep bottom.
 ///
-/// 48 frequencies around a cut-off; a shallow bottom is inaccurate at eleven of them.
+/// The wave speed of the rock is three times that of the layer; only Re s damps the waves. 48 frequencies around a
+/// cut-off; a shallow bottom is inaccurate at about a quarter of them.
 #[test]
 fn the_bottom_is_as_deep_as_guided_waves_need() {
     let profile = SoilProfile::on_half_plane(soil(3.0, 1.2))
@@ -160,6 +163,6 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
         let change = chosen.difference(deepest);
         assert!(change < 1e-6, "{sample}: {change:e}");
     }
-    println!("{inaccurate_count} points");
+    println!("{inaccurate_count} frequencies");
     assert!((8..=16).contains(&inaccurate_count), "{inaccurate_count}");
 }

@@ -31,6 +31,8 @@ fn lags(weights: &dyn ConvolutionWeights, class: usize) -> [Vec<f64>; TRENCH_KIN
     lags
 }
 
+/// Sums of the weights Gⁿ are the compliance at rest, and the mobility.
+///
 /// Σ Gⁿ is the compliance at rest, and (1 − z) Σ Gⁿ zⁿ⁻¹ the mobility at z.
 #[test]
 fn weights_are_the_coefficients_of_the_mobility() {
@@ -82,7 +84,9 @@ fn grounds_of_table() -> [SoilProfile; 3] {
     [clay.into(), with_layer(on_rock), with_layer(SoilProfile::on_rigid_bedrock())]
 }
 
-/// The table was computed by elimination of whole vertical lines, with dense matrices; errors relative to the largest of the lag.
+/// REFERENCE: a table by elimination of whole vertical lines, with dense matrices.
+///
+/// Errors are relative to the largest weight of a lag.
 #[test]
 fn weights_are_those_of_an_elimination_line_by_line() {
     let table = basemat_testkit::table("embedded/weights.csv");
@@ -145,7 +149,9 @@ fn symbols_are_positive_at_short_and_long_steps() {
     }
 }
 
-/// A trench without depth is a strip, whose weights are integrals over wavenumbers; elements of degree 4.
+/// A trench without depth is a strip, whose weights are integrals over wavenumbers.
+///
+/// The finite elements have degree 4.
 #[test]
 fn weights_without_depth_are_the_weights_of_a_strip() {
     let source = source(0.0, 4, 0);
@@ -176,8 +182,8 @@ fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])
         let mut slices: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
         fill(pair.class, &mut slices);
         for term in terms {
-            let row = layout.place(term.components[0], receiver);
-            let column = layout.place(term.components[1], source);
+            let row = layout.index_of(term.components[0], receiver);
+            let column = layout.index_of(term.components[1], source);
             let lags = lags[term.kind].iter().enumerate();
             let sum: f64 = lags.map(|(n, lag)| lag * (0.3 * n as f64).cos()).sum();
             matrix[row * layout.len() + column] = sum * term.factor * pair.scale;
@@ -186,7 +192,9 @@ fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])
     matrix
 }
 
-/// Without depth on a half-plane: the strip's closed form up to a translation down and a translation to the right.
+/// Without depth the compliance is the strip's closed form.
+///
+/// On a half-plane both differ by a translation down and a translation to the right.
 #[test]
 fn static_compliance_without_depth_is_the_strips_up_to_translations() {
     let half_plane = Soil::new(1.0, 0.3, 1.0).unwrap();
@@ -223,7 +231,9 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
     assert!(max_difference < 5e-3, "{max_difference:e}");
 }
 
-/// (L R)ᵀ S⁻¹ (L R) of the static compliance S between all elements is the stiffness of the half models.
+/// The static compliance S of all elements has the stiffness of the half models.
+///
+/// The stiffness of a rigid body is Rᵀ L S⁻¹ R, with R its motions and L the lengths of the elements.
 #[test]
 fn rigid_body_has_the_static_impedance() {
     let source = source(1.2, 4, 3);

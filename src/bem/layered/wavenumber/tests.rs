@@ -7,11 +7,17 @@ use crate::bem::{Grading, Strip};
 use crate::fundamental::HalfPlane;
 use crate::soil::Soil;
 
-/// Compliances, and the number of evaluations of the ground.
+/// Compliances of all pair classes, and the number of evaluations of the ground.
 struct PairCompliances {
+    /// zz, xx and zx of each class.
     values: Vec<[Complex; 3]>,
     /// Number of wavenumbers at which the ground was evaluated.
     evaluation_count: usize,
+}
+
+/// Profile P1 of the table: a layer with 5 % damping on rock with 1 %.
+fn damped_layer_on_rock() -> SoilProfile {
+    p1(gmb(5), gmb(1))
 }
 
 fn compliances(
@@ -34,13 +40,14 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let strip = Strip::uniform(-1.0..1.0, 3).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
     let integrals = Wavenumbers::new(&classes, 1e-11);
-    let profile = p1(gmb(5), gmb(1));
+    let profile = damped_layer_on_rock();
     let table = include_str!("../../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
     let mut max_error = 0.0_f64;
     let mut max_compliance = 0.0_f64;
-    let mut row_count = 0;
+    let mut entry_count = 0;
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     for line in table.lines().skip(2) {
+        // Re s, Im s, row, column, and real and imaginary part of the entry.
         let numbers: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let s = Complex::new(numbers[0], numbers[1]);
         integrals
@@ -51,17 +58,17 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
         let column = indices.next().unwrap().unwrap();
         let matrix = assembled(&classes, &values);
         if (row, column) == (0, 0) {
-            // u_xx of an element due to its own traction.
+            // The entries of each s begin with (0, 0). The largest is u_xx of an element due to its own traction.
             max_compliance = matrix[3 * 6 + 3].norm();
         }
         max_error = max_error.max(
             (matrix[row * 6 + column] - Complex::new(numbers[4], numbers[5]).to_complex64()).norm()
                 / max_compliance,
         );
-        row_count += 1;
+        entry_count += 1;
     }
-    println!("{row_count} entries, {max_error:e} of the largest");
-    assert_eq!(row_count, 252);
+    println!("{entry_count} entries, {max_error:e} of the largest");
+    assert_eq!(entry_count, 252);
     assert!(max_error < 1e-8, "{max_error:e}");
 }
 
@@ -71,31 +78,33 @@ fn homogeneous_ground_agrees_with_the_closed_form() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
     let strip = Strip::new(-1.0..1.0, 4, Grading::Cosine).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let mut layered = SoilProfile::on_half_plane(soil);
+    let mut layered_profile = SoilProfile::on_half_plane(soil);
     for thickness in [0.4, 1.1] {
-        layered = layered.with_layer(soil, thickness).unwrap();
+        layered_profile = layered_profile.with_layer(soil, thickness).unwrap();
     }
-    // With panels of one width, and with wide panels.
-    for (s, end) in [(1.3, 30.0), (150.0, 0.26)] {
-        check_closed_form(soil, &strip, &classes, &layered, s, end);
+    // At the small s all panels have one width; the large s allows wide panels.
+    for (s, end_time) in [(1.3, 30.0), (150.0, 0.26)] {
+        check_closed_form(soil, &strip, &classes, &layered_profile, s, end_time);
     }
 }
 
-/// Compares compliances at `s` with integrals of the closed form up to the time `end`.
+/// Compares compliances at `s` with integrals of the closed form up to `end_time`.
+///
+/// `layered_profile`: layers of the half-plane's soil.
 fn check_closed_form(
     soil: Soil,
     strip: &Strip,
     classes: &PairClasses,
-    layered: &SoilProfile,
+    layered_profile: &SoilProfile,
     s: f64,
-    end: f64,
+    end_time: f64,
 ) {
     let half_plane = HalfPlane::new(soil);
-    let computed =
+    let half_plane_values =
         compliances(&SoilProfile::on_half_plane(soil), strip, Complex::real(s), 1e-11).values;
-    let layered_values = compliances(layered, strip, Complex::real(s), 1e-11).values;
-    let rule = crate::linalg::gauss::largest();
-    let max_compliance = computed.iter().fold(0.0_f64, |m, values| m.max(values[0].re));
+    let layered_values = compliances(layered_profile, strip, Complex::real(s), 1e-11).values;
+    let rule = crate::linalg::gauss::largest_rule();
+    let max_compliance = half_plane_values.iter().fold(0.0_f64, |m, values| m.max(values[0].re));
     let mut max_error = 0.0_f64;
     for class in 0..classes.count() {
         let [source, receiver] = classes.representative(class).unwrap();
@@ -103,7 +112,7 @@ fn check_closed_form(
         // Pieces are so short that the kinks at arrivals of waves do not matter.
         let piece_count = 2000;
         for piece in 0..piece_count {
-            let piece_length = end / f64::from(piece_count);
+            let piece_length = end_time / f64::from(piece_count);
             for (node, weight) in rule
                 .nodes
                 .iter()
@@ -119,13 +128,13 @@ fn check_closed_form(
                 }
             }
         }
-        // At large s, separate elements do not interact.
-        let pair_compliance = computed[class][0].re.max(0.01 * max_compliance);
+        // At large s compliances between distant elements vanish; errors relative to them mean nothing.
+        let error_scale = half_plane_values[class][0].re.max(0.01 * max_compliance);
         for component in 0..3 {
-            max_error = max_error
-                .max((computed[class][component].re - sum[component]).abs() / pair_compliance);
-            let difference = (computed[class][component] - layered_values[class][component]).abs();
-            assert!(difference < 1e-11 * pair_compliance, "{class} {component} {difference:e}");
+            let value = half_plane_values[class][component];
+            max_error = max_error.max((value.re - sum[component]).abs() / error_scale);
+            let difference = (value - layered_values[class][component]).abs();
+            assert!(difference < 1e-11 * error_scale, "{class} {component} {difference:e}");
         }
     }
     println!("{max_error:e} of each pair's zz");
@@ -139,7 +148,7 @@ fn errors_are_below_the_tolerance() {
     let classes = PairClasses::new(strip.elements()).unwrap();
     let elastic = p1(crate::soil::Elastic, crate::soil::Elastic);
     let mut max_error_ratios = [0.0_f64; 3];
-    for profile in [p1(gmb(5), gmb(1)), elastic] {
+    for profile in [damped_layer_on_rock(), elastic] {
         for s in [
             Complex::real(1e-3),
             Complex::new(0.01, 0.3),
@@ -152,7 +161,7 @@ fn errors_are_below_the_tolerance() {
             Complex::real(3000.0),
         ] {
             let reference = compliances(&profile, &strip, s, 1e-14);
-            // Smaller compliance of an element of this length with itself.
+            // The smaller of zz and xx of an element of this length, due to its own traction.
             let self_compliance = |length: f64| {
                 let is_self_pair = |class: &usize| {
                     let pair = classes.representative(*class).unwrap();

@@ -42,7 +42,7 @@ fn problems(
     let ComplianceForm::LowRank(operator) = &mut low_rank.form else {
         unreachable!()
     };
-    operator.set(&on_bed, &areas, layer);
+    operator.assemble(&on_bed, &areas, layer);
     for (k, value) in dense.w.iter_mut().enumerate() {
         *value = structure_entries[k] / component_areas[k % size];
         if k.is_multiple_of(size + 1) {

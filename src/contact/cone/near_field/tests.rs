@@ -121,7 +121,7 @@ fn near_field_blocks_multiply_as_the_entries_of_w() {
     }
     // The structure's part of W is not positive.
     assert!(blocks(&problem, |i, j| 1.1 * soil(i, j)).is_none());
-    // Every block is another one, or the structure's part has many modes.
+    // Blocks of equal offset differ, or the structure's part has too many modes.
     assert!(blocks(&problem, |i, j| soil(i, j) * (1 + i + j) as f64).is_none());
     assert!(blocks(&problem, |_, _| 0.0).is_none());
 }

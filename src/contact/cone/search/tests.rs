@@ -54,7 +54,7 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> ConeProblem {
     problem
 }
 
-/// Newton's method with early ends and with factors of the same step finds the forces of complete iterations.
+/// Iterations that end early or reuse factors find the forces of complete iterations.
 #[test]
 fn sweeps_and_brief_iterations_find_the_forces_of_other_methods() {
     let mut random = Random(23);

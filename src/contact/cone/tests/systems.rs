@@ -56,7 +56,9 @@ fn condition_residuals(problem: &ConeProblem, e: usize, status: &Status) -> [f64
     [normal, shear_x, shear_y]
 }
 
-/// Both systems meet the conditions of the statuses, and a step has the same bits whatever was solved before.
+/// Both systems meet the conditions of the statuses.
+///
+/// A step has the same bits whatever was solved before.
 #[test]
 fn unknown_forces_or_displacements_meet_the_conditions_of_statuses() {
     let mut random = Random(3);

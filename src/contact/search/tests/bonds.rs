@@ -27,6 +27,7 @@ fn add_bonds(problem: &mut Problem, random: &mut Random) {
 fn bonds_break_only_where_brute_force_allows_it() {
     let mut random = Random(5);
     let mut problem_count = 0;
+    // Problems in which a bond must break, with several solutions, and that begin with a broken bond.
     let mut breaking_count = 0;
     let mut multiple_count = 0;
     let mut broken_count = 0;

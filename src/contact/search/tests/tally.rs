@@ -6,17 +6,17 @@ use super::*;
 #[derive(Debug, Default)]
 pub(super) struct Tally {
     pub(super) problems: usize,
-    /// Solved by the search with active set, Gauss–Seidel and path as its last method.
+    /// Numbers of problems that the search solved, by its last method: active set, Gauss–Seidel, path.
     pub(super) methods: [usize; 3],
     pub(super) trials: usize,
-    /// Solved by active set, Gauss–Seidel and path alone.
+    /// Numbers of problems that active set, Gauss–Seidel and path each solved alone.
     pub(super) solved_alone: [usize; 3],
-    /// With several solutions.
+    /// Number of problems with several solutions.
     pub(super) multiple_solutions: usize,
     pub(super) multiple_with_strength: usize,
-    /// Without a solution.
+    /// Number of problems without a solution.
     pub(super) unsolvable: usize,
-    /// With a solution that the search did not find.
+    /// Number of problems with a solution that the search did not find.
     pub(super) failed: usize,
     pub(super) failed_with_strength: usize,
     pub(super) max_violation: f64,
@@ -38,7 +38,9 @@ impl Tally {
         self.max_violation = self.max_violation.max(other.max_violation);
     }
 
-    /// Solves one problem by all methods; returns the modes and states for the next step.
+    /// Solves one problem by all methods.
+    ///
+    /// Returns the modes and states for the next step.
     pub(super) fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
         let count = problem.start.len();
         let input = problem.input();
@@ -47,7 +49,7 @@ impl Tally {
         let solutions = brute_force(problem);
         let has_multiple_solutions = solution_count(&solutions) > 1;
         let has_solution = !solutions.is_empty();
-        self.unsolvable += usize::from(solutions.is_empty());
+        self.unsolvable += usize::from(!has_solution);
         let has_strength = problem.parameters.strength > 0.0;
         self.multiple_solutions += usize::from(has_multiple_solutions && !has_strength);
         self.multiple_with_strength += usize::from(has_multiple_solutions && has_strength);

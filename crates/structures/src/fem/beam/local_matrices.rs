@@ -78,8 +78,9 @@ pub(super) struct Bending {
     pub(super) shear_stiffness: Option<f64>,
     /// Rotary inertia ρ I of the section per length, kg m.
     pub(super) section_inertia: f64,
-    /// Whether the consistent mass includes the rotary inertia of the section, and the lumped mass half of it at each
-    /// end.
+    /// Whether the mass includes the rotary inertia of the section.
+    ///
+    /// The lumped mass has half of it at each end.
     pub(super) has_rotary_inertia: bool,
 }
 
@@ -170,7 +171,9 @@ fn slope(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     ]
 }
 
-/// Rotations of the section at s = x/L: the slopes less the shear strains (Friedman & Kosmatka 1993); t = 1 − s.
+/// Rotations of the section at s = x/L; t = 1 − s.
+///
+/// They are the slopes less the shear strains (Friedman & Kosmatka 1993).
 fn rotation(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + shear_ratio);

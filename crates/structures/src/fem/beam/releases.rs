@@ -33,8 +33,8 @@ impl Releases {
             let bending_dofs = [deflection, rotation, deflection + 6, rotation + 6];
             let release_count = bending_dofs.into_iter().filter(|&dof| self.0[dof]).count();
             let is_stable = release_count < 3 && !at_both_ends(deflection);
-            let needed = "at most two of the displacements along and rotations across one axis of \
-                          the section, not both displacements: the beam would be a mechanism";
+            let needed = "at most two of the four displacements and rotations of bending along one axis, not both \
+                          displacements: the beam would be a mechanism";
             require_part(quantity, is_stable, needed)?;
         }
         Ok(self)

@@ -1,3 +1,5 @@
+//! Forces, tangents and energies of quadrilaterals with internal variables.
+
 use basemat_testkit::DISTORTED_QUAD_NODES;
 
 use crate::error::Error;

@@ -6,7 +6,7 @@ use crate::fem::vector::{add_scaled, cross, dot, unit_vector};
 ///
 /// The plane contains the mean of the nodes. A node at a distance from the plane, as in a warped quadrilateral, is
 /// connected to its projection by a rigid link, so that rigid motions cause no strain.
-pub(super) struct Frame<const N: usize> {
+pub(super) struct LocalFrame<const N: usize> {
     /// Unit vectors e1, e2, n as rows.
     pub(super) axes: [[f64; 3]; 3],
     /// Coordinates of the projections along e1 and e2, m.
@@ -15,20 +15,20 @@ pub(super) struct Frame<const N: usize> {
     heights: [f64; N],
 }
 
-impl Frame<4> {
+impl LocalFrame<4> {
     /// Frame of a quadrilateral.
     ///
     /// n is normal to both diagonals; e1 runs from the middle of side 4–1 to the middle of side 2–3.
     pub(super) fn quadrilateral(nodes: &[[f64; 3]; 4]) -> Self {
         let first_diagonal = add_scaled(nodes[2], -1.0, nodes[0]);
         let second_diagonal = add_scaled(nodes[3], -1.0, nodes[1]);
-        // Twice the vector between the middles of these sides.
+        // Twice the vector from the middle of side 4–1 to the middle of side 2–3.
         let tangent = add_scaled(first_diagonal, -1.0, second_diagonal);
         Self::new(nodes, cross(first_diagonal, second_diagonal), tangent)
     }
 }
 
-impl Frame<3> {
+impl LocalFrame<3> {
     /// Frame of a triangle, e1 along the side 1–2.
     pub(super) fn triangle(nodes: &[[f64; 3]; 3]) -> Self {
         let first_side = add_scaled(nodes[1], -1.0, nodes[0]);
@@ -37,10 +37,10 @@ impl Frame<3> {
     }
 }
 
-impl<const N: usize> Frame<N> {
-    /// Frame with n along `normal` and e1 along the part of `tangent` in the plane.
+impl<const N: usize> LocalFrame<N> {
+    /// Frame with n along `normal` and e1 along the projection of `tangent` on the plane.
     ///
-    /// Both vectors may have any length.
+    /// Neither vector needs to have unit length.
     fn new(nodes: &[[f64; 3]; N], normal: [f64; 3], tangent: [f64; 3]) -> Self {
         let n = unit_vector(normal);
         let e1 = unit_vector(add_scaled(tangent, -dot(tangent, n), n));
@@ -57,26 +57,26 @@ impl<const N: usize> Frame<N> {
         }
     }
 
-    /// Rigid link: matrix from the six displacements of a node to those of its projection.
+    /// Rigid link: matrix from the displacements and rotations of a node to those of its projection.
     ///
     /// Rows: u, v, w, θ1, θ2, θn.
     fn rigid_link(&self, node: usize) -> [[f64; 6]; 6] {
-        let mut rows = [[0.0; 6]; 6];
+        let mut link = [[0.0; 6]; 6];
         for (row, axis) in self.axes.iter().enumerate() {
-            rows[row][..3].copy_from_slice(axis);
-            rows[3 + row][3..].copy_from_slice(axis);
+            link[row][..3].copy_from_slice(axis);
+            link[3 + row][3..].copy_from_slice(axis);
         }
         let height = self.heights[node];
         for column in 0..3 {
-            rows[0][3 + column] = -height * self.axes[1][column];
-            rows[1][3 + column] = height * self.axes[0][column];
+            link[0][3 + column] = -height * self.axes[1][column];
+            link[1][3 + column] = height * self.axes[0][column];
         }
-        rows
+        link
     }
 
     /// Adds the stiffness matrices of membrane and bending (M = 3N) to the element's `matrix`.
     ///
-    /// `matrix` has all six directions of each node.
+    /// `matrix` is row-major and has the six degrees of freedom of each node, node by node.
     pub(super) fn add_stiffness<const M: usize>(
         &self,
         membrane: &[[f64; M]; M],
@@ -99,22 +99,21 @@ impl<const N: usize> Frame<N> {
         }
     }
 
-    /// Displacements of all projections due to the six displacements of each node; M = 3N.
+    /// Displacements of all projections due to the displacements and rotations of each node; M = 3N.
     pub(super) fn local_displacements<const M: usize>(
         &self,
         displacement: &[f64],
     ) -> LocalDisplacements<M> {
-        let mut parts = [[0.0; M]; 2];
+        let mut membrane_and_bending = [[0.0; M]; 2];
         for (node, node_displacement) in displacement.chunks_exact(6).take(N).enumerate() {
             let link = self.rigid_link(node);
             let projected =
                 link.map(|row| row.iter().zip(node_displacement).map(|(a, b)| a * b).sum::<f64>());
-            for (part, directions) in parts.iter_mut().zip(PART_DIRECTIONS) {
-                part[3 * node..3 * node + 3]
-                    .copy_from_slice(&directions.map(|direction| projected[direction]));
+            for (values, dofs) in membrane_and_bending.iter_mut().zip(MEMBRANE_AND_BENDING_DOFS) {
+                values[3 * node..3 * node + 3].copy_from_slice(&dofs.map(|dof| projected[dof]));
             }
         }
-        LocalDisplacements { membrane: parts[0], bending: parts[1] }
+        LocalDisplacements { membrane: membrane_and_bending[0], bending: membrane_and_bending[1] }
     }
 }
 
@@ -126,8 +125,8 @@ pub(super) struct LocalDisplacements<const M: usize> {
     pub(super) bending: [f64; M],
 }
 
-/// Directions of membrane (u, v, θn) and bending (w, θ1, θ2), as indices into a node's six directions.
-const PART_DIRECTIONS: [[usize; 3]; 2] = [[0, 1, 5], [2, 3, 4]];
+/// Degrees of freedom of membrane (u, v, θn) and bending (w, θ1, θ2), as indices into the six of a node.
+const MEMBRANE_AND_BENDING_DOFS: [[usize; 3]; 2] = [[0, 1, 5], [2, 3, 4]];
 
 /// Local stiffness between the nodes i and j times the rigid link of node j.
 fn half_transformed_block<const M: usize>(
@@ -138,12 +137,12 @@ fn half_transformed_block<const M: usize>(
     link: &[[f64; 6]; 6],
 ) -> [[f64; 6]; 6] {
     let mut block = [[0.0; 6]; 6];
-    for (part, directions) in [membrane, bending].into_iter().zip(PART_DIRECTIONS) {
-        for (a, &row_direction) in directions.iter().enumerate() {
-            for (b, &column_direction) in directions.iter().enumerate() {
-                let stiffness = part[3 * i + a][3 * j + b];
+    for (matrix, dofs) in [membrane, bending].into_iter().zip(MEMBRANE_AND_BENDING_DOFS) {
+        for (a, &row_dof) in dofs.iter().enumerate() {
+            for (b, &column_dof) in dofs.iter().enumerate() {
+                let stiffness = matrix[3 * i + a][3 * j + b];
                 for column in 0..6 {
-                    block[row_direction][column] += stiffness * link[column_direction][column];
+                    block[row_dof][column] += stiffness * link[column_dof][column];
                 }
             }
         }

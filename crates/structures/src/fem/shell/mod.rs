@@ -14,7 +14,7 @@ pub use resultants::ShellResultants;
 
 use std::collections::HashSet;
 
-use frame::Frame;
+use frame::LocalFrame;
 use quad_bending::QuadBending;
 use quad_membrane::QuadMembrane;
 use section::ShellSection;
@@ -175,7 +175,9 @@ impl Shell {
         })
     }
 
-    /// Forces [x, y, z] (N) of a `pressure` (Pa) at each node; a positive pressure acts along the normal.
+    /// Forces [x, y, z] (N) of a `pressure` (Pa) at each node.
+    ///
+    /// A positive pressure acts along the normal.
     ///
     /// The normal n points to the side from which the nodes are seen counter-clockwise. The forces on a closed surface
     /// are in equilibrium.
@@ -219,7 +221,7 @@ impl Shell {
         let section = &self.section();
         Ok(match self.corner_points(coordinates)? {
             Corners::Four(corners) => {
-                let frame = Frame::quadrilateral(&corners);
+                let frame = LocalFrame::quadrilateral(&corners);
                 let points = &frame.points;
                 let local_displacements = frame.local_displacements::<12>(displacement);
                 let membrane =
@@ -229,7 +231,7 @@ impl Shell {
                 section.resultants(frame.axes, &membrane, &bending)
             }
             Corners::Three(corners) => {
-                let frame = Frame::triangle(&corners);
+                let frame = LocalFrame::triangle(&corners);
                 let points = &frame.points;
                 let local_displacements = frame.local_displacements::<9>(displacement);
                 let membrane =
@@ -313,14 +315,14 @@ impl Element for Shell {
         let section = &self.section();
         match self.corner_points(coordinates) {
             Ok(Corners::Four(corners)) => {
-                let frame = Frame::quadrilateral(&corners);
+                let frame = LocalFrame::quadrilateral(&corners);
                 let points = &frame.points;
                 let membrane = QuadMembrane { points, section }.stiffness();
                 let bending = QuadBending { points, section }.stiffness();
                 frame.add_stiffness::<12>(&leading_block(&membrane), &bending, matrix);
             }
             Ok(Corners::Three(corners)) => {
-                let frame = Frame::triangle(&corners);
+                let frame = LocalFrame::triangle(&corners);
                 let points = &frame.points;
                 let membrane =
                     TriangleMembrane { points, section, shared_sides: self.shared_sides }

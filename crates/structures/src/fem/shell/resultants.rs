@@ -19,7 +19,9 @@ pub struct ShellResultants {
     pub axes: [[f64; 3]; 3],
     /// Membrane forces n_11, n_22, n_12, N/m; tension is positive.
     pub membrane: [f64; 3],
-    /// Moments m_11, m_22, m_12, N m/m; positive with tension on the lower face, on the side of −n.
+    /// Moments m_11, m_22, m_12, N m/m.
+    ///
+    /// They are positive with tension on the lower face, on the side of −n.
     ///
     /// m_11 bends the strip along e1: its stress is σ_11 = 6 m_11/t² on the lower face.
     pub moments: [f64; 3],

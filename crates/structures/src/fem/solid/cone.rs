@@ -92,7 +92,9 @@ impl ConeReturn {
 }
 
 impl Cone {
-    /// Largest √J₂ at a sum I₁ of normal stresses, Pa; below zero beyond the tip of the cone.
+    /// Largest √J₂ at a sum I₁ of normal stresses, Pa.
+    ///
+    /// It is below zero beyond the tip of the cone.
     pub(super) fn shear_strength(&self, first_invariant: f64) -> f64 {
         self.shear_at_zero_pressure - self.alpha * first_invariant
     }

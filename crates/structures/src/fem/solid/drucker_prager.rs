@@ -69,7 +69,9 @@ const VARIABLE_COUNT: usize = 9;
 /// and energies do not depend on it.
 pub(super) const APEX_TANGENT_FRACTION: f64 = 1e-4;
 
-/// Largest yield function that rounding gives for a stress on the cone, relative to the terms of the strength.
+/// Largest yield function of a stress on the cone, relative to the terms of the strength.
+///
+/// Rounding gives less.
 const YIELD_FUNCTION_ROUNDING: f64 = 1e-9;
 
 /// Internal variables of a point.
@@ -235,6 +237,8 @@ impl SolidMaterial for DruckerPrager {
         Ok(stress)
     }
 
+    /// Tangent of the backward Euler scheme.
+    ///
     /// At the tip of the cone, 10⁻⁴ of the elasticity takes the place of zero, so that no stiffness matrix is singular.
     fn tangent(&self, strain: [f64; 4], variables: &[f64]) -> Result<[[f64; 4]; 4]> {
         self.check_strain(strain)?;
@@ -265,7 +269,9 @@ impl SolidMaterial for DruckerPrager {
         Ok(InternalEnergy { stored, dissipated })
     }
 
-    /// (σ_m − σ_1) : Δε + ½ Δσ : C⁻¹ : Δσ. With ψ = φ it is never below zero; with ψ < φ it has both signs.
+    /// (σ_m − σ_1) : Δε + ½ Δσ : C⁻¹ : Δσ.
+    ///
+    /// With ψ = φ it is never below zero; with ψ < φ it has both signs.
     fn remainder(&self, path: &StrainPath, variables: &[f64]) -> Result<f64> {
         for strain in [path.start, path.midstep, path.end] {
             self.check_strain(strain)?;

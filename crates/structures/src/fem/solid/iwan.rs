@@ -269,7 +269,9 @@ impl SolidMaterial for Iwan {
         Ok(stress)
     }
 
-    /// Where a component yields, 2 G_j q (I_dev − n⊗n) with n = s_j/|s_j|; elsewhere 2 G_j I_dev.
+    /// Sum of the components' tangents, and of the volumetric one.
+    ///
+    /// Where a component yields it has 2 G_j q (I_dev − n⊗n) with n = s_j/|s_j|, elsewhere 2 G_j I_dev.
     fn tangent(&self, strain: [f64; 4], variables: &[f64]) -> Result<[[f64; 4]; 4]> {
         let variables = self.read(variables)?;
         self.check_strain(strain)?;
@@ -319,8 +321,9 @@ impl SolidMaterial for Iwan {
         Ok(InternalEnergy { stored, dissipated })
     }
 
-    /// Σ [(s_m − s_1) : Δe + |Δs|²/(4 G_j)] over the components, and a term of the mean stress if `midstep` is not the
-    /// middle of `start` and `end`.
+    /// Σ [(s_m − s_1) : Δe + |Δs|²/(4 G_j)] over the components.
+    ///
+    /// There is also a term of the mean stress if `midstep` is not the middle of `start` and `end`.
     fn remainder(&self, path: &StrainPath, variables: &[f64]) -> Result<f64> {
         let variables = self.read(variables)?;
         for strain in [path.start, path.midstep, path.end] {

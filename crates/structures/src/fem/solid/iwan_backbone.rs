@@ -9,7 +9,9 @@ use crate::error::{Result, at_least, positive, require};
 const HYPERBOLIC_POINT_COUNT: usize = 12;
 /// First strain of a hyperbolic backbone over τ_s/G; up to this strain the backbone is straight.
 const FIRST_STRAIN_RATIO: f64 = 0.02;
-/// Smallest limit strain over τ_s/G. With a smaller one, the backbone would be convex at the second of the 12 points.
+/// Smallest limit strain over τ_s/G.
+///
+/// With a smaller one, the backbone would be convex at the second of the 12 points.
 const MIN_LIMIT_STRAIN_RATIO: f64 = 5.0;
 /// Largest difference of two slopes because of rounding, relative to the first slope.
 ///
@@ -146,7 +148,9 @@ pub(super) fn hyperbolic_points(
     Ok(points)
 }
 
-/// Norm of the strain deviator at which the virgin material has a stress of norm `stress_norm` (Pa).
+/// Norm of the strain deviator of the virgin material under a stress.
+///
+/// `stress_norm`: norm of the stress, Pa.
 ///
 /// The norm |e| of the strain follows from Σ min(2 G_j |e|, r_j) = `stress_norm`.
 pub(super) fn virgin_strain_norm(components: &[Component], stress_norm: f64) -> f64 {

@@ -29,7 +29,9 @@ pub use drucker_prager::DruckerPrager;
 pub use iwan::Iwan;
 pub use shared::SharedMaterial;
 
-/// Strains of a step at a point of a solid, each `[xx, yy, zz, xy]` with the engineering shear strain.
+/// Strains of a step at a point of a solid.
+///
+/// Each is `[xx, yy, zz, xy]` with the engineering shear strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrainPath {
     /// Strain at the end of the last step, to which the internal variables belong.
@@ -43,9 +45,13 @@ pub struct StrainPath {
 /// Plastic deformation of a solid at a point, for results and pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SolidState {
-    /// Plastic shear strain √(2 e^p : e^p) of the deviator e^p; in simple shear it is |γ^p|.
+    /// Plastic shear strain √(2 e^p : e^p) of the deviator e^p.
+    ///
+    /// In simple shear it is |γ^p|.
     pub plastic_strain: f64,
-    /// Shear stress over shear strength, from 0 to 1 (1: the solid yields with its full strength).
+    /// Shear stress over shear strength, from 0 to 1.
+    ///
+    /// At 1 the solid yields with its full strength.
     pub mobilised_strength: f64,
 }
 

@@ -180,7 +180,9 @@ impl Hysteresis for BoucWen {
     }
 }
 
-/// Shape of the hysteresis loop: y = ±z in the direction of a path, over the path length ξ = |d|/d_y.
+/// Shape of the hysteresis loop.
+///
+/// It is y over the path length ξ = |d|/d_y, where y = ±z in the direction of a path.
 ///
 /// dy/dξ = 1 − yⁿ while the spring loads (y > 0), and 1 + b |y|ⁿ while it unloads (y < 0).
 #[derive(Debug, Clone, PartialEq)]
@@ -200,7 +202,9 @@ struct LoopEnd {
 
 /// Largest number of Newton iterations, which converge from one side and finally quadratically.
 const MAX_NEWTON_ITERATIONS: usize = 60;
-/// Change of y ≤ 1 at which Newton's method has converged; it is the rounding of y.
+/// Change of y ≤ 1 at which Newton's method has converged.
+///
+/// It is the rounding of y.
 const UNLOADING_TOLERANCE: f64 = 1e-16;
 /// Relative change of v at which Newton's method has converged: a few roundings.
 const LOADING_TOLERANCE: f64 = 1e-15;
@@ -220,7 +224,9 @@ impl LoopShape {
         if y > 0.0 { 1.0 - power } else { 1.0 + self.unloading * power }
     }
 
-    /// End of a path of the length ξ = `path_length` from y = `start`; NaN for invalid arguments.
+    /// End of a path of the length ξ = `path_length` from y = `start`.
+    ///
+    /// NaN for invalid arguments.
     fn advance(&self, start: f64, path_length: f64) -> LoopEnd {
         if !(start.abs() <= 1.0 && path_length.is_finite()) {
             return LoopEnd { y: f64::NAN, lost_energy: f64::NAN };
@@ -254,7 +260,9 @@ impl LoopShape {
         (stored_energy - released_work).max(0.0)
     }
 
-    /// ∫₀^w sᵖ ds/(1 + b sⁿ): for p = 0 the path length of an unloading, for p = 1 its work.
+    /// ∫₀^w sᵖ ds/(1 + b sⁿ).
+    ///
+    /// For p = 0 it is the path length of an unloading, for p = 1 its work.
     fn unloading_integral(&self, w: f64, p: i32) -> f64 {
         let n = self.exponent;
         let b = self.unloading;
@@ -349,7 +357,7 @@ fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     }
     let middle = 0.5 * (low + high);
     let half_width = 0.5 * (high - low);
-    let rule = gauss::largest();
+    let rule = gauss::largest_rule();
     let points = rule.nodes.iter().zip(&rule.weights);
     half_width * points.map(|(x, weight)| weight * f(middle + half_width * x)).sum::<f64>()
 }

@@ -26,8 +26,9 @@ pub(super) struct CoupledBoucWen {
 
 /// Largest |z| of a saved state: the radius of the yield circle, plus rounding.
 const MAX_SAVED_NORM: f64 = 1.0 + 1e-12;
-/// Path length ξ up to which [`Phase::lost_energy`] computes ln q from 1 − q without loss of digits: there q is at
-/// least 1/cosh² 1.
+/// Path length ξ up to which [`Phase::lost_energy`] computes ln q from 1 − q.
+///
+/// No digits are lost, because q is at least 1/cosh² 1.
 const MAX_SHORT_PATH: f64 = 1.0;
 
 impl CoupledBoucWen {

@@ -12,9 +12,9 @@ use crate::error::{Result, not_negative, positive};
 ///
 /// The weight W on the bearing and its coefficient of friction are constant, and the structure does not rise when the
 /// bearing climbs. Overturning of a rigid floor increases the weight on one side as much as it reduces the weight on
-/// the other, so the sum of the horizontal forces does not change. Vertical motion changes all weights: with ±30 % at
-/// 0.4 to 3 Hz the force of a block under El Centro differs by up to 30 %, its displacement by up to 17 %; with a
-/// vertical record by 13 % and 1 %. A bearing from
+/// the other, so the sum of the horizontal forces does not change. Vertical motion changes all weights. If they vary by
+/// ±30 % at 0.4 to 3 Hz, the force of a block under El Centro differs by up to 30 %, and its displacement by up to
+/// 17 %. With a vertical record they differ by 13 % and 1 %. A bearing from
 /// [`with_vertical_stiffness`](FrictionPendulum::with_vertical_stiffness) uses the vertical force on it as its weight.
 ///
 /// Before it slides, the bearing is elastic up to a small displacement, which makes the tangent finite (Zayas, Low &

@@ -63,7 +63,7 @@ impl LeadRubber {
         positive("stiffness of the rubber", stiffness)?;
         positive("strength of the lead cores", strength)?;
         let lead_stiffness = (Self::STIFFNESS_RATIO - 1.0) * stiffness;
-        finite("first stiffness of the bearing", lead_stiffness)?;
+        finite("initial stiffness of the bearing", lead_stiffness)?;
         Ok(Self { slider: Slider::new(stiffness, lead_stiffness, strength) })
     }
 
@@ -75,7 +75,8 @@ impl LeadRubber {
         let requirement = "finite and above 1";
         require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, requirement)?;
         let lead_stiffness = (ratio - 1.0) * self.slider.parallel_stiffness;
-        self.slider.series_stiffness = positive("first stiffness of the bearing", lead_stiffness)?;
+        self.slider.series_stiffness =
+            positive("initial stiffness of the bearing", lead_stiffness)?;
         Ok(self)
     }
 

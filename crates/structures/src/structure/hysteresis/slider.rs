@@ -4,7 +4,9 @@ use super::{SpringResponse, corrupt_state};
 use crate::error::{Result, require};
 use crate::structure::InternalEnergy;
 
-/// A spring, and parallel to it a spring in series with a slider: a bilinear law with kinematic hardening.
+/// A spring, and parallel to it a spring in series with a slider.
+///
+/// This is a bilinear law with kinematic hardening.
 ///
 /// The return mapping is exact for straight paths.
 #[derive(Debug, Clone, PartialEq)]

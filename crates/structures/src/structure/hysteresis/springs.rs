@@ -167,9 +167,9 @@ impl NonlinearForce for HystereticSprings {
 pub struct WithSprings {
     structure: Box<dyn Structure>,
     springs: HystereticSprings,
-    /// Displacement at the end of the last step, m and rad, for a structure whose force has a remainder.
+    /// Displacement at the end of the last step, m and rad.
     ///
-    /// Empty before the first step, and for other structures.
+    /// Empty before the first step, and for a structure whose force has no remainder.
     committed_displacement: Vec<f64>,
 }
 

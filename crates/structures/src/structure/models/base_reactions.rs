@@ -1,4 +1,4 @@
-//! Geometric stiffness of P–Δ due to rigid links, and due to reactions of the ground that rotate with the base.
+//! Geometric stiffness of P–Δ due to rigid links and due to reactions of the ground.
 //!
 //! The forces of the static state are in equilibrium with the weights and with the reactions at the fixed contact
 //! nodes. In a rigid rotation the forces of the elements rotate with them, and the weights keep their direction. The

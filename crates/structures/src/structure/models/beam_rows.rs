@@ -40,7 +40,9 @@ pub struct BeamEndRows {
     pub shears: [SectionRows; 2],
     /// Torque about x; zero in the plane.
     pub torque: SectionRows,
-    /// Moments about y and about z by the right-hand rule; the first is zero in the plane.
+    /// Moments about y and about z by the right-hand rule.
+    ///
+    /// The first is zero in the plane.
     ///
     /// A positive moment about y causes tension at positive z, a positive moment about z tension at negative y.
     pub moments: [SectionRows; 2],

@@ -108,7 +108,7 @@ impl<'a> SectionCut<'a> {
     }
 }
 
-/// Error if an element with internal variables lies above the section.
+/// Returns an error if an element with internal variables lies above the section.
 fn check_no_internal_variables_above(mesh: &Mesh, level: &SectionLevel) -> Result<()> {
     let mut elements = mesh.elements().enumerate();
     let inelastic_element = elements.find(|(_, element)| {

@@ -5,21 +5,27 @@ use std::collections::{HashMap, HashSet};
 use crate::error::{Result, at_least, in_bounds, positive, require, require_part};
 use crate::fem::{Element, ElementFace, Mesh};
 
-/// Inward shift of a shell's corner, relative to its distance from the middle; it is far above rounding.
+/// Inward shift of a shell's corner, relative to its distance from the middle.
+///
+/// It is far above rounding.
 const INWARD_OFFSET_RATIO: f64 = 1e-6;
 
-/// A point of the base, at a distance below the node of the mesh with which it moves.
+/// A point of the base, below the node with which it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Foot {
     /// Index of the node.
     pub(super) node: usize,
-    /// Distance of the point below the node, m: half the thickness of a shell, whose underside is the base.
+    /// Distance of the point below the node, m.
+    ///
+    /// It is half the thickness of a shell, whose underside is the base.
     pub(super) depth: f64,
     /// Height of the point above the surface, m.
     pub(super) height: f64,
 }
 
-/// Feet of the `lines` of a base in the plane; each line lists its nodes from left to right.
+/// Feet of the `lines` of a base in the plane.
+///
+/// Each line lists its nodes from left to right.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) for a mesh in space, [`Error::Size`](crate::Error::Size) for fewer than two

@@ -195,10 +195,10 @@ impl FemModel {
         Self::on_feet(mesh, feet)
     }
 
-    /// Structure on the ground with all its lowest nodes, or in space with all its lowest faces.
+    /// Structure on the ground with all its lowest nodes or faces.
     ///
-    /// The faces are horizontal shells and sides of solids ([`Element::faces`](crate::fem::Element::faces)), as
-    /// for [`FemModel::on_faces`].
+    /// It has contact nodes in the plane, and faces in space. The faces are horizontal shells and sides of solids
+    /// ([`Element::faces`](crate::fem::Element::faces)), as for [`FemModel::on_faces`].
     ///
     /// # Errors
     /// As for [`FemModel::new`] and [`FemModel::on_faces`]; [`Error::Scene`] for a mesh in space without a face at its
@@ -361,7 +361,7 @@ impl Structure for FemModel {
         Ok(())
     }
 
-    /// Text with the nodes and their coordinates, and a coincident node that is not merged with one of them.
+    /// Text with the nodes, their coordinates, and a coincident node that is not merged.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         describe(self.mesh(), &|node, direction| self.dof(node, direction), dofs)
     }

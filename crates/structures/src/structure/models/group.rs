@@ -15,7 +15,9 @@ use crate::structure::{
 /// A structure of the group, and its base in the group.
 pub(super) struct Member {
     pub(super) structure: Box<dyn Structure>,
-    /// Base in coordinates and degrees of freedom of the group; without lines for a structure above others.
+    /// Base in coordinates and degrees of freedom of the group.
+    ///
+    /// It has no lines for a structure above others.
     base: Base,
     /// Shift to the right and upwards, m.
     pub(super) offset: [f64; 2],
@@ -112,7 +114,9 @@ impl StructureGroup {
         Ok(self)
     }
 
-    /// Returns an error for a base without nodes, a base of another kind, or a base that touches another one.
+    /// Returns an error for a base that the group cannot have.
+    ///
+    /// Such a base has no nodes, is of another kind, or touches another one.
     fn check_new_base(&self, base: &Base) -> Result<()> {
         let Some(left_node) = base.nodes().next() else {
             let quantity = "list of contact nodes";
@@ -146,10 +150,11 @@ impl StructureGroup {
         }
     }
 
-    /// Adds `structure`, shifted by `offset` to the right and upwards (m), which touches no ground.
+    /// Adds a `structure` that stands on other members and touches no ground.
     ///
-    /// It stands on other members by joints (`basemat::coupled::Joint`), whose
-    /// nodes [`contact_nodes`](StructureGroup::contact_nodes) converts. Its own base is not part of the group's base.
+    /// `offset`: shift to the right and upwards, m. Joints (`basemat::coupled::Joint`) connect the structure to the other
+    /// members; [`contact_nodes`](StructureGroup::contact_nodes) converts their nodes. Its own base is not part of the
+    /// group's base.
     ///
     /// # Errors
     /// [`Error::Input`] for an offset that is not finite, [`Error::Scene`] for a structure in space.
@@ -274,7 +279,7 @@ impl Member {
     }
 }
 
-/// A weighted sum of a member's degrees of freedom, converted to degrees of freedom of the group.
+/// Converts a sum of a member's degrees of freedom to degrees of freedom of the group.
 ///
 /// `member_dofs`: degrees of freedom of the member in the group. An index out of their range is also out of the group's
 /// range afterwards.

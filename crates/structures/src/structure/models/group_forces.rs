@@ -50,7 +50,9 @@ impl NonlinearForce for StructureGroup {
         })
     }
 
-    /// Text of the first member that has one for its degrees of freedom, which are tried in their order.
+    /// Text of the first member that has one.
+    ///
+    /// The degrees of freedom are tried in their order.
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         dofs.iter().find_map(|dof| {
             let members = self.members.iter().enumerate();

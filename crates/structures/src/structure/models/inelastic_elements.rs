@@ -19,7 +19,7 @@ struct InelasticElement {
     terms: Vec<(usize, f64)>,
     /// Range of the terms of each of the element's degrees of freedom.
     rows: Vec<Range<usize>>,
-    /// The model's degree of freedom of each of the element's, if each is one of the model's with a weight of 1.
+    /// Degrees of freedom of the model that equal those of the element; `None` if one is a sum.
     dofs: Option<Vec<usize>>,
     /// Range of the element's internal variables.
     variables: Range<usize>,
@@ -38,7 +38,7 @@ impl InelasticElement {
         }
     }
 
-    /// The model's degree of freedom of each of the element's; `None` unless each is one with a weight of 1.
+    /// Degrees of freedom of the model that equal those of the element; `None` if one is a sum.
     fn single_dofs(&self) -> Option<Vec<usize>> {
         let single_dof = |row: &Range<usize>| match self.terms[row.clone()] {
             [(dof, 1.0)] => Some(dof),

@@ -11,10 +11,10 @@ struct WeightedNode {
 }
 
 impl FemModel {
-    /// Nodal forces of a pressure of 1 Pa along the line through `nodes`, for a `Load` in Pa.
+    /// Nodal forces of a pressure along a line, for a `Load` in Pa.
     ///
-    /// The pressure acts to the left of the direction from the first to the last node, which is into a body with nodes
-    /// counter-clockwise along its boundary.
+    /// The pressure is 1 Pa along the line through `nodes`. It acts to the left of the direction from the first to the
+    /// last node, which is into a body with nodes counter-clockwise along its boundary.
     ///
     /// The forces do the same work as the pressure on the elements' edges: one half at each end of a segment, or
     /// Simpson's weights along the edge of an eight-node element whose middle node is in the list.
@@ -85,7 +85,9 @@ impl FemModel {
         Ok(row)
     }
 
-    /// Nodes of a line with their parts of its segments; a node may occur more than once.
+    /// Nodes of a line with their parts of its segments.
+    ///
+    /// A node may occur more than once.
     fn weighted_nodes(&self, nodes: &[usize]) -> Result<Vec<WeightedNode>> {
         at_least("nodes of a loaded line", nodes.len(), 2)?;
         let mesh_nodes = self.mesh().nodes();

@@ -41,7 +41,9 @@ impl FemModel {
         self.with_link(RigidLinkKind::Body, leader, followers)
     }
 
-    /// Ties the nodes `followers` to `leader` in a horizontal plane, as a floor that is rigid in its plane.
+    /// Ties the nodes `followers` to `leader` in a horizontal plane.
+    ///
+    /// An example is a floor that is rigid in its plane.
     ///
     /// The displacements along x and y and the rotation about z follow the leader; the displacement along z and the
     /// other two rotations remain free. All nodes lie at one height, so that the diaphragm resists no rigid motion.

@@ -98,7 +98,7 @@ impl MatrixModel {
     /// gives the force in its direction, a rotation about a point the moment about this point. The weights of the
     /// accelerations are −motionᵀ M. The result is exact for a part without loads and without damping to the ground;
     /// with the midpoint rule it is the mean over the step. To include the weight, add the acceleration of gravity to
-    /// the vertical accelerations. The unit is the unit of a force.
+    /// the vertical accelerations. The returned unit is that of a force, also for a moment.
     ///
     /// ```
     /// use basemat::structure::{BaseNode, MatrixModel, Triplets};
@@ -159,10 +159,10 @@ impl MatrixModel {
         check_stiffness(&stiffness, &mass).err().filter(|_| !self.has_active_stiffness)
     }
 
-    /// Replaces the damping by a matrix (N s/m per metre) without a check of symmetry and sign.
+    /// Replaces the damping by a matrix without a check of symmetry and sign.
     ///
-    /// Gyroscopes, or dampers that feed energy in, have such a matrix. This energy is negative `damping` in the energy
-    /// balance.
+    /// The matrix is in N s/m per metre. Gyroscopes, or dampers that feed energy in, have such a matrix. This energy is
+    /// negative `damping` in the energy balance.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Index`] and

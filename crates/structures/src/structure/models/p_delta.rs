@@ -9,11 +9,14 @@ use crate::structure::{FemModel, Structure, Triplets};
 
 /// Name of the stiffness matrix in errors.
 const MATRIX_NAME: &str = "stiffness matrix with the contact nodes fixed";
-/// Residual force of a solution, relative to the weight, above which the structure counts as a mechanism.
+/// Largest residual force of a solution, relative to the weight.
 ///
-/// Rounding leaves far less, unless the stiffness is nearly singular.
+/// With a larger one the structure counts as a mechanism. Rounding leaves far less, unless the stiffness is nearly
+/// singular.
 const EQUILIBRIUM_TOLERANCE: f64 = 1e-6;
-/// Largest factor on the axial forces in the search for buckling; larger factors have no practical meaning.
+/// Largest factor on the axial forces in the search for buckling.
+///
+/// Larger factors have no practical meaning.
 const MAX_BUCKLING_FACTOR: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
 const BUCKLING_FACTOR_TOLERANCE: f64 = 1e-9;

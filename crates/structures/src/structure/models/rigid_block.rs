@@ -3,10 +3,11 @@
 use crate::error::{Result, finite, not_negative, positive};
 use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
-/// Rigid body on a flat base, with the degrees of freedom `[u_x, u_y, θ]` of the base's middle.
+/// Rigid body on a flat base in the plane.
 ///
-/// A point at height z above the base, x to the right of its middle, moves by `u_x − z θ` and `u_y + x θ` (small
-/// rotations). The centre of gravity lies above the middle of the base.
+/// Its degrees of freedom are `[u_x, u_y, θ]` of the base's middle. A point at height z above the base, x to the right
+/// of its middle, moves by `u_x − z θ` and `u_y + x θ` (small rotations). The centre of gravity lies above the middle
+/// of the base.
 ///
 /// ```
 /// use basemat::structure::{RigidBlock, Structure, Triplets};
@@ -104,7 +105,9 @@ impl RigidBlock {
         Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
     }
 
-    /// Adds the P–Δ effect of a carried weight: `−weight · height · θ²/2` in the potential energy.
+    /// Adds the P–Δ effect of a carried weight.
+    ///
+    /// The effect is `−weight · height · θ²/2` in the potential energy.
     ///
     /// `weight`: N/m, of what stands on the block at `height` (m) above its base, such as its share of a cap. The
     /// weight itself acts by a load or a joint.

@@ -53,7 +53,9 @@ pub(super) struct Follower {
     pub(super) is_body: bool,
 }
 
-/// Rigid links: every degree of freedom of the mesh as a weighted sum of the remaining ones.
+/// Rigid links of a mesh.
+///
+/// Every degree of freedom of the mesh is a weighted sum of the remaining ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
     /// Kind of link and leader of each node that is a follower.
@@ -176,7 +178,9 @@ impl RigidLinks {
         leader_link.is_some_and(|(kind, _)| kind.ties(direction))
     }
 
-    /// Index of a mesh's degree of freedom among the remaining ones; `None` for a follower.
+    /// Index of a mesh's degree of freedom among the remaining ones.
+    ///
+    /// `None` for a follower.
     pub(super) fn remaining_dof(
         &self,
         node: usize,
@@ -228,7 +232,9 @@ impl RigidLinks {
         }
     }
 
-    /// Adds Lᵀ A L to `matrix`, with the matrix A of the mesh, and u = L q for the remaining degrees of freedom q.
+    /// Adds Lᵀ A L to `matrix`, with the matrix A of the mesh.
+    ///
+    /// u = L q for the remaining degrees of freedom q.
     pub(super) fn add_condensed(&self, mesh_matrix: &Triplets, matrix: &mut Triplets) {
         for &(row, column, value) in mesh_matrix.entries() {
             // Degrees of freedom of a user's element may be out of range; the matrix later returns an error.

@@ -14,7 +14,9 @@ use crate::structure::{FemModel, SectionRows};
 pub struct Section {
     /// Height of the section, m.
     pub height: f64,
-    /// Horizontal force on the part below, N, positive to the right; at the base, the base shear.
+    /// Horizontal force on the part below, N, positive to the right.
+    ///
+    /// At the base it is the base shear.
     pub shear: SectionRows,
     /// Vertical force on the part below, N, positive downwards (compression).
     pub compression: SectionRows,

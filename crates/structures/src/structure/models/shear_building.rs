@@ -57,7 +57,9 @@ pub struct ShearBuilding {
     base_mass: f64,
     base_inertia: f64,
     pub(super) storeys: Vec<Storey>,
-    /// Initial tangent of the law that replaces a storey's stiffness, N/m; `None` without a law.
+    /// Initial tangent of the law that replaces a storey's stiffness, N/m.
+    ///
+    /// `None` without a law.
     pub(super) law_tangents: Vec<Option<f64>>,
     /// The laws, as springs whose deformations are the drifts of their storeys.
     pub(super) springs: HystereticSprings,

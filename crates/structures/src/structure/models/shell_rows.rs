@@ -60,10 +60,11 @@ impl FemModel {
         shell.resultants(&self.mesh.coordinates(shell.nodes()), &shell_displacement)
     }
 
-    /// Rows of the forces and moments at every node of some shells, in ascending order of nodes.
+    /// Rows of the forces and moments at every node of some shells.
     ///
-    /// At each node they are means over these shells. Pass the shells of one mat or one wall only: the moments of
-    /// another wall at a common node are different. `elements` are indices from [`Mesh::add`].
+    /// They are in ascending order of nodes. At each node they are means over these shells. Pass the shells of one mat
+    /// or one wall only: the moments of another wall at a common node are different. `elements` are indices from
+    /// [`Mesh::add`].
     ///
     /// `axes` returns [tangent, outward direction] at a point [x, y, z] (m): e1 is the part of the tangent in the plane
     /// of a shell, and the normal n is on the side of the outward direction, as for [`ShellResultants::in_axes`].
@@ -129,7 +130,9 @@ impl FemModel {
         Ok(node_sums.into_iter().map(|(node, sum)| self.mean_rows(node, sum)).collect())
     }
 
-    /// Means of the resultants at a node, as sums of the degrees of freedom that the model's links do not eliminate.
+    /// Means of the resultants at a node.
+    ///
+    /// They are sums of the degrees of freedom that the model's links do not eliminate.
     fn mean_rows(&self, node: usize, sum: NodeSum) -> ShellRows {
         let shell_count = sum.shell_count;
         let mut means = sum.rows.into_iter().map(|row| {
@@ -160,8 +163,9 @@ struct NodeSum {
     shell_count: f64,
     /// Sums of the unit vectors e1, e2, n.
     axes: [[f64; 3]; 3],
-    /// Sums of each resultant due to a unit value of each degree of freedom of the mesh, in the order of
-    /// [`ShellResultants::values`].
+    /// Sums of each resultant, in the order of [`ShellResultants::values`].
+    ///
+    /// They are due to a unit value of each degree of freedom of the mesh.
     rows: [BTreeMap<usize, f64>; 8],
 }
 
@@ -191,7 +195,9 @@ fn shell_at(mesh: &Mesh, element: usize) -> Result<&Shell> {
     shell.ok_or_else(|| Error::part(element_name(element), "it is not a shell"))
 }
 
-/// The element as a shell, also if it is in a box; `None` for other elements.
+/// The element as a shell, also if it is in a box.
+///
+/// `None` for other elements.
 fn as_shell(element: &dyn Element) -> Option<&Shell> {
     let any: &dyn Any = element;
     match any.downcast_ref::<Box<dyn Element>>() {

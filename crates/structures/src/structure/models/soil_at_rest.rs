@@ -1,4 +1,4 @@
-//! Soil at rest in a finite-element model or a group: its sides, and its mass without weight.
+//! Sides of soil at rest in a finite-element model, and its mass without weight.
 
 use std::collections::{HashMap, HashSet};
 
@@ -42,7 +42,9 @@ pub(super) fn check(mesh: &Mesh, feet: &[Vec<Foot>]) -> Result<()> {
     Ok(())
 }
 
-/// Leftmost nodes of soil at rest from the surface down, lowest ones to the right, and rightmost ones upwards.
+/// Nodes at the sides and the bottom of soil at rest.
+///
+/// They are the leftmost nodes downwards, the lowest ones to the right, and the rightmost ones upwards.
 #[cfg(feature = "embedded")]
 pub(super) fn outline(mesh: &Mesh) -> Vec<usize> {
     let soil = mesh.elements().filter(|element| element.is_at_rest());
@@ -65,7 +67,9 @@ pub(super) fn outline(mesh: &Mesh) -> Vec<usize> {
     left_wall.chain(base).chain(right_wall).collect()
 }
 
-/// Corners of the sides that belong to one of these elements only, in the order of the elements.
+/// Corners of the sides that belong to one of these elements only.
+///
+/// They are in the order of the elements.
 fn outer_sides(soil: &[&dyn Element]) -> Vec<[usize; 2]> {
     let mut sides = Vec::new();
     let mut element_counts: HashMap<[usize; 2], usize> = HashMap::new();
@@ -83,7 +87,9 @@ fn outer_sides(soil: &[&dyn Element]) -> Vec<[usize; 2]> {
 }
 
 impl FemModel {
-    /// Mass of soil at rest on each degree of freedom, kg; `None` without such soil.
+    /// Mass of soil at rest on each degree of freedom, kg.
+    ///
+    /// `None` without such soil.
     pub(super) fn mass_of_soil_at_rest(&self) -> Result<Option<Vec<f64>>> {
         check(&self.mesh, &self.feet)?;
         let up = self.mesh.up_direction();
@@ -115,7 +121,9 @@ impl FemModel {
 }
 
 impl StructureGroup {
-    /// Mass of soil at rest of all members on the degrees of freedom of the group, kg; `None` without such soil.
+    /// Mass of soil at rest of all members on the degrees of freedom of the group, kg.
+    ///
+    /// `None` without such soil.
     pub(super) fn mass_of_soil_at_rest(&self) -> Result<Option<Vec<f64>>> {
         let mut masses = None;
         for member in &self.members {

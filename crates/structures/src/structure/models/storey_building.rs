@@ -18,14 +18,14 @@ pub struct PlanStorey {
     pub height: f64,
     /// Mass of the floor on top, kg.
     pub mass: f64,
-    /// Moments of inertia of the floor about axes along x, y and z through its centre of mass, kg m².
+    /// Moments of inertia about x, y and z through the floor's centre of mass, kg m².
     pub inertia: [f64; 3],
     /// Centre of mass of the floor, `[x, y]` in m.
     #[cfg_attr(feature = "serde", serde(default))]
     pub mass_center: [f64; 2],
-    /// Lateral stiffness along x and y (N/m), and torsional stiffness (N m) about the centre of stiffness.
+    /// Stiffness along x and y (N/m), and against twist (N m) about the centre of stiffness.
     pub stiffness: [f64; 3],
-    /// Centre of stiffness, `[x, y]` in m: a shear force through it does not twist the storey.
+    /// Centre of stiffness, `[x, y]` in m; a shear force through it does not twist the storey.
     #[cfg_attr(feature = "serde", serde(default))]
     pub stiffness_center: [f64; 2],
     /// Dashpots parallel to the three stiffnesses, N s/m and N m s.
@@ -135,11 +135,11 @@ impl StoreyBuilding {
 
     /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`.
     ///
-    /// Directions: [`ALONG`](StoreyBuilding::DIRECTION_ALONG), [`ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or
-    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's
-    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: along the diagonal,
-    /// two sliders have √2 times the friction of one. For bearings that slide or yield in any direction use
-    /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
+    /// Directions: [`DIRECTION_ALONG`](StoreyBuilding::DIRECTION_ALONG),
+    /// [`DIRECTION_ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or [`DIRECTION_TWIST`](StoreyBuilding::DIRECTION_TWIST).
+    /// The deformation of the law is the storey's [`drift`](StoreyBuilding::drift) in that direction. Laws along x and
+    /// y act independently: along the diagonal, two sliders have √2 times the friction of one. For bearings that slide
+    /// or yield in any direction use [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
@@ -250,7 +250,7 @@ impl StoreyBuilding {
         Ok(self.deformation([0, storey + 1], place))
     }
 
-    /// Displacement of the second of two `levels` relative to the first, less the part due to the mat's rotation.
+    /// Relative displacement of two `levels`, less the part due to the mat's rotation.
     fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
         let storeys = &self.storeys[levels[0]..levels[1]];
         let height: f64 = storeys.iter().map(|storey| storey.height).sum();
@@ -260,7 +260,7 @@ impl StoreyBuilding {
         deformation
     }
 
-    /// Displacements of the mass centre of the floor on `storey`, and its rotations, about x, y and z.
+    /// Displacements of the mass centre of the floor on `storey`, and its rotations.
     pub(super) fn floor_motion(&self, storey: usize) -> [DofCombination; 6] {
         let place = self.storeys[storey].mass_center;
         let [x_row, y_row, twist] = level_motion(storey + 1, place);
@@ -298,7 +298,7 @@ const MAT_ROTATION_X: usize = 3;
 /// Degree of freedom of the mat: rotation about y.
 const MAT_ROTATION_Y: usize = 4;
 
-/// Displacements along x and y, and twist, of a level at a point (m): level 0 is the mat's base, 1 the lowest floor.
+/// Displacements along x and y, and twist, of a level (0: the mat's base) at a point, m.
 fn level_motion(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     // The six degrees of freedom of the mat come first, then three of each floor.
     let first_dof = 3 * level + 3;
@@ -313,7 +313,7 @@ fn translation_row(dof: usize, twist: usize, lever_arm: f64) -> DofCombination {
     std::iter::once((dof, 1.0)).chain(twist_term).collect()
 }
 
-/// Displacement of an upper level relative to a lower one, which includes the part due to the mat's tilt.
+/// Displacement of an upper level relative to a lower one, with the mat's tilt.
 fn relative_displacement(
     [lower_level, upper_level]: [usize; 2],
     place: [f64; 2],

@@ -83,7 +83,7 @@ impl ShearBuilding {
             height: positive("height of the isolators", level.height)?,
             mass: positive("mass of the slab above the isolators", level.slab_mass)?,
             rotary_inertia: not_negative("rotary inertia of the slab", level.slab_inertia)?,
-            stiffness: positive("first stiffness of the isolators", law.response(0.0).tangent)?,
+            stiffness: positive("initial stiffness of the isolators", law.response(0.0).tangent)?,
             damping: not_negative("damping of the isolators", level.damping)?,
         };
         let needed = "must be added before the laws of storeys";

@@ -21,7 +21,9 @@ impl StoreyBuilding {
         Ok([x_force, y_force, torque])
     }
 
-    /// Six resultants of the floors above on the part below the foot of `storey` (0: the lowest, on the mat).
+    /// Six resultants of the floors above on the part below the foot of `storey`.
+    ///
+    /// Storey 0 is the lowest, on the mat.
     ///
     /// Moments are about the point `reference` (m from the middle of the mat's base) at the foot of the storey. The
     /// height of the section is that above the mat's base. As in [`shear`](StoreyBuilding::shear), the resultants are

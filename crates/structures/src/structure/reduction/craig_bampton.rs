@@ -295,7 +295,9 @@ impl Structure for ReducedModel {
         full.structure.description()
     }
 
-    /// Text of the full model for kept degrees of freedom, and the index of the first mode.
+    /// Text of the full model for kept degrees of freedom.
+    ///
+    /// The first mode is named by its index.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
         let kept_dofs = self.basis.kept();

@@ -5,7 +5,9 @@ use crate::linalg::{Eigenpairs, SparseFactor, SparseMatrix, lowest_modes};
 use crate::structure::detached::submatrix;
 use crate::structure::{Base, BaseNode, DofCombination};
 
-/// Bytes for each entry of T: the basis, its copy while it grows, and scratch of the eigenvalue solver.
+/// Bytes for each entry of T.
+///
+/// They are the basis, its copy while it grows, and scratch of the eigenvalue solver.
 const BASIS_BYTES_PER_ENTRY: f64 = 24.0;
 
 /// Kept and interior degrees of freedom.

@@ -7,7 +7,9 @@ use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
 use crate::structure::DofCombination;
 use crate::structure::probe::Probe;
 
-/// Number of columns of A T that are computed together; a block of this size fits into the cache.
+/// Number of columns of A T that are computed together.
+///
+/// A block of this size fits into the cache.
 const COLUMNS_PER_BLOCK: usize = 16;
 
 /// The basis T of a reduction, u = T q.
@@ -97,7 +99,9 @@ impl Recovery {
         &self.basis.kept
     }
 
-    /// Converts a weighted sum of the full model's degrees of freedom to the reduced model's, for a spring.
+    /// Converts a sum of the full model's degrees of freedom to the reduced model's.
+    ///
+    /// Springs and probes of the reduced model need such sums.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have,

@@ -152,7 +152,9 @@ fn the_remainder_of_a_component_has_a_lower_bound() {
     }
 }
 
-/// The ratio of remainder to dissipation falls with the square of the step: 64 times for steps an eighth as long.
+/// The ratio of remainder to dissipation falls with the square of the step.
+///
+/// It falls by a factor of 64 for steps an eighth as long.
 ///
 /// The factor scatters, because it depends on where in a step the material begins to yield.
 #[test]

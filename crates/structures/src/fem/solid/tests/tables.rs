@@ -128,7 +128,9 @@ fn compare<M: SolidMaterial>(file: &str, materials: &[M]) -> usize {
     apex_count
 }
 
-/// Asserts that the tangent at the tip is the small fraction of the elasticity; the table has zeros there.
+/// Asserts that the tangent at the tip is the small fraction of the elasticity.
+///
+/// The table has zeros there.
 fn assert_tangent_at_tip(material: &dyn SolidMaterial, strain: [f64; 4], variables: &[f64]) {
     let elasticity = material.elasticity();
     let tangent = material.tangent(strain, variables).unwrap();

@@ -36,7 +36,9 @@ fn difference_tangent(
     tangent
 }
 
-/// Compares the tangent at a strain with differences; `None` at a kink, else whether the strain is at a tip.
+/// Compares the tangent at a strain with differences.
+///
+/// `None` at a kink, else whether the strain is at a tip.
 fn compare_at(
     material: &dyn SolidMaterial,
     strain: [f64; 4],
@@ -69,7 +71,9 @@ fn compare_at(
     Some(is_apex)
 }
 
-/// Compares tangents of random paths; returns the number of strains away from kinks, and of those at a tip.
+/// Compares tangents of random paths.
+///
+/// Returns the number of strains away from kinks, and of those at a tip.
 fn compare(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) -> [usize; 2] {
     let mut random = Random(seed);
     let mut compared_count = 0;

@@ -1,3 +1,5 @@
+//! Models with elements that yield: force, tangent, energies and stored states.
+
 mod composition;
 
 use crate::error::Error;
