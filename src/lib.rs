@@ -137,7 +137,7 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `embedded` | `bem::embedded`: the ground of structures with walls below the surface, in the plane; impedances |
+//! | `embedded` | `bem::embedded`: the ground of structures with walls below the surface, and soil that yields around a foundation, in the plane |
 //! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the scheme of Patel & Spyrakos and its stability; `fundamental::FullPlane` |
 //! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape`; `sweep`: files |
 //! | `reference` | `reference`: closed forms from the literature, to check against |

@@ -24,7 +24,7 @@ impl From<BaseNode> for PyBaseNode {
 }
 
 /// Nodes of the core as objects of Python.
-fn python_nodes(nodes: Vec<BaseNode>) -> Vec<PyBaseNode> {
+pub(crate) fn python_nodes(nodes: Vec<BaseNode>) -> Vec<PyBaseNode> {
     nodes.into_iter().map(PyBaseNode::from).collect()
 }
 
@@ -196,19 +196,24 @@ impl BaseLike {
     /// The base of a structure with this number of degrees of freedom.
     pub(crate) fn of_structure(self, dof_count: usize) -> PyResult<Base> {
         match self {
-            Self::Lines(lines) => structure_nodes(lines, dof_count).map(Base::Lines),
-            Self::Faces(faces) => structure_nodes(faces, dof_count).map(Base::Faces),
+            Self::Lines(lines) => structure_nodes(lines, Some(dof_count)).map(Base::Lines),
+            Self::Faces(faces) => structure_nodes(faces, Some(dof_count)).map(Base::Faces),
         }
     }
 }
 
-/// Nodes whose rows belong to a structure with this number of degrees of freedom.
-fn structure_nodes(lists: Vec<Vec<PyBaseNode>>, dof_count: usize) -> PyResult<Vec<Vec<BaseNode>>> {
+/// Nodes whose rows belong to a structure with this number of degrees of freedom, if it is known.
+pub(crate) fn structure_nodes(
+    lists: Vec<Vec<PyBaseNode>>,
+    dof_count: Option<usize>,
+) -> PyResult<Vec<Vec<BaseNode>>> {
     let mut node_lists = Vec::with_capacity(lists.len());
     for python_nodes in lists {
         let mut nodes = Vec::with_capacity(python_nodes.len());
         for PyBaseNode(node, weight_count) in python_nodes {
-            weight_count.check(&format!("the contact node at {} m", node.x), dof_count)?;
+            if let Some(dof_count) = dof_count {
+                weight_count.check(&format!("the contact node at {} m", node.x), dof_count)?;
+            }
             nodes.push(node);
         }
         node_lists.push(nodes);

@@ -139,6 +139,7 @@ pub(crate) fn in_python_words(mut text: String) -> String {
         ),
         ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),
         ("`Midpoint`", "`TimeScheme.midpoint()`"),
+        ("`with_law` sets another one", "give another `law`"),
         ("`GravityStage::Unloaded`", "`gravity_stage=\"unloaded\"`"),
         ("`GravityStage::Frictional`", "`gravity_stage=\"frictional\"`"),
         ("`FemModel::in_trench`", "`FemModel(…, in_trench=True)`"),

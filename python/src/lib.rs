@@ -44,6 +44,7 @@ mod cases;
 mod error;
 mod ground;
 mod interface;
+mod joint;
 mod list_arguments;
 mod motion;
 mod names;
@@ -83,6 +84,7 @@ mod _core {
             PyBonded, PyCohesive, PyCoulomb, PyCyclicYielding, PyEarthPressure, PyInterfaceLaw,
             PyThinLayer, PyVariableFriction, PyYielding,
         },
+        joint::PyJoint,
         motion::{
             PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,
             PyTrenchMotion, el_centro_1940, free_field, log_spaced, ricker, travelling_wave,
@@ -93,13 +95,14 @@ mod _core {
         profile::{PyDampingLaw, PySoilLayer, PySoilProfile},
         refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity, refine, sensitivity},
         results::{
-            PyDeformedShape, PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun,
-            PyServiceCheck, PySummary, PySystemMode, equivalent_damping,
+            PyDeformedShape, PyEnergyBalance, PyExtremes, PyInteraction, PyJointResults, PyPeak,
+            PyRun, PyServiceCheck, PySummary, PySystemMode, equivalent_damping, joint_results,
         },
         row::{PyDofCombination, PySectionRows},
         simulation::{
-            PyCheckpoint, PyFaceForces, PyFoundation, PyInitialConditions, PyLoad, PyResultOptions,
-            PyServiceLimits, PySimulation, PySolverOptions, PyState, PySteps, PyTimeScheme,
+            PyCheckpoint, PyFaceForces, PyFoundation, PyInitialConditions, PyJointState, PyLoad,
+            PyResultOptions, PyServiceLimits, PySimulation, PySolverOptions, PyState, PySteps,
+            PyTimeScheme,
         },
         site::{PyEquivalentLinear, PyStrainCurves},
         soil::{PySoil, PySoilStrength},
@@ -109,8 +112,8 @@ mod _core {
             PyIwan, PyLayer, PyLeadRubber, PyMaterial, PyMatrixModel, PyMesh, PyPendulumBearing,
             PyPlanStorey, PyRayleighDamping, PyReducedModel, PyRigidBlock, PyRigidBody,
             PyShearBuilding, PyShellResultants, PyShellRows, PySolidPoints, PyStorey,
-            PyStoreyBuilding, PyStructure, PyStructureGroup, PyWithModalDamping, PyWithSprings,
-            PyWithWalls, stress_path,
+            PyStoreyBuilding, PyStressAtRest, PyStructure, PyStructureGroup, PyWithModalDamping,
+            PyWithSprings, PyWithWalls, stress_path,
         },
         ticker::cancel_when,
         user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance},

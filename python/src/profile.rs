@@ -14,6 +14,7 @@ use crate::error::OrRaise;
 use crate::list_arguments::{ListOf, type_error};
 use crate::names::preformatted;
 use crate::soil::PySoil;
+use crate::structure::PyStressAtRest;
 
 /// Damping of a soil: its complex shear modulus over frequency.
 #[pyclass(name = "DampingLaw", module = "basemat", frozen, dict)]
@@ -153,6 +154,15 @@ impl PySoilProfile {
             Bedrock::HalfPlane { soil, .. } => Some(PySoil(*soil)),
             Bedrock::Rigid => None,
         }
+    }
+
+    /// `StressAtRest` of these soils, for finite elements that begin with it.
+    ///
+    /// ``gravity``: m/s². ``ratio``: K₀ of all soils, the horizontal over the vertical pressure; ν/(1 − ν) of each soil, as
+    /// for a trench, unless given. The last layer on rigid bedrock extends to any depth.
+    #[pyo3(signature = (gravity, ratio=None))]
+    fn stress_at_rest(&self, gravity: f64, ratio: Option<f64>) -> PyResult<PyStressAtRest> {
+        self.0.stress_at_rest(gravity, ratio).or_raise().map(PyStressAtRest)
     }
 
     /// Total thickness of the layers, m.

@@ -40,6 +40,7 @@ impl<T: Structure + Sync> Structure for SharedStructure<T> {
         dofs() -> usize;
         base() -> Base;
         mass(matrix: &mut Triplets) -> Result<()>;
+        mass_at_rest() -> Result<Option<Vec<f64>>>;
         stiffness(matrix: &mut Triplets) -> Result<()>;
         damping(matrix: &mut Triplets) -> Result<()>;
         geometric_stiffness(matrix: &mut Triplets) -> Result<()>;

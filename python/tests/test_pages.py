@@ -73,7 +73,7 @@ def test_the_guides_parts_work(ran: dict[str, tuple[dict[str, Any], Path]]) -> N
 
 def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[str, Any], Path]]) -> None:
     gallery = sorted(own.stem for own in (pages.DOCS / "gallery").glob("*.md"))
-    assert len(gallery) == 11
+    assert len(gallery) == 13
     listed = (pages.DOCS / "gallery.md").read_text("utf-8")
     for page in gallery:
         assert f"(gallery/{page}.md)" in listed
@@ -84,6 +84,10 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
     yielding = ran["yielding"][0]
     assert f"reaches {1e-3 * yielding['linear_stress']:.0f} kPa" in (pages.DOCS / "gallery" / "yielding.md").read_text("utf-8")
     assert 35e3 < max(yielding["stress"]) < 40e3
+    stacked, cap = ran["stacked_blocks"][0], ran["free_cap"][0]
+    assert stacked["base_slips"][0] < stacked["base_slips"][2]
+    for upright, expected in cap["quarters"].values():
+        assert upright == pytest.approx(expected, rel=0.02)
     assert ran["hysteresis"][0]["columns"].path > 0.05 and ran["cask"][0]["run"].uplifted_fraction.value > 0.3
 
 

@@ -20,6 +20,7 @@ SIMPLE = {
     "bool": "bool",
     "BackfillArguments": "tuple[float, Soil] | tuple[float, Soil, DampingLaw]",
     "BaseLike": "_Base",
+    "BoxHeights": "float | Sequence[float | None]",
     "BlockMaterials": "_Solid | Sequence[_Solid | Sequence[_Solid]]",
     "Cells": "ArrayLike | Sequence[Sequence[int]]",
     "Contact": "Sequence[int] | Sequence[Sequence[int]]",

@@ -1,15 +1,16 @@
 //! Lines in place of the curves of laws, for yielding elements in the plane.
 //!
-//! The slope of a line is that of the curve, rounded. The matrix of a trial is then the same in several trials and steps,
-//! with its factors. The lines follow from the state at the start of the step alone, so that a resumed run has the same
+//! The slope of a line is that of the curve, rounded relative to the element's stiffness ρ (see [`super::linearisation`]), so
+//! that results do not depend on the units. The matrix of a trial is then the same in several trials and steps, with its
+//! factors. The lines follow from the state at the start of the step alone, so that a resumed run has the same
 //! ones. Each trial reduces the distance from the curves by the relative error of the slopes or more.
 
 use crate::interface::{Condition, Limits};
 
 /// Largest factor between the slopes of a line and of its curve.
 const MAX_SLOPE_RATIO: f64 = 1.25;
-/// Bits of a rounded slope's mantissa after the first.
-const SLOPE_MANTISSA_BITS: u32 = 2;
+/// Bits of a rounded ratio's mantissa after the first.
+const RATIO_MANTISSA_BITS: u32 = 2;
 
 /// Line on which a yielding element is solved in place of its law's curve.
 #[derive(Debug, Clone, Copy, Default)]
@@ -25,21 +26,22 @@ pub(crate) struct TrialLine {
 }
 
 impl TrialLine {
-    /// Line of a rounded slope through the point of a curve with these limits.
-    pub(super) fn new(point: CurvePoint, gap_offset: f64) -> Self {
+    /// Line of a rounded slope through the point of a curve, for an element of the stiffness ρ, Pa/m.
+    pub(super) fn new(point: CurvePoint, gap_offset: f64, stiffness: f64) -> Self {
         let CurvePoint { settlement, pressure, hardening } = point;
-        Self { settlement, pressure, gap_offset, slope: rounded(hardening) }
+        let slope = stiffness * rounded(hardening / stiffness);
+        Self { settlement, pressure, gap_offset, slope }
     }
 
     /// This line through another point, with its slope if that is near the slope of the curve.
-    pub(super) fn through(self, point: CurvePoint) -> Self {
+    pub(super) fn through(self, point: CurvePoint, stiffness: f64) -> Self {
         let Self { gap_offset, slope, .. } = self;
         let CurvePoint { settlement, pressure, hardening } = point;
         let is_near = slope <= MAX_SLOPE_RATIO * hardening && hardening <= MAX_SLOPE_RATIO * slope;
         if is_near {
             Self { settlement, pressure, ..self }
         } else {
-            Self::new(point, gap_offset)
+            Self::new(point, gap_offset, stiffness)
         }
     }
 
@@ -95,10 +97,10 @@ pub(super) enum LineMotion {
     Turned,
 }
 
-/// Slope rounded to a few bits.
-fn rounded(slope: f64) -> f64 {
-    let dropped_bits = f64::MANTISSA_DIGITS - 1 - SLOPE_MANTISSA_BITS;
+/// Ratio of stiffnesses, rounded to a few bits.
+fn rounded(ratio: f64) -> f64 {
+    let dropped_bits = f64::MANTISSA_DIGITS - 1 - RATIO_MANTISSA_BITS;
     let half = 1_u64 << (dropped_bits - 1);
-    let rounded = f64::from_bits((slope.to_bits() + half) >> dropped_bits << dropped_bits);
-    if rounded.is_normal() { rounded } else { slope }
+    let rounded = f64::from_bits((ratio.to_bits() + half) >> dropped_bits << dropped_bits);
+    if rounded.is_normal() { rounded } else { ratio }
 }

@@ -16,7 +16,7 @@ use crate::structure::BaseNode;
 ///
 /// Both sides are straight and parallel lines, listed in the same sense. The lower side lies on the right-hand side of that
 /// sense: below a horizontal joint that is listed from left to right, to the right of a vertical joint that is listed
-/// upwards. The elements are equal parts of the length that both sides share. Positive slip is that of the upper side
+/// upwards. The elements are parts of the length that both sides share. Positive slip is that of the upper side
 /// in the sense of the list.
 ///
 /// * Tractions act between the means of both sides over an element. A rigid body on n equal elements rocks about the
@@ -80,6 +80,19 @@ impl Joint {
         element_count: usize,
     ) -> Result<Self> {
         let line = JointLine::new(upper, lower, element_count)?;
+        Ok(Self { line, laws: vec![Box::new(Bonded)] })
+    }
+
+    /// Bonded joint between two lines of nodes, with a contact element around each node of `lower`.
+    ///
+    /// For a lower side that bends and whose nodes are dense where pressures are large, as below the ends of a foundation on
+    /// a box of soil. Elements end in the middle between two nodes. Under quadratic elements, pressures of single elements
+    /// alternate as the forces of their nodes do; sums over an edge of an element do not.
+    ///
+    /// # Errors
+    /// As for [`between`](Self::between); [`Error::Memory`] for too many nodes.
+    pub fn around_nodes(upper: Vec<BaseNode>, lower: Vec<BaseNode>) -> Result<Self> {
+        let line = JointLine::around_lower_nodes(upper, lower)?;
         Ok(Self { line, laws: vec![Box::new(Bonded)] })
     }
 

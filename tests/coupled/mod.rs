@@ -22,6 +22,8 @@ mod interaction;
 mod layered;
 mod layered_scenes;
 mod loads;
+mod near_field;
+mod near_field_waves;
 mod passive_schemes;
 mod preload_of_soft_structures;
 mod profile_forms;

@@ -6,17 +6,13 @@ use basemat_problems::random::Random;
 use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
 use super::compare::{NamedVariant, compare_variant, usual_response};
-use super::parts::{Choice, CoordinatePart, LawPart, Space, covering, covering_yielding};
+use super::parts::{Choice, CoordinatePart, Space, covering, covering_yielding};
 use super::scene::{REDUCED_LIMIT, SceneVariant};
 use super::tally::{IdentityTally, scenes};
 use super::view::{PLAIN_VIEW, View, random_units};
 
 /// Largest relative difference; static states are accurate to 1e-10.
 const DIFFERENCE_LIMIT: f64 = 1e-7;
-/// The same for settling soil under solids that yield, in other units.
-///
-/// The forces of a step of that law differ by up to 5e-9 between units, and contact amplifies the difference.
-const CYCLIC_UNITS_LIMIT: f64 = 1e-6;
 
 /// Views that change one thing each.
 fn views(choice: &Choice) -> Vec<(&'static str, View)> {
@@ -50,12 +46,6 @@ fn check(choices: &[Choice], row: &'static str) {
         let view_count = if basemat_problems::heavy() { views.len() } else { few_views };
         for k in 0..view_count {
             let (name, view) = &views[(number + 2 * k) % views.len()];
-            let has_cyclic_law = choice.law == LawPart::Cyclic && choice.body.yields();
-            let limit = if has_cyclic_law && *name == "in other units" {
-                CYCLIC_UNITS_LIMIT
-            } else {
-                limit
-            };
             let named = NamedVariant { name, view, variant: SceneVariant::Usual };
             compare_variant(choice, &response, &named, limit, &mut tally);
         }

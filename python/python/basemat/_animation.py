@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,7 +31,7 @@ def animate(
     scale: float | None = None,
     *,
     structure: Structure | UserStructure | DeformedShape | None = None,
-    height: float | None = None,
+    height: float | Sequence[float | None] | None = None,
     frames: int = 200,
     title: str | None = None,
 ) -> FuncAnimation:
@@ -44,9 +44,9 @@ def animate(
     Args:
         scale: factor on the displacements of the structure. Unless given, a round one that makes the largest a twentieth
             to a tenth of the structure's size.
-        structure: the simulation's structure, or its `DeformedShape`; none unless given.
-        height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
-            shape of their own.
+        structure: the simulation's structure, or its `DeformedShape`, which draws joints as well; none unless given.
+        height: height of the box that stands for a rigid block, m, or a list of one for each structure of a group, as for
+            `DeformedShape`; None for structures with a shape of their own.
         frames: largest number of pictures; of more snapshots as many are taken at equal distances. 200 by default.
         title: text above the picture; none unless given.
 
@@ -61,7 +61,7 @@ def film_of(
     run: Run,
     scale: float | None,
     structure: Structure | UserStructure | DeformedShape | None,
-    height: float | None,
+    height: float | Sequence[float | None] | None,
     frames: int,
     title: str | None,
 ) -> Film:

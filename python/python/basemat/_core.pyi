@@ -823,6 +823,60 @@ class VariableFriction(InterfaceLaw):
         tensile_strength: float = 0.0,
     ) -> Self: ...
 
+@final
+class Joint:
+    """Contact between two lines of nodes of a structure in the plane: a joint in a wall, a column under a cap, towers side
+    by side. `between` creates it, and `Simulation` takes it in ``joints``.
+
+    The upper side presses on the lower side as a base presses on the ground: with the same laws, modes and results, in
+    the same search. A part of the structure that touches no ground may stand on another part by joints
+    (``above`` of `StructureGroup`); it then moves with the ground under that part.
+
+    Tractions act between the means of both sides over an element: a rigid body on n equal elements rocks about the middles
+    of the outer elements, at 1 − 1/n of its half width. Displacements are small: bodies stay opposite their elements, and
+    the weight of a body that tilts overturns it only with P–Δ (``p_delta`` and ``carried_weights`` of `RigidBlock`).
+    Impacts of hard contact follow from the time scheme: ``TimeScheme.theta(1.0)`` makes them inelastic, bodies bounce with
+    ``TimeScheme.midpoint()``.
+    """
+
+    @staticmethod
+    def between(
+        upper: BaseNode | Sequence[BaseNode],
+        lower: BaseNode | Sequence[BaseNode],
+        count: int,
+        *,
+        law: _Interface | Sequence[_Interface] | None = None,
+        gap: float = 0.0,
+    ) -> Joint:
+        """Joint between the lines of nodes ``upper`` and ``lower``, lists of two or more `BaseNode`, with ``count`` equal
+        contact elements over the length that both lines share.
+
+        The nodes have their places and displacements in the structure of the simulation: ``contact_nodes`` of `RigidBlock`
+        and `FemModel` make them, ``contact_nodes`` of `StructureGroup` converts those of a member. Both lines are straight and parallel,
+        listed in the same sense; the lower side lies on the right-hand side of that sense: of a horizontal joint listed from
+        left to right it is the side below, of a vertical joint listed upwards the side on the right. Positive slip is that
+        of the upper side in the sense of the list.
+
+        ``law``: an `InterfaceLaw` or an object with the methods of `UserLaw`, one for all elements or a list of one for
+        each; `Bonded` unless given. ``gap`` (m): gap of the unloaded structure, as of an expansion joint; 0 by default.
+        It needs a law that opens.
+        """
+    @property
+    def upper(self) -> list[BaseNode]:
+        """Nodes of the upper side: list of `BaseNode`."""
+    @property
+    def lower(self) -> list[BaseNode]:
+        """Nodes of the lower side: list of `BaseNode`."""
+    @property
+    def count(self) -> int:
+        """Number of contact elements."""
+    @property
+    def law(self) -> Any:
+        """The argument ``law``; None for a bonded joint."""
+    @property
+    def gap(self) -> float:
+        """Gap of the unloaded structure, m."""
+
 @disjoint_base
 class FreeField:
     """Motion of the ground's surface without the structure: a `Record`, a wave, or a function (`free_field`). Until t = 0
@@ -1285,6 +1339,12 @@ class SoilProfile:
     @property
     def bedrock(self) -> Soil | None:
         """The `Soil` of the half-plane under the layers; None on rigid bedrock."""
+    def stress_at_rest(self, gravity: float, ratio: float | None = None) -> StressAtRest:
+        """`StressAtRest` of these soils, for finite elements that begin with it.
+
+        ``gravity``: m/s². ``ratio``: K₀ of all soils, the horizontal over the vertical pressure; ν/(1 − ν) of each soil, as
+        for a trench, unless given. The last layer on rigid bedrock extends to any depth.
+        """
     @property
     def depth(self) -> float:
         """Total thickness of the layers, m."""
@@ -1509,6 +1569,52 @@ class Interaction:
     def _repr_html_(self) -> str: ...
 
 @final
+class JointResults:
+    """Results of one joint in a run: time series, snapshots and envelopes. `Run.joints` lists them.
+
+    ``run.joints[0]["mean_slip"]`` is the time series of a scalar at ``run.time``. Forces act from the upper side on the
+    lower side, per metre of thickness.
+    """
+
+    @property
+    def series(self) -> dict[str, NDArray[np.float64]]:
+        """All time series: dict of arrays of shape (steps + 1,): "time" (s), "normal_force" (N/m, positive in compression),
+        "shear_force" (N/m, on the lower side, positive in the sense of the joint's nodes), "moment" (N·m/m, of the
+        pressures about the middle, positive if the pressure is larger before the middle), "open_fraction" (a ratio of
+        lengths), "mean_slip", "largest_gap" (m) and "contact_energy" (J/m, lost by friction and impact).
+        """
+    @property
+    def units(self) -> dict[str, str]:
+        """SI units of the time series: dict of texts by their names, "" for ratios."""
+    @property
+    def elements(self) -> NDArray[np.float64]:
+        """Places of the contact elements on the upper side at rest: array of shape (elements, 4), x at the first and at the
+        second end, lower and upper height above the surface, m.
+        """
+    @property
+    def contact(self) -> dict[str, NDArray[Any]]:
+        """Snapshots of the joint (``contact_every`` of `Simulation.run`): dict of "time" (frames,), s, and "gap", "slip"
+        (m), "pressure", "shear" (Pa), "mode" (numbers into `basemat.MODES`), each of shape (frames, elements).
+        """
+    @property
+    def envelope(self) -> dict[str, NDArray[np.float64]]:
+        """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "bottom", "top", "gap", "slip"
+        (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa), "open" (s); "gap_time",
+        "lowest_pressure_time" and so on are the times of extremes (s).
+        """
+    def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
+    def contact_frame(self) -> DataFrame:
+        """Snapshots of the joint as a tidy pandas frame: a row per frame and element.
+
+        Columns: "time" (s), "element", "x" and "z", the middle of the element on the upper side at rest (m), "gap", "slip"
+        (m), "pressure", "shear" (Pa), "mode".
+        """
+    def envelope_frame(self) -> DataFrame:
+        """`JointResults.envelope` as a pandas frame: a row per element."""
+    def to_frame(self) -> DataFrame:
+        """All time series of the joint as a pandas frame, indexed by the time (s)."""
+
+@final
 class Peak:
     """A value of a run with its time; ``float()`` returns the value."""
 
@@ -1634,6 +1740,9 @@ class Run(Summary):
     printed, a run is a page for a report.
     """
 
+    @property
+    def joints(self) -> list[JointResults]:
+        """Each joint separately: list of `JointResults`, in the order of ``joints`` of the simulation."""
     def foundation_series(self, foundation: int) -> dict[str, NDArray[np.float64]]:
         """Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first.
         Moments are about the middle of the foundation. Several foundations need ``foundations=True`` of
@@ -1820,7 +1929,7 @@ class Run(Summary):
         scale: float | None = None,
         *,
         structure: Structure | UserStructure | DeformedShape | None = None,
-        height: float | None = None,
+        height: float | Sequence[float | None] | None = None,
         frames: int = 200,
         title: str | None = None,
     ) -> FuncAnimation:
@@ -1833,9 +1942,9 @@ class Run(Summary):
         Args:
             scale: factor on the displacements of the structure. Unless given, a round one that makes the largest a twentieth
                 to a tenth of the structure's size.
-            structure: the simulation's structure, or its `DeformedShape`; none unless given.
-            height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
-                shape of their own.
+            structure: the simulation's structure, or its `DeformedShape`, which draws joints as well; none unless given.
+            height: height of the box that stands for a rigid block, m, or a list of one for each structure of a group, as for
+                `DeformedShape`; None for structures with a shape of their own.
             frames: largest number of pictures; of more snapshots as many are taken at equal distances. 200 by default.
             title: text above the picture; none unless given.
 
@@ -1958,7 +2067,7 @@ class Run(Summary):
         simulation: Simulation | None = None,
         *,
         interaction: Interaction | None = None,
-        height: float | None = None,
+        height: float | Sequence[float | None] | None = None,
         title: str = "Earthquake response",
     ) -> None:
         """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
@@ -1973,8 +2082,8 @@ class Run(Summary):
             path: name of the file, such as "run.html".
             simulation: the simulation of the run, for its motion and model; only what the run knows unless given.
             interaction: peaks on a fixed base, from `Simulation.interaction`; none unless given.
-            height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
-                shape of their own.
+            height: height of the box that stands for a rigid block, m, or a list of one for each structure of a group, as for
+                `DeformedShape`; None for structures with a shape of their own.
             title: heading of the page, "Earthquake response" by default.
         """
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -1999,10 +2108,17 @@ class DeformedShape:
     A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and columns; reduced, damped,
     grouped and embedded structures by the structures that they consist of. An object with a method ``deformed_shape()``
     is drawn by the result, as the structures of `basemat.opensees.structure` are. Any other structure is drawn as a box
-    of this ``height`` (m) on its base; it is an error unless ``height`` is given.
+    of this ``height`` (m) on its base; it is an error unless ``height`` is given. ``height`` may be a list of one for each
+    structure of a group. ``joints``: list of `Joint` of the structure, whose sides are drawn as thick lines; none unless given.
     """
 
-    def __new__(cls, structure: _Structure | DeformedShape, *, height: float | None = None) -> Self: ...
+    def __new__(
+        cls,
+        structure: _Structure | DeformedShape,
+        *,
+        height: float | Sequence[float | None] | None = None,
+        joints: Joint | Sequence[Joint] | None = None,
+    ) -> Self: ...
     @staticmethod
     def of_points(
         points: ArrayLike,
@@ -2023,6 +2139,9 @@ class DeformedShape:
     @property
     def cells(self) -> list[list[int]]:
         """Outlines: list of the points of each line or polygon, by their numbers."""
+    @property
+    def _first_joint_cell(self) -> int:
+        """Number of the first of `cells` that is a side of a joint; the others follow."""
     @property
     def in_space(self) -> bool:
         """Whether the points move in three directions."""
@@ -2166,6 +2285,7 @@ class Simulation:
             list with a law for each element, from left to right.
         motion: ground motion, a `FreeField`: a `Record`, a wave, or a function (`free_field`). Without a motion the
             ground is at rest.
+        joints: contact between lines of nodes of the structure, a list of `Joint`; none unless given.
         loads: forces from outside, a list of `Load`; none unless given.
         probes: quantities to record at every step, a list of `Probe` with different names; none unless given.
         initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
@@ -2230,6 +2350,7 @@ class Simulation:
         interface: _Interface | Sequence[_Interface],
         *,
         motion: FreeField | None = None,
+        joints: Joint | Sequence[Joint] | None = None,
         loads: Load | Sequence[Load] | None = None,
         probes: Probe | Sequence[Probe] | None = None,
         initial: InitialConditions | None = None,
@@ -2290,15 +2411,6 @@ class Simulation:
         state and sets it before each `step`. A checkpoint contains the force that was set; `reset` restores the
         functions.
         """
-    def interaction(self, duration: float | None = None) -> Interaction:
-        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; the
-        duration of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping
-        of its first mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
-
-        T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes; the
-        modes of a nonlinear structure are those of its first tangent. For T̃ and β₀ the structure is bonded to its
-        ground and released from a deflection in this mode. The soil is linear: give it the moduli of the design motion.
-        """
     def steps_for(self, duration: float) -> int:
         """Number of steps that last ``duration`` (s), rounded up."""
     def checkpoint(self) -> Checkpoint:
@@ -2317,6 +2429,18 @@ class Simulation:
 
         As for `checkpoint`, a structure written in Python that has ``commit`` must also have ``save`` and ``restore``.
         """
+    def interaction(self, duration: float | None = None) -> Interaction:
+        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; the
+        duration of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping
+        of its first mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
+
+        T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes; the
+        modes of a nonlinear structure are those of its first tangent. For T̃ and β₀ the structure is bonded to its
+        ground and released from a deflection in this mode. The soil is linear: give it the moduli of the design motion.
+        """
+    @property
+    def joints(self) -> list[Joint]:
+        """The argument ``joints``: list of `Joint`."""
     def solid_points(self, element: int, *, member: int | None = None) -> SolidPoints:
         """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
         stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
@@ -2423,6 +2547,52 @@ class FaceForces:
     @property
     def open_fraction(self) -> float:
         """Ratio of the length of open elements to the length of the face."""
+
+@final
+class JointState:
+    """A joint at the end of a step; forces act from the upper side on the lower side, per metre of thickness."""
+
+    @property
+    def gap(self) -> NDArray[np.float64]:
+        """Gap of each element: array of shape (elements,), m."""
+    @property
+    def slip(self) -> NDArray[np.float64]:
+        """Slip of each element, of the upper side in the sense of the joint's nodes: array of shape (elements,), m."""
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Pressure on each element: array of shape (elements,), Pa."""
+    @property
+    def shear(self) -> NDArray[np.float64]:
+        """Shear traction on each element, on the lower side: array of shape (elements,), Pa."""
+    @property
+    def modes(self) -> NDArray[np.uint8]:
+        """Mode of each element: array of shape (elements,) of numbers into `basemat.MODES`."""
+    @property
+    def transitions(self) -> list[tuple[int, str, str]]:
+        """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
+    @property
+    def normal_force(self) -> float:
+        """Total pressure, positive in compression, N/m."""
+    @property
+    def shear_force(self) -> float:
+        """Force along the joint on the lower side, positive in the sense of the joint's nodes, N/m."""
+    @property
+    def moment(self) -> float:
+        """Moment of the pressures about the middle of the joint, N·m/m: positive if the pressure is larger before the
+        middle, in the sense of the nodes.
+        """
+    @property
+    def open_fraction(self) -> float:
+        """Ratio of the length of open elements to the length of the joint."""
+    @property
+    def mean_slip(self) -> float:
+        """Slip averaged over the joint, m."""
+    @property
+    def largest_gap(self) -> float:
+        """Largest gap of an element, m."""
+    @property
+    def contact_energy(self) -> float:
+        """Energy lost by friction and impact since the start, J/m; NaN if the energy balance is omitted."""
 
 @final
 class Load:
@@ -2593,6 +2763,9 @@ class State:
     """
 
     @property
+    def joints(self) -> list[JointState]:
+        """Each joint separately: list of `JointState`, in the order of ``joints`` of the simulation."""
+    @property
     def step(self) -> int:
         """Number of steps made."""
     @property
@@ -2695,7 +2868,9 @@ class State:
         a base without walls.
         """
     def state_variables(self, element: int) -> list[float]:
-        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if the law has none."""
+        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if the law has none.
+        Elements of joints follow those of the ground, joint by joint.
+        """
 
 @final
 class Steps:
@@ -2969,6 +3144,8 @@ class RigidBlock(Structure):
 
     ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of the middle of its base, m; 0 by default.
     ``p_delta``: gravitational acceleration (m/s²) for the P–Δ effect of its weight; no P–Δ effect unless given.
+    ``carried_weights``: list of pairs (weight in N/m, height above the base in m) of what stands on the block, such as
+    its share of a cap, for the P–Δ effect. These weights themselves act by loads or joints.
     """
 
     def __new__(
@@ -2979,6 +3156,7 @@ class RigidBlock(Structure):
         *,
         center: float = 0.0,
         p_delta: float | None = None,
+        carried_weights: Sequence[tuple[float, float]] | None = None,
     ) -> Self: ...
     @staticmethod
     def from_mass(
@@ -2989,10 +3167,15 @@ class RigidBlock(Structure):
         *,
         center: float = 0.0,
         p_delta: float | None = None,
+        carried_weights: Sequence[tuple[float, float]] | None = None,
     ) -> RigidBlock:
         """Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
-        centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are as in
+        centre of mass, which is ``center_height`` (m) above the base; ``center``, ``p_delta`` and ``carried_weights`` are as in
         the class.
+        """
+    def contact_nodes(self, points: ArrayLike) -> list[BaseNode]:
+        """Points of the block as contact nodes, a list of `BaseNode`, for a `Joint`. ``points``: array of shape (n, 2) of the
+        coordinate x on the surface and the height above the base, m.
         """
     @property
     def total_mass(self) -> float:
@@ -3282,11 +3465,21 @@ class StructureGroup(Structure):
 
     ``members``: list of pairs ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in
     plan in any order, without overlap; their positions along y are unchanged (``center`` of `RigidBody.cuboid`).
+    ``above``: list of pairs ``(structure, (shift, height))`` of structures in the plane that touch no ground, each moved
+    to the right and upwards (m), none unless given. They stand on others by joints (`Joint`), and count after the members.
     """
 
-    def __new__(cls, members: Sequence[tuple[_Structure, float]]) -> Self: ...
+    def __new__(
+        cls,
+        members: Sequence[tuple[_Structure, float]],
+        above: Sequence[tuple[_Structure, Sequence[float]]] | None = None,
+    ) -> Self: ...
     def row(self, member: int, row: _RowLike) -> DofCombination:
         """A ``row`` of the structure ``member`` (0: the first) as a `DofCombination` of the group."""
+    def contact_nodes(self, member: int, nodes: BaseNode | Sequence[BaseNode]) -> list[BaseNode]:
+        """Contact ``nodes`` (list of `BaseNode`) of the structure ``member`` (0: the first) as nodes of the group, a list, for
+        a `Joint`.
+        """
 
 @final
 class WithModalDamping(Structure):
@@ -3327,7 +3520,8 @@ class FemModel(Structure):
     for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its corner nodes, shells
     with their underside; all faces at the lowest height unless given. ``in_trench``: whether ``contact`` is the outline
     of walls and base in a trench, down the left wall, along the base and up the right wall, in a mesh whose y counts
-    from the surface; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
+    from the surface; False by default. ``on_soil_at_rest``: whether the outline is that of the soil at rest in the mesh
+    (`Mesh.with_stress_at_rest`), which fills a trench, in place of ``contact``; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
     "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
     body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
     along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
@@ -3349,6 +3543,7 @@ class FemModel(Structure):
         contact: Sequence[int] | Sequence[Sequence[int]] | None = None,
         *,
         in_trench: bool = False,
+        on_soil_at_rest: bool = False,
         rayleigh: RayleighDamping | None = None,
         mass: _Mass = "consistent",
         rigid_links: Sequence[tuple[int, Sequence[int]]] | None = None,
@@ -3367,6 +3562,10 @@ class FemModel(Structure):
     def node_at(self, x: float, y: float, z: float = 0.0) -> int:
         """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
         the model. ``z`` is 0 by default.
+        """
+    def contact_nodes(self, nodes: Sequence[int]) -> list[BaseNode]:
+        """A line of nodes of a model in the plane as contact nodes, a list of `BaseNode`, for a `Joint`. ``nodes``: list of
+        their numbers.
         """
     def rigid_motion(
         self,
@@ -3881,6 +4080,19 @@ class Mesh:
         undeformed quadrilaterals (Pa; tension is positive), four numbers or an array of shape (quads, 4); none unless given.
         A linear elastic material has none.
         """
+    def with_stress_at_rest(self, stress: StressAtRest) -> Mesh:
+        """A copy of this mesh in which all present elements are soil that begins at rest, with the stresses ``stress``
+        (`StressAtRest`).
+
+        The elements are quadrilaterals of four or eight nodes below the surface y = 0; elements that are added later, such
+        as a foundation on the soil, have their weight. Stresses at rest, the weight of the soil and the pressures at rest
+        around it are in equilibrium, and all three are left out of a run: the soil does not move on any mesh, it has
+        inertia but no weight, and tractions on the trench are changes from the state at rest. The material yields under the
+        whole stress, which `Simulation.solid_points` returns. ``FemModel(mesh, on_soil_at_rest=True)`` takes such a mesh: the
+        soil fills a trench, and its sides touch the trench, the surface or other soil at rest.
+
+        A stress at rest outside the yield surface is an error with its element and depth.
+        """
     @staticmethod
     def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -> Mesh:
         """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
@@ -4104,6 +4316,28 @@ class SolidPoints:
     @property
     def largest_mobilised_strength(self) -> float:
         """Largest ratio of shear stress to shear strength at the points."""
+
+@final
+class StressAtRest:
+    """Stresses of level soil at rest: its weight, and K₀ times its weight sideways.
+
+    The vertical pressure at a depth is the weight of all soil above; the horizontal pressure is K₀ times as large in both
+    horizontal directions, without shear. The surface is at y = 0, and y points up. `Mesh.with_stress_at_rest` makes
+    elements begin with these stresses, `SoilProfile.stress_at_rest` has those of a profile. For sand with drainage below
+    the water table, take the density under buoyancy: the stresses are those of the grains.
+
+    ``gravity``: m/s². ``density``: kg/m³. ``ratio``: K₀, the horizontal over the vertical pressure.
+    """
+
+    def __new__(cls, gravity: float, density: float, ratio: float) -> Self: ...
+    def with_soil_below(self, depth: float, density: float, ratio: float) -> StressAtRest:
+        """These stresses with other soil below a ``depth`` (m), of a ``density`` (kg/m³) and a ``ratio`` K₀. The depth lies below
+        the upper ends of all layers so far.
+        """
+    def at(self, positions: ArrayLike) -> NDArray[np.float64]:
+        """Stresses at ``positions``: array of shape (n, 4) of xx, yy, zz and xy, Pa. Tension is positive, and zero above the
+        surface. ``positions``: array of shape (n, 2), x and y, m.
+        """
 
 @final
 class Condition:
@@ -4426,6 +4660,8 @@ def sensitivity(
     many, and no finer setting makes them converge. The twins show how many digits of a peak can be quoted, and take
     less time than two further runs.
     """
+
+def _joint_results(run: Run, joint: int) -> JointResults: ...
 
 def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
     """Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.

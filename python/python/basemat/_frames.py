@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ._core import _ELEMENT_UNITS, MODES, EquivalentLinear, Impedances, KinematicMotions, Run, Spectrum
+from ._core import (
+    _ELEMENT_UNITS,
+    MODES,
+    EquivalentLinear,
+    Impedances,
+    JointResults,
+    KinematicMotions,
+    Run,
+    Spectrum,
+)
 from ._errors import InputError
 
 if TYPE_CHECKING:
@@ -63,18 +72,44 @@ def contact_frame(self: Run) -> DataFrame:
     Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
     "y", "slip_across" (m) and "shear_across" (Pa), and with walls "z", the height of the element's middle (m).
     """
-    columns = {**self.contact}
+    sides = {"x": ("left", "right"), "y": ("front", "back")} if self.in_plan else {"x": ("left", "right")}
+    places = {name: 0.5 * (self.envelope[low] + self.envelope[high]) for name, (low, high) in sides.items()}
+    if self.heights.any():
+        places["z"] = self.heights.mean(axis=1)
+    return _with_units(_contact_table(self.contact, places), _UNIT, self)
+
+
+def _contact_table(contact: Mapping[str, Any], places: Mapping[str, Any]) -> DataFrame:
+    """Snapshots of elements with these coordinates, a row per frame and element."""
+    columns = {**contact}
     time, modes = columns.pop("time"), columns.pop("mode")
     frames, elements = modes.shape
     table = {"time": np.repeat(time, elements), "element": np.tile(np.arange(elements), frames)}
-    sides = {"x": ("left", "right"), "y": ("front", "back")} if self.in_plan else {"x": ("left", "right")}
-    for name, (low, high) in sides.items():
-        table[name] = np.tile(0.5 * (self.envelope[low] + self.envelope[high]), frames)
-    if self.heights.any():
-        table["z"] = np.tile(self.heights.mean(axis=1), frames)
+    table.update({name: np.tile(coordinates, frames) for name, coordinates in places.items()})
     table.update({name: values.ravel() for name, values in columns.items()})
     modes = pandas().Categorical.from_codes(modes.ravel(), categories=MODES)
-    return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT, self)
+    return pandas().DataFrame({**table, "mode": modes})
+
+
+def joint_frame(self: JointResults) -> DataFrame:
+    """All time series of the joint as a pandas frame, indexed by the time (s)."""
+    return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units)
+
+
+def joint_contact_frame(self: JointResults) -> DataFrame:
+    """Snapshots of the joint as a tidy pandas frame: a row per frame and element.
+
+    Columns: "time" (s), "element", "x" and "z", the middle of the element on the upper side at rest (m), "gap", "slip"
+    (m), "pressure", "shear" (Pa), "mode".
+    """
+    left, right, bottom, top = self.elements.T
+    places = {"x": 0.5 * (left + right), "z": 0.5 * (bottom + top)}
+    return _with_units(_contact_table(self.contact, places), _UNIT)
+
+
+def joint_envelope_frame(self: JointResults) -> DataFrame:
+    """`JointResults.envelope` as a pandas frame: a row per element."""
+    return _with_units(pandas().DataFrame(self.envelope).rename_axis("element"), _UNIT)
 
 
 def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:

@@ -56,6 +56,10 @@ def _rows_of_call(name: str, made: Made, known: Known) -> Iterator[Row]:
     """Rows of a call, its defaults included."""
     is_class = isinstance(made.owner, type)
     owner = made.owner if is_class or inspect.isroutine(made.owner) or hasattr(made.owner, "__wrapped__") else type(made.owner)
+    if isinstance(made.owner, Made):
+        # A mesh made from another one.
+        yield from _rows_of_call(name, made.owner, known)
+        owner = made.owner.owner
     function = owner if made.name is None else getattr(owner, made.name)
     yield name, owner.__name__ + ("" if made.name is None else f".{made.name}"), ""
     parameters = {argument: one for argument, one in _signature(function).items() if argument != "self"}

@@ -32,6 +32,9 @@ _RETURNING = (
     (_core.SoilColumn, "equivalent_linear"),
     (_core.EquivalentLinear, "profile"),
     (_core.StrainCurves, "iwan"),
+    (_core.StressAtRest, "with_soil_below"),
+    (_core.SoilProfile, "stress_at_rest"),
+    (_core.Mesh, "with_stress_at_rest"),
     (_core.GmshMesh, "mesh"),
     (_core.GmshSpaceMesh, "mesh"),
 )
@@ -52,7 +55,8 @@ class Made(NamedTuple):
 
     def again(self) -> Any:
         """The description, made anew."""
-        make = self.owner if self.name is None else getattr(self.owner, self.name)
+        owner = _given(self.owner)
+        make = owner if self.name is None else getattr(owner, self.name)
         found = make(
             *map(_given, self.arguments), **{k: _given(v) for k, v in self.keywords.items()}
         )
@@ -124,7 +128,7 @@ def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Call
 
     def note(found: Any, arguments: Any, keywords: Any) -> None:
         if owner is None and name is not None:
-            vars(found)[_MADE] = _made(arguments[0], name, arguments[1:], keywords)
+            vars(found)[_MADE] = _made(_kept(arguments[0]), name, arguments[1:], keywords)
         elif hasattr(found, "__dict__"):
             vars(found)[_MADE] = _made(owner or remember, name, arguments, keywords)
 

@@ -7,7 +7,7 @@ import inspect
 import io
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from html import escape
 from typing import Any
@@ -60,7 +60,7 @@ def report(
     simulation: Simulation | None = None,
     *,
     interaction: Interaction | None = None,
-    height: float | None = None,
+    height: float | Sequence[float | None] | None = None,
     title: str = "Earthquake response",
 ) -> None:
     """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
@@ -75,14 +75,15 @@ def report(
         path: name of the file, such as "run.html".
         simulation: the simulation of the run, for its motion and model; only what the run knows unless given.
         interaction: peaks on a fixed base, from `Simulation.interaction`; none unless given.
-        height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
-            shape of their own.
+        height: height of the box that stands for a rigid block, m, or a list of one for each structure of a group, as for
+            `DeformedShape`; None for structures with a shape of their own.
         title: heading of the page, "Earthquake response" by default.
     """
     pyplot()
     shape = None
     with suppress(InputError):
-        shape = None if simulation is None else DeformedShape(simulation.structure, height=height)
+        if simulation is not None:
+            shape = DeformedShape(simulation.structure, height=height, joints=simulation.joints)
     parts = [
         f"<h1>{escape(title)}</h1>",
         "<h2>Ground motion</h2>",

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _COS, _SIN = np.cos(np.pi / 6.0), np.sin(np.pi / 6.0)
 _SCALES: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
 """Scales of the first state in axes."""
+_JOINT_WIDTH = 2.5
+"""Width of the sides of joints over that of other lines."""
 OUTLINE, BAR = "#969696", "#464646"
 """Colours of elements without a value."""
 
@@ -36,6 +38,8 @@ class Outline:
     def __init__(self, shape: DeformedShape) -> None:
         self.shape, self.in_space, self.points = shape, shape.in_space, shape.points
         cells = [cell for cell in shape.cells if len(cell) > 1]
+        # Sides of joints, which are in the plane and come last.
+        self.joints = len(shape.cells) - shape._first_joint_cell
         if self.in_space:
             nearness = self.points @ [1.0, -1.0, 1.0]
             cells.sort(key=lambda cell: float(np.mean(nearness[cell])))
@@ -54,6 +58,9 @@ class Outline:
         from matplotlib.collections import PolyCollection
 
         face = (1.0, 1.0, 1.0, 0.8) if self.in_space else "none"
+        if self.joints:
+            width = options.get("linewidths", 1.0)
+            options["linewidths"] = [width] * (len(self.cells) - self.joints) + [_JOINT_WIDTH * width] * self.joints
         drawn = PolyCollection(self.polygons(places), facecolors=face, **options)
         axes.add_collection(drawn)
         return drawn

@@ -2,6 +2,7 @@
 
 mod energy_balance;
 mod interaction;
+mod joint;
 mod peak;
 mod rocking;
 mod run;
@@ -11,6 +12,7 @@ mod summary;
 
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use interaction::{PyInteraction, PySystemMode};
+pub(crate) use joint::{PyJointResults, joint_results};
 pub(crate) use peak::{PyExtremes, PyPeak};
 pub(crate) use rocking::equivalent_damping;
 pub(crate) use run::PyRun;

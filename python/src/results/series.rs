@@ -64,13 +64,21 @@ pub(super) fn contact<'py>(
     time_series: &TimeSeries,
 ) -> PyResult<Bound<'py, PyDict>> {
     let frames: Vec<ContactFrame<'_>> = time_series.contact_frames().collect();
-    if frames.is_empty() {
+    contact_arrays(py, &frames, time_series.in_plan())
+}
+
+/// Snapshots of a base or a joint: times, and arrays of shape (frames, elements).
+pub(super) fn contact_arrays<'py>(
+    py: Python<'py>,
+    frames: &[ContactFrame<'_>],
+    in_plan: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let Some(first_frame) = frames.first() else {
         return Err(input_error("no contact was recorded: give `contact_every` to `run`"));
-    }
-    let shape = [frames.len(), time_series.elements().len()];
+    };
+    let shape = [frames.len(), first_frame.states.len()];
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
-    let in_plan = time_series.in_plan();
     for (name, _, is_plan_only, value) in ContactState::NUMBER_COLUMNS {
         if in_plan || !is_plan_only {
             let values = frames.iter().flat_map(|frame| frame.states).map(value);

@@ -9,6 +9,8 @@ use pyo3::prelude::*;
 
 use crate::array::{Numbers, Points, Rows, whole_numbers};
 use crate::error::{OrRaise, input_error};
+use crate::joint::PyJoint;
+use crate::list_arguments::{ListOf, type_error};
 use crate::row::RowLike;
 use crate::structure::{
     PyFemModel, PyReducedModel, PyShearBuilding, PyStoreyBuilding, PyStructureGroup,
@@ -22,15 +24,52 @@ use crate::structure::{
 /// A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and columns; reduced, damped,
 /// grouped and embedded structures by the structures that they consist of. An object with a method ``deformed_shape()``
 /// is drawn by the result, as the structures of `basemat.opensees.structure` are. Any other structure is drawn as a box
-/// of this ``height`` (m) on its base; it is an error unless ``height`` is given.
+/// of this ``height`` (m) on its base; it is an error unless ``height`` is given. ``height`` may be a list of one for each
+/// structure of a group. ``joints``: list of `Joint` of the structure, whose sides are drawn as thick lines; none unless given.
 #[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
-pub(crate) struct PyDeformedShape(pub(super) DeformedShape);
+pub(crate) struct PyDeformedShape {
+    pub(super) shape: DeformedShape,
+    /// Number of the first cell of the joints, which come last.
+    first_joint_cell: usize,
+}
+
+impl From<DeformedShape> for PyDeformedShape {
+    fn from(shape: DeformedShape) -> Self {
+        let first_joint_cell = shape.cells().len();
+        Self { shape, first_joint_cell }
+    }
+}
+
+/// Height of the boxes that represent structures without a shape, m: one, or one for each structure of a group.
+pub(crate) enum BoxHeights {
+    Same(f64),
+    Each(Vec<Option<f64>>),
+}
+
+extracts!(BoxHeights, object => match object.extract() {
+    Ok(height) => Ok(Self::Same(height)),
+    Err(_) => Ok(Self::Each(object.extract().map_err(|_: PyErr| {
+        type_error(&object, "a number of metres, or a list of one for each structure of a group")
+    })?)),
+});
+
+/// Shape of a structure; a box of one of these heights for each structure without a shape.
+fn shape_of(object: &Bound<'_, PyAny>, heights: Option<&BoxHeights>) -> PyResult<DeformedShape> {
+    match heights {
+        None => shape(object, None),
+        Some(BoxHeights::Same(height)) => shape(object, Some(*height)),
+        Some(BoxHeights::Each(heights)) => match object.cast::<PyStructureGroup>() {
+            Ok(group) => group_shape(group.get(), object.py(), heights),
+            Err(_) => Err(input_error("a list of heights is for a StructureGroup")),
+        },
+    }
+}
 
 /// Shape of a structure; a box of this `height` if the structure has no shape.
 pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
     let py = object.py();
     if let Ok(shape) = object.cast::<PyDeformedShape>() {
-        return Ok(shape.get().0.clone());
+        return Ok(shape.get().shape.clone());
     }
     if let Ok(model) = object.cast::<PyFemModel>() {
         return Ok(DeformedShape::of_model(&model.get().0));
@@ -58,14 +97,15 @@ pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<
         return mapped_points(&full_shape, [0.0; 2], |row| recovery.row(row)).and_then(new_shape);
     }
     if let Ok(group) = object.cast::<PyStructureGroup>() {
-        return group_shape(group.get(), py, height);
+        let group = group.get();
+        return group_shape(group, py, &vec![height; group.members.len()]);
     }
     if let Some(method) = object.getattr_opt("deformed_shape")? {
         let returned_object = method.call0()?;
         let shape = returned_object.cast::<PyDeformedShape>().map_err(|_| {
             input_error("deformed_shape() of the structure must return a DeformedShape")
         })?;
-        return Ok(shape.get().0.clone());
+        return Ok(shape.get().shape.clone());
     }
     let requirement = "give the height of the box that represents the structure";
     let height = height.ok_or_else(|| input_error(requirement))?;
@@ -110,20 +150,27 @@ fn mapped_points(
     Ok((points, shape.cells().to_vec()))
 }
 
-/// Shape of a group: the shapes of all its members.
+/// Shape of a group: the shapes of all its members, with these heights of boxes.
 fn group_shape(
     group: &PyStructureGroup,
     py: Python<'_>,
-    height: Option<f64>,
+    heights: &[Option<f64>],
 ) -> PyResult<DeformedShape> {
+    let member_count = group.members.len();
+    if heights.len() != member_count {
+        let height_count = heights.len();
+        return Err(input_error(format!(
+            "height has {height_count} entries, but must have {member_count}, one for each structure of the group"
+        )));
+    }
     let group_model = (group.make)().or_raise()?;
     let mut points = Vec::new();
     let mut cells = Vec::new();
-    for (member, (structure, shift)) in group.members.iter().enumerate() {
-        let member_shape = shape(structure.bind(py), height)?;
+    for (member, (structure, offset)) in group.members.iter().enumerate() {
+        let member_shape = shape(structure.bind(py), heights[member])?;
         let first_point = points.len();
         let (member_points, member_cells) =
-            mapped_points(&member_shape, [*shift, 0.0], |row| group_model.row(member, row))?;
+            mapped_points(&member_shape, *offset, |row| group_model.row(member, row))?;
         points.extend(member_points);
         for cell in member_cells {
             cells.push(cell.into_iter().map(|point| first_point + point).collect());
@@ -152,9 +199,17 @@ fn shape_point(position: [f64; 3], rows: Vec<RowLike>, axis_count: usize) -> PyR
 #[pymethods]
 impl PyDeformedShape {
     #[new]
-    #[pyo3(signature = (structure, *, height=None))]
-    fn new(structure: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<Self> {
-        shape(structure, height).map(Self)
+    #[pyo3(signature = (structure, *, height=None, joints=None))]
+    fn new(
+        structure: &Bound<'_, PyAny>,
+        height: Option<BoxHeights>,
+        joints: Option<ListOf<'_, PyJoint>>,
+    ) -> PyResult<Self> {
+        let mut drawn = Self::from(shape_of(structure, height.as_ref())?);
+        for joint in joints.iter().flat_map(|joints| joints.iter()) {
+            drawn.shape = drawn.shape.with_joint(&joint.get().core(None)?);
+        }
+        Ok(drawn)
     }
 
     /// Shape by its ``points``: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space, x,
@@ -181,14 +236,14 @@ impl PyDeformedShape {
         for (position, point_rows) in positions.into_iter().zip(rows) {
             points.push(shape_point(position, point_rows, axis_count)?);
         }
-        new_shape((points, cells)).map(Self)
+        new_shape((points, cells)).map(Self::from)
     }
 
     /// Coordinates of the points at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height
     /// in space.
     #[getter]
     fn points(&self) -> Rows {
-        let coordinates = self.0.points().iter().map(|point| {
+        let coordinates = self.shape.points().iter().map(|point| {
             let [right, up] = point.position;
             self.axes([right, up, point.away])
         });
@@ -199,7 +254,7 @@ impl PyDeformedShape {
     #[getter]
     fn cells(&self) -> Vec<Vec<usize>> {
         // A curved cell has its corners first, then its midside nodes.
-        let corners = self.0.cells().iter().map(|cell| match cell.len() {
+        let corners = self.shape.cells().iter().map(|cell| match cell.len() {
             CURVED_TRIANGLE_NODES => cell[..3].to_vec(),
             CURVED_QUAD_NODES..=CURVED_QUAD_NODES_WITH_CENTER => cell[..4].to_vec(),
             _ => cell.clone(),
@@ -207,10 +262,16 @@ impl PyDeformedShape {
         corners.collect()
     }
 
+    /// Number of the first of `cells` that is a side of a joint; the others follow.
+    #[getter]
+    fn _first_joint_cell(&self) -> usize {
+        self.first_joint_cell
+    }
+
     /// Whether the points move in three directions.
     #[getter]
     fn in_space(&self) -> bool {
-        self.0.points().iter().any(|point| !point.across.is_empty())
+        self.shape.points().iter().any(|point| !point.across.is_empty())
     }
 
     /// Displacements of the points along the axes of `points`: array of shape (points, 3), m.
@@ -218,14 +279,14 @@ impl PyDeformedShape {
     /// ``displacement``: all n degrees of freedom of the structure, array of shape (n,), m and rad: a row of
     /// ``run.motion["displacement"]``, a static displacement or a vibration mode.
     fn displacements(&self, displacement: Numbers) -> PyResult<Rows> {
-        let displacements = self.0.displacements(&displacement.0).or_raise()?;
+        let displacements = self.shape.displacements(&displacement.0).or_raise()?;
         Ok(Rows(displacements.into_iter().map(|displacement| self.axes(displacement)).collect()))
     }
 
     /// Writes the shape with the displacements by ``displacement`` (array of shape (n,), m and rad) to the file at ``path``
     /// for ParaView, one grid (.vtu): a single state, such as the static one or a vibration mode.
     fn save_paraview_state(&self, path: PathBuf, displacement: Numbers) -> PyResult<()> {
-        paraview::write_state(path, &self.0, &displacement.0).or_raise()
+        paraview::write_state(path, &self.shape, &displacement.0).or_raise()
     }
 }
 

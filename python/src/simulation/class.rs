@@ -7,7 +7,7 @@ use basemat::coupled::{Change, Checkpoint};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::build::{self, missing_end_error};
+use super::build;
 use super::options::{
     PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions,
     reject_unknown_arguments,
@@ -16,11 +16,12 @@ use super::parts::{BuilderParts, OptionGroups, SimulationParts};
 use super::run_reporter::{RunReporter, prepare_next_step, step_result};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps};
 use crate::array::{Array, whole_numbers};
-use crate::error::{self, OrRaise, lock_error, take_exception, to_exception, user_code_error};
+use crate::error::{self, OrRaise, lock_error, take_exception, to_exception};
+use crate::joint::PyJoint;
 use crate::list_arguments::{ListOf, type_error};
 use crate::names::DofNames;
 use crate::probe::PyProbe;
-use crate::results::{PyInteraction, PyRun};
+use crate::results::PyRun;
 use crate::ticker::{progress_function, with_progress};
 
 /// Simulation of a structure on a ground, from its static state on.
@@ -34,6 +35,7 @@ use crate::ticker::{progress_function, with_progress};
 ///         list with a law for each element, from left to right.
 ///     motion: ground motion, a `FreeField`: a `Record`, a wave, or a function (`free_field`). Without a motion the
 ///         ground is at rest.
+///     joints: contact between lines of nodes of the structure, a list of `Joint`; none unless given.
 ///     loads: forces from outside, a list of `Load`; none unless given.
 ///     probes: quantities to record at every step, a list of `Probe` with different names; none unless given.
 ///     initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
@@ -52,13 +54,13 @@ pub(crate) struct PySimulation {
     ground: Py<PyAny>,
     /// Laws of the structure's springs that are written in Python.
     hysteresis: Vec<Py<PyAny>>,
-    dof_names: Option<DofNames>,
+    pub(super) dof_names: Option<DofNames>,
     /// Duration of the ground motion, s; `None` for a motion without an end.
-    motion_duration: Option<f64>,
+    pub(super) motion_duration: Option<f64>,
     /// Checkpoint at the start, or the reason why the simulation cannot return to it.
     start: PyResult<Checkpoint>,
     /// Parts and settings, from which the same scene can be built again.
-    parts: SimulationParts,
+    pub(super) parts: SimulationParts,
 }
 
 impl PySimulation {
@@ -157,12 +159,12 @@ impl PySimulation {
     #[new]
     #[pyo3(
         signature = (
-            time_step, structure, ground, interface, *, motion=None, loads=None, probes=None,
-            initial=None, solver=None, results=None, service_limits=None, fixed_base=false,
+            time_step, structure, ground, interface, *, motion=None, joints=None, loads=None,
+            probes=None, initial=None, solver=None, results=None, service_limits=None, fixed_base=false,
             progress=None, **others
         ),
-        text_signature = "(time_step, structure, ground, interface, *, motion=None, loads=None, \
-            probes=None, initial=None, solver=None, results=None, service_limits=None, \
+        text_signature = "(time_step, structure, ground, interface, *, motion=None, joints=None, \
+            loads=None, probes=None, initial=None, solver=None, results=None, service_limits=None, \
             fixed_base=False, progress=None)"
     )]
     fn new(
@@ -172,6 +174,7 @@ impl PySimulation {
         ground: Bound<'_, PyAny>,
         interface: Bound<'_, PyAny>,
         motion: Option<Bound<'_, PyAny>>,
+        joints: Option<ListOf<'_, PyJoint>>,
         loads: Option<ListOf<'_, PyLoad>>,
         probes: Option<ListOf<'_, PyProbe>>,
         initial: Option<Py<PyInitialConditions>>,
@@ -194,6 +197,7 @@ impl PySimulation {
             ground: ground.unbind(),
             interface: interface.unbind(),
             motion: motion.map(Bound::unbind),
+            joints: joints.map(ListOf::unbound).unwrap_or_default(),
             loads: loads.map(ListOf::unbound).unwrap_or_default(),
             probes: probes.map(ListOf::unbound).unwrap_or_default(),
             options: groups.options(),
@@ -328,27 +332,6 @@ impl PySimulation {
         value: Option<f64>,
     ) -> PyResult<()> {
         self.lock()?.set_load(index, value).or_raise()
-    }
-
-    /// The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; the
-    /// duration of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping
-    /// of its first mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
-    ///
-    /// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes; the
-    /// modes of a nonlinear structure are those of its first tangent. For T̃ and β₀ the structure is bonded to its
-    /// ground and released from a deflection in this mode. The soil is linear: give it the moduli of the design motion.
-    #[pyo3(signature = (duration=None))]
-    fn interaction(&self, py: Python<'_>, duration: Option<f64>) -> PyResult<PyInteraction> {
-        let duration =
-            duration.or(self.motion_duration).ok_or_else(|| missing_end_error("a duration"))?;
-        take_exception();
-        let interaction = py.detach(|| {
-            step_result(basemat::analyses::interaction(duration, || {
-                let parts = Python::attach(|py| self.parts.builder_parts(py));
-                parts.map(|parts| parts.builder).map_err(|error| user_code_error("scene", error))
-            }))
-        })?;
-        Ok(PyInteraction { interaction, dof_names: self.dof_names.as_ref().map(DofNames::to_vec) })
     }
 
     /// Number of steps that last ``duration`` (s), rounded up.

@@ -3,6 +3,8 @@
 mod build;
 mod class;
 mod foundation;
+mod interaction;
+mod joint;
 mod load;
 mod options;
 mod parts;
@@ -13,6 +15,7 @@ mod state;
 
 pub(crate) use class::PySimulation;
 pub(crate) use foundation::{PyFaceForces, PyFoundation};
+pub(crate) use joint::PyJointState;
 pub(crate) use load::PyLoad;
 pub(crate) use options::{PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions};
 pub(crate) use scheme::PyTimeScheme;

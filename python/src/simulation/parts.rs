@@ -13,6 +13,7 @@ use super::options::{
 use super::{PyLoad, build};
 use crate::error::OrRaise;
 use crate::ground;
+use crate::joint::PyJoint;
 use crate::motion::PyFreeField;
 use crate::names::DofNames;
 use crate::probe::PyProbe;
@@ -26,6 +27,7 @@ pub(super) struct SimulationParts {
     pub(super) ground: Py<PyAny>,
     pub(super) interface: Py<PyAny>,
     pub(super) motion: Option<Py<PyAny>>,
+    pub(super) joints: Vec<Py<PyJoint>>,
     pub(super) probes: Vec<Py<PyProbe>>,
     pub(super) loads: Vec<Py<PyLoad>>,
     pub(super) options: Options,
@@ -88,6 +90,7 @@ impl SimulationParts {
         arguments.set_item("ground", &self.ground)?;
         arguments.set_item("interface", &self.interface)?;
         arguments.set_item("motion", &self.motion)?;
+        arguments.set_item("joints", &self.joints)?;
         arguments.set_item("loads", &self.loads)?;
         arguments.set_item("probes", &self.probes)?;
         arguments.set_item("initial", &self.groups.initial)?;
@@ -115,6 +118,9 @@ impl SimulationParts {
             .interfaces(laws)
             .probes(build::probes(probes.iter(), dof_count)?);
         builder = self.options.set(builder)?;
+        for joint in &self.joints {
+            builder = builder.joint(joint.bind(py).get().core(Some(dof_count))?);
+        }
         for load_object in &self.loads {
             let load = load_object.bind(py).get();
             load.weight_count.check("a load", dof_count)?;

@@ -218,9 +218,11 @@ impl PyState {
     }
 
     /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if the law has none.
+    /// Elements of joints follow those of the ground, joint by joint.
     fn state_variables(&self, element: Count) -> PyResult<Vec<f64>> {
         let Count(element) = element;
-        let element_count = self.0.contact.len();
+        let joint_elements = self.0.joints.iter().map(|joint| joint.contact.len());
+        let element_count = self.0.contact.len() + joint_elements.sum::<usize>();
         if element >= element_count {
             return Err(input_error(format!(
                 "element is {element}, but must be below {element_count}"

@@ -4,7 +4,10 @@ use basemat::structure::{RigidBlock, RigidBody};
 use pyo3::prelude::*;
 
 use super::PyStructure;
+use crate::array::Pairs;
+use crate::base_node::{PyBaseNode, python_nodes};
 use crate::error::{OrRaise, WithOption};
+use crate::list_arguments::PairList;
 use crate::names::DofNames;
 use crate::row::{PyDofCombination, python_rows};
 
@@ -15,6 +18,8 @@ use crate::row::{PyDofCombination, python_rows};
 ///
 /// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of the middle of its base, m; 0 by default.
 /// ``p_delta``: gravitational acceleration (m/s²) for the P–Δ effect of its weight; no P–Δ effect unless given.
+/// ``carried_weights``: list of pairs (weight in N/m, height above the base in m) of what stands on the block, such as
+/// its share of a cap, for the P–Δ effect. These weights themselves act by loads or joints.
 #[pyclass(name = "RigidBlock", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBlock(RigidBlock);
 
@@ -23,19 +28,24 @@ extends!(PyRigidBlock, block => {
     PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 3)?))
 });
 
-/// The block with the middle of its base at x = `center`, and with the P–Δ effect if `p_delta` is given.
+/// The block with the middle of its base at x = `center`, and with the P–Δ effect of itself and of carried weights.
 fn positioned_block(
     block: basemat::Result<RigidBlock>,
     center: f64,
     p_delta: Option<f64>,
+    carried_weights: Option<PairList<f64, f64>>,
 ) -> PyResult<PyRigidBlock> {
     let block = block.and_then(|block| block.centered_at(center));
-    block.with(p_delta, RigidBlock::with_p_delta).or_raise().map(PyRigidBlock)
+    let mut block = block.with(p_delta, RigidBlock::with_p_delta);
+    for (weight, height) in carried_weights.into_iter().flat_map(|weights| weights.0) {
+        block = block.and_then(|block| block.with_carried_weight(weight, height));
+    }
+    block.or_raise().map(PyRigidBlock)
 }
 
 #[pymethods]
 impl PyRigidBlock {
-    #[pyo3(signature = (width, height, density, *, center=0.0, p_delta=None))]
+    #[pyo3(signature = (width, height, density, *, center=0.0, p_delta=None, carried_weights=None))]
     #[new]
     fn new(
         width: f64,
@@ -43,14 +53,16 @@ impl PyRigidBlock {
         density: f64,
         center: f64,
         p_delta: Option<f64>,
+        carried_weights: Option<PairList<f64, f64>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        positioned_block(RigidBlock::new(width, height, density), center, p_delta)?.initializer()
+        let block = RigidBlock::new(width, height, density);
+        positioned_block(block, center, p_delta, carried_weights)?.initializer()
     }
 
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
-    /// centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are as in
+    /// centre of mass, which is ``center_height`` (m) above the base; ``center``, ``p_delta`` and ``carried_weights`` are as in
     /// the class.
-    #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None))]
+    #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None, carried_weights=None))]
     #[staticmethod]
     fn from_mass(
         width: f64,
@@ -59,9 +71,16 @@ impl PyRigidBlock {
         center_height: f64,
         center: f64,
         p_delta: Option<f64>,
+        carried_weights: Option<PairList<f64, f64>>,
     ) -> PyResult<Self> {
         let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
-        positioned_block(block, center, p_delta)
+        positioned_block(block, center, p_delta, carried_weights)
+    }
+
+    /// Points of the block as contact nodes, a list of `BaseNode`, for a `Joint`. ``points``: array of shape (n, 2) of the
+    /// coordinate x on the surface and the height above the base, m.
+    fn contact_nodes(&self, points: Pairs) -> PyResult<Vec<PyBaseNode>> {
+        self.0.contact_nodes(&points.0).or_raise().map(python_nodes)
     }
 
     /// Mass, kg/m.

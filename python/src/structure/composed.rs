@@ -9,8 +9,9 @@ use pyo3::prelude::*;
 
 use super::{PyStructure, structure_recipe};
 use crate::array::{Array, Count, Numbers, whole_numbers};
+use crate::base_node::{PyBaseNode, python_nodes, structure_nodes};
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::list_arguments::PairList;
+use crate::list_arguments::{ListOf, PairList};
 use crate::names::DofNames;
 use crate::recipe::{Factory, Recipe, SharedStructure};
 use crate::row::{PyDofCombination, RowLike};
@@ -114,11 +115,13 @@ impl PyReducedModel {
 ///
 /// ``members``: list of pairs ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in
 /// plan in any order, without overlap; their positions along y are unchanged (``center`` of `RigidBody.cuboid`).
+/// ``above``: list of pairs ``(structure, (shift, height))`` of structures in the plane that touch no ground, each moved
+/// to the right and upwards (m), none unless given. They stand on others by joints (`Joint`), and count after the members.
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
     pub(crate) make: Factory<StructureGroup>,
-    /// Structures and their shifts, m.
-    pub(crate) members: Vec<(Py<PyAny>, f64)>,
+    /// Structures and their shifts to the right and upwards, m: those on the ground, then those above.
+    pub(crate) members: Vec<(Py<PyAny>, [f64; 2])>,
     /// Number of degrees of freedom of each structure.
     dof_counts: Vec<usize>,
 }
@@ -126,28 +129,40 @@ pub(crate) struct PyStructureGroup {
 #[pymethods]
 impl PyStructureGroup {
     #[new]
-    fn new(members: PairList<Bound<'_, PyAny>, f64>) -> PyResult<PyClassInitializer<Self>> {
-        let members = members.0;
-        let mut recipes: Vec<(Recipe<dyn Structure>, f64)> = Vec::with_capacity(members.len());
+    #[pyo3(signature = (members, above=None))]
+    fn new(
+        members: PairList<Bound<'_, PyAny>, f64>,
+        above: Option<PairList<Bound<'_, PyAny>, [f64; 2]>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let ground_count = members.0.len();
+        let on_ground = members.0.into_iter().map(|(structure, shift)| (structure, [shift, 0.0]));
+        let above = above.map(|above| above.0).unwrap_or_default();
+        let members: Vec<_> = on_ground.chain(above).collect();
+        let mut recipes: Vec<(Recipe<dyn Structure>, [f64; 2])> = Vec::with_capacity(members.len());
         for (structure, shift) in &members {
             recipes.push((structure_recipe(structure)?, *shift));
         }
-        if recipes.is_empty() {
-            return Err(input_error("a group needs at least one structure"));
+        if ground_count == 0 {
+            return Err(input_error("a group needs at least one structure on the ground"));
         }
         let dof_counts = recipes.iter().map(|(make_structure, _)| Ok(make_structure()?.dofs()));
         let dof_counts = dof_counts.collect::<basemat::Result<_>>().or_raise()?;
         let make = Arc::new(move || {
             let mut group = StructureGroup::new();
-            for (make_structure, shift) in &recipes {
-                group = group.with(make_structure()?, *shift)?;
+            for (member, (make_structure, offset)) in recipes.iter().enumerate() {
+                let structure = make_structure()?;
+                group = if member < ground_count {
+                    group.with(structure, offset[0])?
+                } else {
+                    group.with_above(structure, *offset)?
+                };
             }
             Ok(group)
         });
         make().or_raise()?;
         let make_group = Arc::clone(&make);
         let superclass = PyStructure::new(move || make_group());
-        let members = members.into_iter().map(|(structure, shift)| (structure.unbind(), shift));
+        let members = members.into_iter().map(|(structure, offset)| (structure.unbind(), offset));
         let group = Self { make, members: members.collect(), dof_counts };
         Ok(PyClassInitializer::from(superclass).add_subclass(group))
     }
@@ -158,6 +173,20 @@ impl PyStructureGroup {
             row.1.check("the row", *dof_count)?;
         }
         Ok((self.make)().or_raise()?.row(member.0, row.0).or_raise()?.into())
+    }
+
+    /// Contact ``nodes`` (list of `BaseNode`) of the structure ``member`` (0: the first) as nodes of the group, a list, for
+    /// a `Joint`.
+    fn contact_nodes(
+        &self,
+        member: Count,
+        nodes: ListOf<'_, PyBaseNode>,
+    ) -> PyResult<Vec<PyBaseNode>> {
+        let nodes = nodes.iter().map(|node| node.get().clone()).collect();
+        let mut lines = structure_nodes(vec![nodes], self.dof_counts.get(member.0).copied())?;
+        let nodes = lines.pop().unwrap_or_default();
+        let nodes = (self.make)().or_raise()?.contact_nodes(member.0, nodes).or_raise()?;
+        Ok(python_nodes(nodes))
     }
 }
 

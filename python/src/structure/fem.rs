@@ -16,6 +16,7 @@ use super::layer::{formulation, stabilisation_percent};
 use super::mesh::{PyMesh, direction};
 use super::solid_material::SolidLike;
 use crate::array::{Array, Count, whole_numbers};
+use crate::base_node::{PyBaseNode, python_nodes};
 use crate::error::{OrRaise, WithOption, input_error};
 use crate::recipe::SharedStructure;
 use crate::row::{PyDofCombination, PySectionRows, space_sections};
@@ -26,7 +27,8 @@ use crate::row::{PyDofCombination, PySectionRows, space_sections};
 /// for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its corner nodes, shells
 /// with their underside; all faces at the lowest height unless given. ``in_trench``: whether ``contact`` is the outline
 /// of walls and base in a trench, down the left wall, along the base and up the right wall, in a mesh whose y counts
-/// from the surface; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
+/// from the surface; False by default. ``on_soil_at_rest``: whether the outline is that of the soil at rest in the mesh
+/// (`Mesh.with_stress_at_rest`), which fills a trench, in place of ``contact``; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
 /// "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
 /// body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
 /// along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
@@ -55,11 +57,12 @@ extracts!(Contact, object => match object.extract() {
 #[pymethods]
 impl PyFemModel {
     #[new]
-    #[pyo3(signature = (mesh, contact=None, *, in_trench=false, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, ties=None, p_delta=None, active_damping=false, active_stiffness=false))]
+    #[pyo3(signature = (mesh, contact=None, *, in_trench=false, on_soil_at_rest=false, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, ties=None, p_delta=None, active_damping=false, active_stiffness=false))]
     fn new(
         mesh: &PyMesh,
         contact: Option<Contact>,
         in_trench: bool,
+        on_soil_at_rest: bool,
         rayleigh: Option<&PyRayleighDamping>,
         mass: &str,
         #[pyo3(from_py_with = whole_numbers)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
@@ -72,6 +75,11 @@ impl PyFemModel {
         let has_depth = mesh.has_depth();
         let mesh = mesh.0.clone();
         let model = match contact {
+            None if on_soil_at_rest => FemModel::on_soil_at_rest(mesh),
+            Some(_) if on_soil_at_rest => {
+                let requirement = "with on_soil_at_rest, contact is the outline of the soil: give only one of them";
+                return Err(input_error(requirement));
+            }
             Some(Contact::Nodes(outline)) if in_trench => FemModel::in_trench(mesh, &outline),
             _ if in_trench => {
                 return Err(input_error("in a trench, contact is the list of the outline's nodes"));
@@ -132,6 +140,15 @@ impl PyFemModel {
     #[pyo3(signature = (x, y, z=0.0))]
     fn node_at(&self, x: f64, y: f64, z: f64) -> PyResult<usize> {
         self.0.mesh().node_at_point([x, y, z]).or_raise()
+    }
+
+    /// A line of nodes of a model in the plane as contact nodes, a list of `BaseNode`, for a `Joint`. ``nodes``: list of
+    /// their numbers.
+    fn contact_nodes(
+        &self,
+        #[pyo3(from_py_with = whole_numbers)] nodes: Vec<usize>,
+    ) -> PyResult<Vec<PyBaseNode>> {
+        self.0.contact_nodes(&nodes).or_raise().map(python_nodes)
     }
 
     /// All n degrees of freedom in a rigid motion in a ``direction`` of the mesh, by 1 m or by 1 rad about ``point`` (x, y

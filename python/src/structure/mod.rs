@@ -19,6 +19,7 @@ mod quads;
 mod shells;
 mod solid_material;
 mod solid_points;
+mod stress_at_rest;
 mod superclass;
 
 pub(crate) use beam_ends::{PyBeamEndRows, PyBeamRows};
@@ -41,4 +42,5 @@ pub(crate) use mesh::PyMesh;
 pub(crate) use shells::{PyShellResultants, PyShellRows};
 pub(crate) use solid_material::{PyDruckerPrager, PyIwan, stress_path};
 pub(crate) use solid_points::PySolidPoints;
+pub(crate) use stress_at_rest::PyStressAtRest;
 pub(crate) use superclass::{PyStructure, new_structure, structure_recipe};

@@ -12,7 +12,9 @@
 //! | pairs, source | classes and compliances of pairs of elements; convolution weights |
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance | a rigid body in the trench |
+//! | near_field, box_lines | finite elements that fill the trench around a foundation; lines of their mesh |
 
+mod box_lines;
 mod cliques;
 mod column;
 mod compliance;
@@ -24,6 +26,7 @@ mod grid;
 mod ground;
 mod impedance;
 mod mesh;
+mod near_field;
 mod pairs;
 mod polynomials;
 mod soil;
@@ -33,4 +36,5 @@ mod trench;
 
 pub use ground::TrenchGround;
 pub use impedance::KinematicMotion;
+pub use near_field::NearField;
 pub use trench::{Trench, TrenchElements};

@@ -5,13 +5,12 @@
 //! A step tries these methods one after the other:
 //!
 //! 1. The statuses of the previous step, if no element slid in it. Their factors are reused as long as the statuses
-//!    stay
-//!    the same. Many elements on a lattice skip this method, unless all stick and each moves many others.
+//!    stay the same. Many elements on a lattice skip this method, unless all stick and each moves many others.
 //! 2. Sweeps over the elements, from the forces of the previous step. Many elements use accelerated sweeps if each
-//!    moves
-//!    most others.
+//!    moves most others.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
-//! 4. Newton's method from other forces, with partial steps.
+//! 4. Newton's method with trials for elements that move together, if a pressure is bounded; then from other forces, with
+//!    partial steps.
 //! 5. The proximal point method, which solves a sequence of better conditioned problems by methods 2 to 4.
 //!
 //! For friction above 100, or infinite, the step first tries Newton's method alone. Then it uses all methods with a lower
@@ -27,6 +26,7 @@
 
 mod acceleration;
 mod bounds;
+mod collective;
 mod compliance;
 mod group;
 mod low_rank;

@@ -1,5 +1,6 @@
 //! Search for the forces of a contact problem in space, by one method after the other.
 
+use super::collective::solve_collectively;
 use super::newton::Newton;
 use super::problem::{ConeProblem, SUBSTITUTED_FRICTION, SolveOutcome};
 use super::proximal::Proximal;
@@ -162,6 +163,13 @@ fn search_by_all_methods(
     iterations += outcome.iterations;
     if outcome.method.is_some() {
         return SearchOutcome { iterations, ..outcome };
+    }
+    if problem.has_pressure_cap() {
+        let outcome = solve_collectively(problem, newton);
+        iterations += outcome.iterations;
+        if outcome.is_solved {
+            return SearchOutcome::with_method(SearchMethod::Newton, outcome, iterations);
+        }
     }
     let outcome = newton.restart_randomly(problem, initial_change, MAX_RESTARTS);
     iterations += outcome.iterations;

@@ -59,19 +59,19 @@ impl ModeSearch {
             let row = &input.delassus[e * size..(e + 1) * size];
             let gap = input.free_jump[e] + dot(row, &self.solver.response.traction);
             let pressure = input.start.state(e).pressure;
-            let layer = input.law(e).compliance(Mode::Stick, &input.start_of(e))[0];
-            let settlement = limits.gap_offset - gap - layer * pressure;
+            let compliance = self.compliance(input, e);
+            let settlement = limits.gap_offset - gap - compliance.layer * pressure;
             let solution = TangentSolution {
                 element: e,
                 pressure,
                 settlement,
                 yields: true,
-                stiffness: (row[e] + layer).recip(),
+                stiffness: compliance.total.recip(),
                 pressure_rounding: 0.0,
                 settlement_rounding: 0.0,
             };
             let point = point_on_curve(input, &solution, limits)?;
-            line.set(TrialLine::new(point, limits.gap_offset));
+            line.set(TrialLine::new(point, limits.gap_offset, solution.stiffness));
         }
         Ok(())
     }
@@ -110,7 +110,7 @@ impl ModeSearch {
             let solution = self.tangent_solution(input, e, *mode, line.gap_offset, tolerance);
             let next = linearisation.compare(input, &solution, line.settlement)?;
             if let Some(point) = next {
-                let mut next_line = line.through(point);
+                let mut next_line = line.through(point, solution.stiffness);
                 if !linearisation.is_whole() {
                     next_line = next_line.tangent();
                 }
@@ -155,9 +155,7 @@ impl ModeSearch {
         gap_offset: f64,
         tolerance: Tolerance,
     ) -> TangentSolution {
-        let layer = input.law(element).compliance(Mode::Stick, &input.start_of(element))[0];
-        let size = self.solver.response.layout.len();
-        let compliance = input.delassus.diagonal(size, element) + layer;
+        let ElementCompliance { layer, total } = self.compliance(input, element);
         let state = &self.solver.response.states[element];
         let Tolerance { length, traction } = tolerance;
         TangentSolution {
@@ -165,10 +163,17 @@ impl ModeSearch {
             pressure: state.pressure,
             settlement: gap_offset - state.gap - layer * state.pressure,
             yields: mode.is_yield(),
-            stiffness: compliance.recip(),
+            stiffness: total.recip(),
             pressure_rounding: traction,
-            settlement_rounding: length + traction * compliance,
+            settlement_rounding: length + traction * total,
         }
+    }
+
+    /// Compliance of an element.
+    fn compliance(&self, input: &ContactInput<'_>, element: usize) -> ElementCompliance {
+        let layer = input.law(element).compliance(Mode::Stick, &input.start_of(element))[0];
+        let size = self.solver.response.layout.len();
+        ElementCompliance { layer, total: input.delassus.diagonal(size, element) + layer }
     }
 
     /// Sets the lines of elements that begin to yield in the next modes.
@@ -184,10 +189,20 @@ impl ModeSearch {
                 && let Ok(limits) = input.limits(e, 0.0)
                 && limits.hardening > 0.0
             {
-                line.set(TrialLine::new(CurvePoint::new(0.0, &limits), limits.gap_offset));
+                let point = CurvePoint::new(0.0, &limits);
+                let stiffness = self.compliance(input, e).total.recip();
+                line.set(TrialLine::new(point, limits.gap_offset, stiffness));
             }
         }
     }
+}
+
+/// Normal compliance of an element, m/Pa.
+struct ElementCompliance {
+    /// Of the layer of its law.
+    layer: f64,
+    /// Of the layer, the ground and the structure, with all other tractions fixed.
+    total: f64,
 }
 
 /// Reads the gap of a closed element from its law.

@@ -47,7 +47,11 @@ pub(crate) fn solve(
         let weight = &loads.weight;
         let load = &loads.load;
         let laws = &parts.builder.laws;
-        let ground = StaticGround { compliance: &ground_compliance, shared_compliance };
+        let ground = StaticGround {
+            compliance: &ground_compliance,
+            shared_compliance,
+            may_shorten_increments: true,
+        };
         let condensed_state = condensed.as_ref().and_then(|condensed| {
             let forces = [condensed.weight.as_slice(), &condensed.load];
             let mut state =
@@ -184,6 +188,8 @@ pub(crate) struct StaticGround<'a> {
     pub(crate) compliance: &'a CompressedMatrix,
     /// Compliance of structure and ground, if it has been computed.
     pub(crate) shared_compliance: &'a RefCell<Option<Compliance>>,
+    /// Whether the search for an equilibrium may shorten its increments.
+    pub(crate) may_shorten_increments: bool,
 }
 
 /// Static state under weight and loads at t = 0, with interface laws.
@@ -205,6 +211,7 @@ pub(crate) fn state_under_loads(
         is_frictionless: false,
         jump_offset: &gaps,
         shared_compliance: ground.shared_compliance,
+        may_shorten_increments: ground.may_shorten_increments,
     };
     let has_walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
     let is_backfilled =

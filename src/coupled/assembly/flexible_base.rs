@@ -104,7 +104,13 @@ fn check_structure(
     let assembled = loaded.assembled;
     let base = &assembled.base;
     let ground_compliance = at_rest::static_compliance(parts, base)?;
-    let ground = StaticGround { compliance: &ground_compliance, shared_compliance };
+    // Only states that full increments find are compared: close to the capacity of a yielding structure, shapes differ by far
+    // more than forces.
+    let ground = StaticGround {
+        compliance: &ground_compliance,
+        shared_compliance,
+        may_shorten_increments: false,
+    };
     let Some(factor) = shared_factor(parts, assembled, ground)? else {
         return Ok(None);
     };
@@ -121,8 +127,11 @@ fn check_structure(
         let RefinedBase { base: refined_base, ground_compliance } = refined;
         let compliance = Compliance::new(factor, &refined_base, &ground_compliance)?;
         let shared_compliance = RefCell::new(Some(compliance));
-        let refined_ground =
-            StaticGround { compliance: &ground_compliance, shared_compliance: &shared_compliance };
+        let refined_ground = StaticGround {
+            compliance: &ground_compliance,
+            shared_compliance: &shared_compliance,
+            ..ground
+        };
         // If no soft shape remains after halving the elements, the refined base is sufficient.
         let refined_shape = ZeroMeanShape::softest(assembled, &refined_base, refined_ground, None);
         exponent = refined_shape.map_or(MAX_REFINEMENT_EXPONENT, |refined| {

@@ -43,22 +43,58 @@ impl JointLine {
     ) -> Result<Self> {
         at_least("list of contact elements of a joint", element_count, 1)?;
         check_count(element_count, COMPONENTS_IN_PLANE)?;
-        for nodes in [&upper, &lower] {
-            at_least("list of contact nodes of a side of a joint", nodes.len(), 2)?;
-            for node in nodes {
-                finite("coordinate of a contact node", node.x)?;
-                finite("coordinate of a contact node", node.z)?;
+        let sides = [upper, lower];
+        let direction = checked_direction(&sides)?;
+        let span = common_span(&sides, &direction)?;
+        let ends = (0..=element_count).map(|k| {
+            let fraction = k as f64 / element_count as f64;
+            (1.0 - fraction) * span[0] + fraction * span[1]
+        });
+        Ok(Self::with_ends(sides, &direction, ends))
+    }
+
+    /// An element around each node of the lower side, over the length that both lines share.
+    ///
+    /// With elements between the nodes, every second node could move up and its neighbours down without a change of any
+    /// mean. Returns an error as [`new`](Self::new).
+    pub(crate) fn around_lower_nodes(upper: Vec<BaseNode>, lower: Vec<BaseNode>) -> Result<Self> {
+        let sides = [upper, lower];
+        let direction = checked_direction(&sides)?;
+        let span = common_span(&sides, &direction)?;
+        check_count(sides[1].len(), COMPONENTS_IN_PLANE)?;
+        let tolerance = STRAIGHTNESS_TOLERANCE * direction.length();
+        let coordinate = |node: &BaseNode| direction.components([node.x, 0.0, node.z])[1];
+        let mut ends = vec![span[0]];
+        for pair in sides[1].windows(2) {
+            let middle = 0.5 * (coordinate(&pair[0]) + coordinate(&pair[1]));
+            if span[0] + tolerance < middle && middle < span[1] - tolerance {
+                ends.push(middle);
             }
         }
-        let first = &upper[0];
-        let last = &upper[upper.len() - 1];
-        let length = (last.x - first.x).hypot(last.z - first.z);
-        let quantity = "length of the upper side of a joint";
-        require(quantity, length, length > 0.0 && length.is_finite(), "above zero")?;
-        let direction = ContactElement::wall([first.x, first.z], [last.x, last.z]);
-        let common_span = common_span(&[&upper, &lower], &direction, length)?;
-        let elements = equal_elements([first, last], &direction, common_span, element_count);
-        Ok(Self { sides: [upper, lower], elements, gap: 0.0 })
+        ends.push(span[1]);
+        Ok(Self::with_ends(sides, &direction, ends.into_iter()))
+    }
+
+    /// Elements between these coordinates along `direction`, which is an element over the upper side.
+    fn with_ends(
+        sides: [Vec<BaseNode>; 2],
+        direction: &ContactElement,
+        ends: impl Iterator<Item = f64>,
+    ) -> Self {
+        let [line_start, line_end] = direction.span();
+        let first = &sides[0][0];
+        let last = &sides[0][sides[0].len() - 1];
+        let mut points = Vec::new();
+        for coordinate in ends {
+            let weight = (coordinate - line_start) / (line_end - line_start);
+            points.push([
+                (1.0 - weight) * first.x + weight * last.x,
+                (1.0 - weight) * first.z + weight * last.z,
+            ]);
+        }
+        let elements =
+            points.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect();
+        Self { sides, elements, gap: 0.0 }
     }
 
     /// The contact elements.
@@ -100,15 +136,31 @@ impl JointLine {
     }
 }
 
+/// Element over the whole upper side; an error for too few nodes, coordinates that are not finite, or no length.
+fn checked_direction(sides: &[Vec<BaseNode>; 2]) -> Result<ContactElement> {
+    for nodes in sides {
+        at_least("list of contact nodes of a side of a joint", nodes.len(), 2)?;
+        for node in nodes {
+            finite("coordinate of a contact node", node.x)?;
+            finite("coordinate of a contact node", node.z)?;
+        }
+    }
+    let first = &sides[0][0];
+    let last = &sides[0][sides[0].len() - 1];
+    let length = (last.x - first.x).hypot(last.z - first.z);
+    let quantity = "length of the upper side of a joint";
+    require(quantity, length, length > 0.0 && length.is_finite(), "above zero")?;
+    Ok(ContactElement::wall([first.x, first.z], [last.x, last.z]))
+}
+
 /// Span of the coordinates along `direction` that all sides share, m.
 ///
-/// Returns an error for sides that are not straight, not parallel to `direction` (an element of this `length`, m), listed
-/// in the other sense, or not opposite each other.
-fn common_span(
-    sides: &[&Vec<BaseNode>; 2],
-    direction: &ContactElement,
-    length: f64,
-) -> Result<[f64; 2]> {
+/// Returns an error for sides that are not straight, not parallel to `direction` (an element over the upper side), listed in
+/// the other sense, or not opposite each other.
+fn common_span(sides: &[Vec<BaseNode>; 2], direction: &ContactElement) -> Result<[f64; 2]> {
+    let first = &sides[0][0];
+    let last = &sides[0][sides[0].len() - 1];
+    let length = (last.x - first.x).hypot(last.z - first.z);
     let mut span = [f64::NEG_INFINITY, f64::INFINITY];
     for nodes in sides {
         let place = |node: &BaseNode| direction.components([node.x, 0.0, node.z]);
@@ -133,23 +185,23 @@ fn common_span(
     Ok(span)
 }
 
-/// Equal elements over a span of the line between two nodes, whose direction is `direction`.
-fn equal_elements(
-    [first, last]: [&BaseNode; 2],
-    direction: &ContactElement,
-    span: [f64; 2],
-    element_count: usize,
-) -> Vec<ContactElement> {
-    let [line_start, line_end] = direction.span();
-    let mut points = Vec::with_capacity(element_count + 1);
-    for k in 0..=element_count {
-        let fraction = k as f64 / element_count as f64;
-        let coordinate = (1.0 - fraction) * span[0] + fraction * span[1];
-        let weight = (coordinate - line_start) / (line_end - line_start);
-        points.push([
-            (1.0 - weight) * first.x + weight * last.x,
-            (1.0 - weight) * first.z + weight * last.z,
-        ]);
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_lie_around_the_nodes_of_the_lower_side() {
+        let node = |x: f64| BaseNode { x, ..BaseNode::default() };
+        let upper = vec![node(-2.5), node(3.0)];
+        let lower: Vec<BaseNode> = [-3.0, -2.0, 0.0, 3.0].into_iter().map(node).collect();
+        let line = JointLine::around_lower_nodes(upper.clone(), lower.clone()).unwrap();
+        let ends: Vec<f64> = line.elements().iter().map(|element| element.span()[0]).collect();
+        let expected_ends = [-2.5, -1.0, 1.5];
+        assert_eq!(ends.len(), expected_ends.len(), "{ends:?}");
+        for (end, expected) in ends.iter().zip(expected_ends) {
+            assert!((end - expected).abs() < 1e-12, "{ends:?}");
+        }
+        assert!((line.length() - 5.5).abs() < 1e-12);
+        assert!(JointLine::around_lower_nodes(upper, lower[..1].to_vec()).is_err());
     }
-    points.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect()
 }

@@ -12,6 +12,8 @@ use crate::coupled::statics::compliance::{
 use crate::coupled::statics::convergence::{
     RelativeForceNorm, extrapolation_factor, has_converged, spring_force_rounding,
 };
+use crate::coupled::statics::fictitious_springs::{FictitiousSprings, difference};
+use crate::coupled::statics::shortened_increment::ShortenedIncrement;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
 use crate::geometry::resultant;
@@ -45,8 +47,6 @@ const MAX_STIFFENING_FACTOR: f64 = 1e4;
 const EXTRAPOLATION_INTERVAL: usize = 20;
 /// Factor between two trial stiffnesses of the springs.
 const SPRING_STIFFENING_FACTOR: f64 = 10.0;
-/// Factor by which the springs are softened.
-const SPRING_SOFTENING_FACTOR: f64 = 0.1;
 
 /// Static problem of a structure on its ground.
 pub(crate) struct StaticProblem<'a> {
@@ -60,6 +60,8 @@ pub(crate) struct StaticProblem<'a> {
     pub(crate) jump_offset: &'a [f64],
     /// Compliance of a linear structure on its initial springs, which the stages share.
     pub(crate) shared_compliance: &'a RefCell<Option<Compliance>>,
+    /// Whether a search without a solution begins anew, with shortened increments.
+    pub(crate) may_shorten_increments: bool,
 }
 
 impl StaticProblem<'_> {
@@ -71,12 +73,33 @@ impl StaticProblem<'_> {
     /// iterate make each iteration regular, and their forces vanish at convergence (proximal point method). f is linearised
     /// at each iterate (Newton's method). The search starts from `state`, the end of the previous stage. `start` has the
     /// contact of this state for the laws. The result also contains the contact state of each element.
+    ///
+    /// Newton's method may pass the balance of a yielding structure for ever. Without a solution the search therefore begins
+    /// anew, with increments that end where the forces do no work on them.
     pub(crate) fn equilibrium(
+        &self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &PreviousContacts,
+        state: StaticState,
+        load: &[f64],
+    ) -> Result<(StaticState, Vec<ContactState>)> {
+        if self.assembled.is_linear || !self.may_shorten_increments {
+            return self.search(laws, start, state, load, false);
+        }
+        self.search(laws, start, state.clone(), load, false).or_else(|error| {
+            let short_search = self.search(laws, start, state, load, true);
+            short_search.map_err(|_| error)
+        })
+    }
+
+    /// The search, with increments that are shortened or not.
+    fn search(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
         start: &PreviousContacts,
         mut state: StaticState,
         load: &[f64],
+        has_short_increments: bool,
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let assembled = self.assembled;
         let base = &assembled.base;
@@ -90,6 +113,8 @@ impl StaticProblem<'_> {
         let mut change = f64::INFINITY;
         let mut iterations = 0;
         let mut last_step = Vec::new();
+        let mut short_increment = has_short_increments
+            .then(|| ShortenedIncrement::new(assembled, self.structure, load, &relative_norm));
         while iterations < MAX_PROXIMAL_ITERATIONS {
             iterations += 1;
             tangent.refill(self.structure, &state.displacement)?;
@@ -103,12 +128,23 @@ impl StaticProblem<'_> {
             let compliance = stored_compliance.insert(compliance);
             let next =
                 self.next_iterate(compliance, &mut solver, (laws, start), load, &mut state)?;
-            let Some(displacement) = next else { break };
+            let Some(mut displacement) = next else { break };
+            let mut traction = solver.response().traction.clone();
+            let is_shortened = match &mut short_increment {
+                Some(increment) => {
+                    increment.shorten(&state, springs.shift, &mut displacement, &mut traction)?
+                }
+                None => false,
+            };
             let spring_force = springs.force(assembled, &displacement, &state.displacement);
             let previous_change = std::mem::replace(&mut change, relative_norm.of(&spring_force));
             let step = difference(&displacement, &state.displacement);
             state.displacement = displacement;
-            state.traction.copy_from_slice(&solver.response().traction);
+            state.traction = traction;
+            if is_shortened {
+                last_step = step;
+                continue;
+            }
             if has_converged(previous_change, change, iterations, compliance) {
                 // If K u is only rounding, the springs may have no force without an equilibrium.
                 let residual = imbalance(assembled, load, &state.traction);
@@ -140,6 +176,10 @@ impl StaticProblem<'_> {
                 state.displacement.iter_mut().zip(&step).for_each(|(u, d)| *u += factor * d);
             }
             last_step = step;
+        }
+        // Springs on a structure that yields without limit may have little force far from an equilibrium.
+        if let Ok(residual) = self.yielding_residual(&relative_norm, load, &state) {
+            change = change.max(residual);
         }
         let joint_element = self.joint_element_that_moves_most(&last_step);
         let error = Error::Preload { iterations, residual: change, joint_element };
@@ -318,45 +358,6 @@ impl StaticProblem<'_> {
         let factor = Rc::new(ShiftedStiffnessFactor::new(self.assembled, tangent, shift)?);
         Compliance::new(factor, &self.assembled.base, self.ground_compliance)
     }
-}
-
-/// Fictitious springs ε M between two iterates.
-struct FictitiousSprings {
-    /// Shift ε: stiffness per mass, 1/s².
-    shift: f64,
-    /// Smallest shift to which the springs may be softened, 1/s².
-    min_shift: f64,
-}
-
-impl FictitiousSprings {
-    /// Force of the springs between two displacements.
-    fn force(&self, assembled: &Assembled, to: &[f64], from: &[f64]) -> Vec<f64> {
-        let step = difference(to, from);
-        let mut force = vec![0.0; step.len()];
-        assembled.mass.multiply_add(self.shift, &step, &mut force);
-        force
-    }
-
-    /// Whether the springs have their smallest stiffness.
-    ///
-    /// A structure may be unstable on softer springs.
-    fn must_stay_stiff(&self) -> bool {
-        self.min_shift == self.shift
-    }
-
-    /// Softens the springs tenfold; returns `false` at their smallest stiffness.
-    fn soften(&mut self) -> bool {
-        let can_soften = self.shift > self.min_shift;
-        if can_soften {
-            self.shift *= SPRING_SOFTENING_FACTOR;
-        }
-        can_soften
-    }
-}
-
-/// Difference of two displacements.
-fn difference(to: &[f64], from: &[f64]) -> Vec<f64> {
-    to.iter().zip(from).map(|(a, b)| a - b).collect()
 }
 
 /// Unbalanced resultant force, relative to the load.

@@ -4,7 +4,6 @@ pub(crate) mod advance;
 pub(crate) mod energy_accumulator;
 pub(crate) mod forcing;
 pub(crate) mod increment;
-mod increment_search;
 pub(crate) mod joint_losses;
 mod linear;
 mod modal_loops;

@@ -4,9 +4,9 @@ use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::statics::increment_search::IncrementSearch;
 use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
-use crate::coupled::step::increment_search::IncrementSearch;
 use crate::coupled::step::linear::LinearStep;
 use crate::error::StepError;
 use crate::linalg::largest;
@@ -331,9 +331,11 @@ impl NewtonIteration {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let Self { search, guess, linearised_force, force_displacement, .. } = self;
-        search.search(guess, linearised_force, &mut increment.nonlinear_force, |guess, force| {
+        let nonlinear_force = &mut increment.nonlinear_force;
+        search.search(guess, linearised_force, nonlinear_force, |guess, force| {
             evaluate_force(linear, data, guess, force_displacement, force)
-        })
+        })?;
+        Ok(())
     }
 
     /// Error for an iteration that did not converge; `residual` is its relative out-of-balance force.

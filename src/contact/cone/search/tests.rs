@@ -86,3 +86,78 @@ fn sweeps_and_brief_iterations_find_the_forces_of_other_methods() {
     }
     assert!(comparison_count > 6, "{comparison_count}");
 }
+
+/// Friction and largest force of an element in the test below.
+const CAPPED_FRICTION: f64 = 0.6;
+const FORCE_CAP: f64 = 2.0;
+
+/// A landing body so light that it moves all elements by `compliance`, far more than the soil does.
+///
+/// Its weight is half of the largest force of all elements; a moment about y brings one side to the cap.
+fn light_body(random: &mut Random, compliance: f64) -> ConeProblem {
+    let mut problem = landing(random, CAPPED_FRICTION, 4.0);
+    let size = problem.component_count();
+    let moment = random.within(1.5, 2.2) * ELEMENT_COUNT as f64;
+    let position = |e: usize| (e % LATTICE_COUNTS[0]) as f64 - 4.0;
+    for i in 0..ELEMENT_COUNT {
+        for j in 0..ELEMENT_COUNT {
+            problem.w[i * size + j] += compliance * (1.0 + 0.2 * position(i) * position(j));
+        }
+        problem.q[i] = -compliance * (ELEMENT_COUNT as f64 + 0.2 * moment * position(i));
+    }
+    problem.bounds.iter_mut().for_each(|bounds| bounds.interval[1] = FORCE_CAP);
+    problem.update_scales();
+    problem
+}
+
+/// Largest violation of Signorini's law with a cap and of Coulomb's law: a gap, a slip, or a force.
+fn violation(problem: &ConeProblem) -> f64 {
+    let size = problem.component_count();
+    let displacement = |i: usize| {
+        let row = problem.w[i * size..][..size].iter();
+        problem.q[i] + row.zip(&problem.force_change).map(|(w, r)| w * r).sum::<f64>()
+    };
+    (0..ELEMENT_COUNT).fold(0.0, |largest: f64, e| {
+        let [n, x, y] = problem.component_indices(e);
+        let pressure = problem.force_change[n];
+        let gap = displacement(n);
+        let gap_violation = if pressure <= 0.0 {
+            -gap
+        } else if pressure >= FORCE_CAP {
+            gap
+        } else {
+            gap.abs()
+        };
+        let range_violation = (-pressure).max(pressure - FORCE_CAP);
+        let shear = [x, y].map(|i| problem.force_change[i]);
+        let slip = [x, y].map(displacement);
+        let reserve = CAPPED_FRICTION * pressure - shear[0].hypot(shear[1]);
+        // Slip opposes the shear of an element without reserve.
+        let slip_violation = if reserve > 1e-6 {
+            slip[0].hypot(slip[1])
+        } else {
+            let power = shear[0] * slip[0] + shear[1] * slip[1];
+            power + shear[0].hypot(shear[1]) * slip[0].hypot(slip[1])
+        };
+        largest.max(gap_violation).max(range_violation).max(-reserve).max(slip_violation)
+    })
+}
+
+/// Sweeps and Newton's method with the ρ of each element alone do not find these forces.
+#[test]
+fn elements_that_a_light_body_moves_together_are_solved_at_a_cap() {
+    let mut random = Random(41);
+    for case in 0..6 {
+        let compliance = 1e4 * 10.0_f64.powi(case);
+        let mut problem = light_body(&mut random, compliance);
+        let mut newton = Newton::new(ELEMENT_COUNT);
+        assert!(alternate_sweeps_and_newton(&mut problem, &mut newton).method.is_none());
+        let outcome = solve_collectively(&mut problem, &mut newton);
+        assert!(outcome.is_solved, "case {case}: residual {:e}", problem.residual());
+        let violation = violation(&problem);
+        assert!(violation < 1e-12 * compliance, "case {case}: {violation:e}");
+        // The forces balance the weight, up to what the soil adds.
+        let force: f64 = (0..ELEMENT_COUNT).map(|e| problem.force(e)).sum();
+        assert!((force - ELEMENT_COUNT as f64).abs() < 0.01 * force, "case {case}: {force}");
+    }
+}

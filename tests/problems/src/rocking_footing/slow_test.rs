@@ -42,8 +42,7 @@ const ACTUATOR_MASS: f64 = 1e13;
 const ACTUATOR_STIFFNESS: f64 = 1e11;
 /// Stiffness of the guides against tilting across the load, N·m. A single row of cells does not resist this tilt.
 const GUIDE_STIFFNESS: f64 = 1e9;
-/// Time step, s. A cycle takes a minute, in which waves cross the footing 3000 times. In much longer steps the mode search
-/// fails on several rows of cells.
+/// Time step, s. A cycle of 200 steps takes a minute, in which waves cross the footing 3000 times.
 const TIME_STEP: f64 = 0.3;
 
 /// The test, and how finely it is computed.
@@ -57,6 +56,8 @@ pub struct SlowRockingTest {
     pub cells: [usize; 2],
     /// Steps of a cycle, a multiple of 4.
     pub steps_per_cycle: usize,
+    /// s.
+    pub time_step: f64,
     /// Names of the packets and amplitudes of their rotation, rad.
     pub packets: Vec<(String, f64)>,
 }
@@ -82,14 +83,16 @@ impl SlowRockingTest {
             poisson: 0.35,
             cells: [16, 1],
             steps_per_cycle: 200,
+            time_step: TIME_STEP,
             packets: packets.collect(),
         }
     }
 
     /// Turns the footing on an interface law through all packets.
     pub fn run(&self, law: impl InterfaceLaw + 'static) -> basemat::Result<SlowRockingRun> {
-        let mut simulation = Simulation::builder(TIME_STEP)
-            .structure(wall()?)
+        let time_step = self.time_step;
+        let mut simulation = Simulation::builder(time_step)
+            .structure(wall(time_step)?)
             .ground(self.ground()?)
             .interface(law)
             .load(Load::constant(vec![(ACTUATOR_DOF, 1.0)], 0.0))
@@ -108,7 +111,7 @@ impl SlowRockingTest {
                 let target = ACTUATOR_HEIGHT * rotation + state.displacement()[ALONG_DOF];
                 let distance = target - state.displacement()[ACTUATOR_DOF];
                 let speed = state.velocity()[ACTUATOR_DOF];
-                let acceleration = 2.0 * (distance / TIME_STEP - speed) / TIME_STEP;
+                let acceleration = 2.0 * (distance / time_step - speed) / time_step;
                 simulation.set_load(0, ACTUATOR_MASS * acceleration)?;
                 let state = simulation.step()?;
                 run.record(state);
@@ -139,8 +142,8 @@ impl SlowRockingTest {
     }
 }
 
-/// The wall on its footing, and the actuator.
-fn wall() -> basemat::Result<MatrixModel> {
+/// The wall on its footing, and the actuator, for steps of this length, s.
+fn wall(time_step: f64) -> basemat::Result<MatrixModel> {
     let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
     let mass = VERTICAL_FORCE / STANDARD_GRAVITY;
     // Inertia has no effect: that of a wall of twice the height of its centre of gravity.
@@ -158,6 +161,6 @@ fn wall() -> basemat::Result<MatrixModel> {
     stiffness.add(TILT_ACROSS_DOF, TILT_ACROSS_DOF, GUIDE_STIFFNESS);
     // With this dashpot the midpoint rule ends each step with the spring's force, without alternating about it.
     let mut damping = Triplets::new(DOF_COUNT);
-    damping.add_outer(stroke, 0.5 * TIME_STEP * ACTUATOR_STIFFNESS);
+    damping.add_outer(stroke, 0.5 * time_step * ACTUATOR_STIFFNESS);
     MatrixModel::new(mass, stiffness, body.base())?.with_damping(damping)
 }

@@ -17,7 +17,6 @@
 //! derivative of a convex potential (Iwan's model), r(s)·δ increases with s. If it is negative at s = 0 and positive at
 //! s = 1, the full step has passed the minimum of the potential on the line, and the search ends there.
 
-use crate::error::StepError;
 use crate::linalg::dot;
 
 /// Work of the out-of-balance force at which the search ends.
@@ -28,7 +27,7 @@ const WORK_TOLERANCE: f64 = 1e-3;
 const MAX_EVALUATIONS: usize = 30;
 
 /// The last but one iterate, and the force of the linear part at both iterates.
-pub(super) struct IncrementSearch {
+pub(crate) struct IncrementSearch {
     /// Iterate u₀.
     start: Vec<f64>,
     /// Force L₀ of the linear part.
@@ -43,7 +42,7 @@ pub(super) struct IncrementSearch {
 
 impl IncrementSearch {
     /// Buffers for this number of degrees of freedom.
-    pub(super) fn new(dofs: usize) -> Self {
+    pub(crate) fn new(dofs: usize) -> Self {
         let zeros = vec![0.0; dofs];
         Self {
             start: zeros.clone(),
@@ -55,7 +54,7 @@ impl IncrementSearch {
     }
 
     /// Stores the start of an increment: an iterate with its forces.
-    pub(super) fn start_at(
+    pub(crate) fn start_at(
         &mut self,
         iterate: &[f64],
         linear_force: &[f64],
@@ -73,14 +72,14 @@ impl IncrementSearch {
     ///
     /// The arguments have the values at the end of the increment. `evaluate` writes the nonlinear force at its first
     /// argument to its second argument. Its last call is for the result. Nothing changes unless the increment has
-    /// passed such a point.
-    pub(super) fn search(
+    /// passed such a point. Returns the position s of the result on the increment.
+    pub(crate) fn search<E>(
         &mut self,
         iterate: &mut [f64],
         linear_force: &mut [f64],
         nonlinear_force: &mut [f64],
-        mut evaluate: impl FnMut(&[f64], &mut [f64]) -> Result<(), StepError>,
-    ) -> Result<(), StepError> {
+        mut evaluate: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
+    ) -> Result<f64, E> {
         for (increment, (end, start)) in
             self.increment.iter_mut().zip(iterate.iter().zip(&self.start))
         {
@@ -89,13 +88,14 @@ impl IncrementSearch {
         let start_work = dot(&self.start_imbalance, &self.increment);
         let end_work = work(nonlinear_force, linear_force, &self.increment);
         if !(start_work < 0.0 && end_work > 0.0) {
-            return Ok(());
+            return Ok(1.0);
         }
         self.end_linear_force.copy_from_slice(linear_force);
         let mut bracket =
             Bracket { low: (0.0, start_work), high: (1.0, end_work), last_is_low: None };
+        let mut s = 1.0;
         for _ in 0..MAX_EVALUATIONS {
-            let s = bracket.estimate();
+            s = bracket.estimate();
             for i in 0..iterate.len() {
                 iterate[i] = self.start[i] + s * self.increment[i];
                 let start_force = self.start_linear_force[i];
@@ -108,7 +108,7 @@ impl IncrementSearch {
             }
             bracket.narrow(s, work);
         }
-        Ok(())
+        Ok(s)
     }
 }
 
@@ -168,7 +168,7 @@ mod tests {
         let mut nonlinear_force = [law(1.0)];
         let mut count = 0;
         search
-            .search(&mut iterate, &mut linear_force, &mut nonlinear_force, |u, f| {
+            .search::<()>(&mut iterate, &mut linear_force, &mut nonlinear_force, |u, f| {
                 count += 1;
                 f[0] = law(u[0]);
                 Ok(())
@@ -182,7 +182,9 @@ mod tests {
         search.start_at(&[0.0], &[linear(0.0)], &[law(0.0)]);
         let mut short = [0.1];
         let mut forces = ([linear(0.1)], [law(0.1)]);
-        let keep = search.search(&mut short, &mut forces.0, &mut forces.1, |_, _| unreachable!());
-        assert!(keep.is_ok() && short == [0.1]);
+        let full = search
+            .search::<()>(&mut short, &mut forces.0, &mut forces.1, |_, _| unreachable!())
+            .unwrap();
+        assert!(full == 1.0 && short == [0.1]);
     }
 }

@@ -1,0 +1,251 @@
+//! GOAL: a box of the soil around it changes nothing under a foundation, welded or in contact; clay limits the moment.
+//! SCENE: blocks on a box of elastic soil and of clay, under Ricker's wavelet and El Centro.
+//! REFERENCE: the same blocks on the half-plane; the moment capacity of the effective width.
+
+use std::sync::LazyLock;
+
+use basemat::bem::embedded::{NearField, TrenchGround};
+use basemat::bem::{ElasticGround, SharedKernels, Strip};
+use basemat::coupled::{Joint, Probe, SimulationBuilder};
+use basemat::fem::{Direction, Material, Mesh, SharedMaterial};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::{Record, STANDARD_GRAVITY, VerticalIncidence, el_centro_1940};
+use basemat::site::TrenchMotion;
+use basemat::structure::{FemModel, RigidBlock, StructureGroup};
+use basemat::{Result, Simulation, Soil, unobserved};
+
+use super::soil_box::SoilBox;
+
+/// Half width of the foundations, m.
+pub(crate) const HALF_WIDTH: f64 = 6.0;
+const BLOCK_HEIGHT: f64 = 8.0;
+pub(crate) const TIME_STEP: f64 = 0.01;
+pub(crate) const STEP_COUNT: usize = 160;
+
+pub(crate) fn soil() -> Soil {
+    Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0).unwrap()
+}
+
+/// Box of half width 12 m and depth 6 m, with six elements under the foundation.
+pub(crate) fn near_field() -> NearField {
+    NearField::new(soil(), HALF_WIDTH).unwrap()
+}
+
+/// Convolution weights that tests with the same box share.
+static KERNELS: LazyLock<SharedKernels> = LazyLock::new(SharedKernels::default);
+
+/// The soil around the box.
+pub(crate) fn box_ground() -> TrenchGround {
+    near_field().ground().unwrap().with_shared_kernels(&KERNELS)
+}
+
+/// Ricker's wavelet of acceleration, with a peak in m/s² and a frequency of 2 Hz.
+pub(crate) fn ricker(peak: f64) -> Record {
+    Record::from_fn(0.005, TIME_STEP * STEP_COUNT as f64, |time| {
+        let square = (std::f64::consts::PI * 2.0 * (time - 0.7)).powi(2);
+        peak * (1.0 - 2.0 * square) * (-square).exp()
+    })
+    .unwrap()
+}
+
+/// The box in its ground, under vertical waves.
+fn on_box(record: Record) -> Result<SimulationBuilder> {
+    let ground = box_ground();
+    let motion = TrenchMotion::new(&ground, VerticalIncidence::from(record), &mut unobserved)?;
+    Ok(Simulation::builder(TIME_STEP).ground(ground).motion(motion))
+}
+
+/// The half-plane under vertical waves.
+fn on_half_plane(record: Record) -> Result<SimulationBuilder> {
+    let ground = ElasticGround::new(soil(), Strip::graded(-HALF_WIDTH..HALF_WIDTH, 32)?)?;
+    Ok(Simulation::builder(TIME_STEP).ground(ground).motion(VerticalIncidence::from(record)))
+}
+
+/// Values of all probes after each step, by probe.
+fn probe_series(builder: SimulationBuilder) -> Result<Vec<Vec<f64>>> {
+    let mut simulation = builder.expected_steps(STEP_COUNT).build()?;
+    let mut series = vec![Vec::new(); simulation.probes().len()];
+    for _ in 0..STEP_COUNT {
+        for (values, value) in series.iter_mut().zip(&simulation.step()?.probes) {
+            values.push(*value);
+        }
+    }
+    assert!(simulation.state().energy_balance.residual() < 1e-9);
+    Ok(series)
+}
+
+/// Largest difference of two lists, relative to the largest entry of the second one.
+fn relative_difference(computed: &[f64], expected: &[f64]) -> f64 {
+    let mut largest = 0.0_f64;
+    let mut difference = 0.0_f64;
+    for (computed, expected) in computed.iter().zip(expected) {
+        largest = largest.max(expected.abs());
+        difference = difference.max((computed - expected).abs());
+    }
+    difference / largest
+}
+
+/// The bonded model with probes: top of the block to the right, and a lower corner upwards.
+fn with_welded_block(builder: SimulationBuilder, model: FemModel) -> Result<SimulationBuilder> {
+    let top = model.row(model.mesh().node_at(0.0, BLOCK_HEIGHT)?, Direction::X)?;
+    let corner = model.row(model.mesh().node_at(HALF_WIDTH, 0.0)?, Direction::Y)?;
+    Ok(builder
+        .structure(model)
+        .interface(Bonded)
+        .probe(Probe::absolute_displacement("top", top))
+        .probe(Probe::absolute_displacement("corner", corner)))
+}
+
+/// GOAL: the top within 0.3 %, the vertical motion of the corner within 3 %, with six elements under the block.
+#[test]
+fn a_block_on_a_box_of_the_same_soil_moves_as_on_the_half_plane() -> Result<()> {
+    let concrete = SharedMaterial::from(Material::new(20.0e9, 0.2, 2000.0)?);
+    let heights = [0.0, 2.0, 4.0, 6.0, BLOCK_HEIGHT];
+    let mesh = near_field().mesh()?;
+    let nodes = near_field().foundation_nodes(&mesh)?;
+    let lines: Vec<f64> = nodes.iter().step_by(2).map(|node| mesh.nodes()[*node][0]).collect();
+    let boxed = SoilBox { mesh }.with_block(&lines, &heights, &concrete)?.model();
+    let computed = probe_series(with_welded_block(on_box(ricker(1.0))?, boxed)?)?;
+
+    // Equal elements, so that the reference has another mesh of the block as well.
+    let equal: Vec<f64> = (0..=16).map(|k| HALF_WIDTH * (f64::from(k) / 8.0 - 1.0)).collect();
+    let block = Mesh::quad8_block(&equal, &heights, |_, _| concrete.clone())?;
+    let model = FemModel::on_base(block)?;
+    let expected = probe_series(with_welded_block(on_half_plane(ricker(1.0))?, model)?)?;
+
+    let top = relative_difference(&computed[0], &expected[0]);
+    let corner = relative_difference(&computed[1], &expected[1]);
+    println!("top {:.3} %, corner {:.3} %", 100.0 * top, 100.0 * corner);
+    assert!(top < 0.003, "{top}");
+    assert!(corner < 0.03, "{corner}");
+    Ok(())
+}
+
+/// Height of a block that lifts off, m.
+const TALL_HEIGHT: f64 = 24.0;
+
+/// GOAL: a block that lifts off rocks as on the half-plane within 3 %.
+#[test]
+fn a_block_lifts_off_a_box_as_off_the_half_plane() -> Result<()> {
+    let block = RigidBlock::new(2.0 * HALF_WIDTH, TALL_HEIGHT, 1500.0)?;
+    let law = Coulomb::new(0.7)?;
+    let model = FemModel::on_soil_at_rest(near_field().mesh()?)?;
+    let lower = model.contact_nodes(&near_field().foundation_nodes(model.mesh())?)?;
+    let upper = block.contact_nodes(&[[-HALF_WIDTH, 0.0], [HALF_WIDTH, 0.0]])?;
+    let group = StructureGroup::new().with(model, 0.0)?.with_above(block.clone(), [0.0, 0.0])?;
+    let joint =
+        Joint::around_nodes(group.contact_nodes(1, upper)?, group.contact_nodes(0, lower)?)?;
+    let rotation = group.row(1, 2)?;
+    let boxed = on_box(ricker(6.0))?
+        .structure(group)
+        .interface(Bonded)
+        .joint(joint.with_law(law))
+        .probe(Probe::displacement("rotation", rotation));
+    let computed = probe_series(boxed)?;
+
+    let flat = on_half_plane(ricker(6.0))?
+        .structure(block)
+        .interface(law)
+        .probe(Probe::displacement("rotation", [(2, 1.0)]));
+    let expected = probe_series(flat)?;
+    let bonded = on_half_plane(ricker(6.0))?
+        .structure(RigidBlock::new(2.0 * HALF_WIDTH, TALL_HEIGHT, 1500.0)?)
+        .interface(Bonded)
+        .probe(Probe::displacement("rotation", [(2, 1.0)]));
+    let bonded = probe_series(bonded)?;
+    let difference = relative_difference(&computed[0], &expected[0]);
+    let uplift = relative_difference(&bonded[0], &expected[0]);
+    println!("rotation {:.3} %; bonded {:.1} %", 100.0 * difference, 100.0 * uplift);
+    assert!(uplift > 0.1, "the block does not lift off");
+    assert!(difference < 0.03, "{difference}");
+    Ok(())
+}
+
+/// GOAL: base moment at most 5 % above (N B/2)(1 − N/N_u), with N and N_u of each instant; energies close.
+#[test]
+fn clay_limits_the_moment_of_a_block_in_an_earthquake() -> Result<()> {
+    let half_width = 3.0;
+    let strength = 60.0e3;
+    let soil = Soil::from_shear_wave_speed(150.0, 0.45, 1800.0)?;
+    let near_field = NearField::new(soil, half_width)?
+        .with_strength_profile(move |_| strength)
+        .with_pressure_at_rest(STANDARD_GRAVITY, 0.8)?;
+    let block = RigidBlock::new(2.0 * half_width, 10.0, 1250.0)?;
+    let model = FemModel::on_soil_at_rest(near_field.mesh()?)?;
+    let lower = model.contact_nodes(&near_field.foundation_nodes(model.mesh())?)?;
+    let upper = block.contact_nodes(&[[-half_width, 0.0], [half_width, 0.0]])?;
+    let group = StructureGroup::new().with(model, 0.0)?.with_above(block, [0.0, 0.0])?;
+    let joint =
+        Joint::around_nodes(group.contact_nodes(1, upper)?, group.contact_nodes(0, lower)?)?;
+    let row = |dof: usize| group.row(1, dof);
+    let probes = [Probe::displacement("up", row(1)?), Probe::displacement("rotation", row(2)?)];
+    let ground = near_field.ground()?;
+    let record = el_centro_1940().scaled(1.5)?.padded(0.1, 0.0)?;
+    let motion = TrenchMotion::new(&ground, VerticalIncidence::from(record), &mut unobserved)?;
+    let mut simulation = Simulation::builder(0.02)
+        .ground(ground)
+        .structure(group)
+        .interface(Bonded)
+        .joint(joint.with_law(Coulomb::new(0.7)?))
+        .motion(motion)
+        .probes(probes)
+        .expected_steps(200)
+        .build()?;
+    let bearing_force = (2.0 + std::f64::consts::PI) * strength * 2.0 * half_width;
+    let mut largest_ratio = 0.0_f64;
+    let run = simulation.run(200, |state| {
+        let normal_force = state.joints[0].normal_force;
+        let capacity = normal_force * half_width * (1.0 - normal_force / bearing_force);
+        largest_ratio = largest_ratio.max(state.joints[0].moment.abs() / capacity);
+    })?;
+    let state = simulation.state();
+    println!(
+        "N_u/N {:.2}, moment over capacity {largest_ratio:.3}, settlement {:.1} mm, rotation {:.2} mrad, open by {:.1e}, \
+         hysteresis {:.3} of {:.3e}",
+        bearing_force / state.joints[0].normal_force,
+        -1e3 * state.probes[0],
+        1e3 * state.probes[1],
+        run.energy_error,
+        run.energy_balance.hysteresis / run.energy_balance.largest,
+        run.energy_balance.largest,
+    );
+    assert!(largest_ratio < 1.05, "{largest_ratio}");
+    assert!(largest_ratio > 0.6, "{largest_ratio}");
+    assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
+    assert!(run.energy_balance.hysteresis > 0.01 * run.energy_balance.largest);
+    Ok(())
+}
+
+/// GOAL: boxes that cannot be made are refused, with quantity, value and need.
+#[test]
+fn boxes_that_cannot_be_made_are_refused() -> Result<()> {
+    let text = |result: Result<NearField>| result.err().expect("an error").to_string();
+    for half_width in [0.0, f64::NAN, f64::INFINITY] {
+        assert!(text(NearField::new(soil(), half_width)).contains("half width"));
+    }
+    assert!(text(near_field().with_size(6.0, 3.0)).contains("half width of the box"));
+    assert!(text(near_field().with_size(8.0, 0.0)).contains("depth of the box"));
+    for count in [0, 3] {
+        assert!(text(near_field().with_foundation_elements(count)).contains("even"));
+    }
+    assert!(text(near_field().with_pressure_at_rest(9.81, -0.1)).contains("pressure at rest"));
+    let weak = near_field().with_strength_profile(|_| 1.0e3).mesh();
+    assert!(weak.err().expect("an error").to_string().contains("depth of"));
+    let negative = near_field().with_strength_profile(|depth| 1.0e3 - 1.0e3 * depth).mesh();
+    assert!(negative.err().expect("an error").to_string().contains("strength of the soil"));
+    let huge = near_field().with_foundation_elements(2_000_000_000)?;
+    assert!(huge.mesh().is_err() && huge.ground().is_err());
+    let wide = near_field().with_size(1e300, 1.0)?;
+    assert!(wide.mesh().is_err() && wide.ground().is_err());
+    let other = Mesh::quad8_block(&[-1.0, 1.0], &[-1.0, 0.0], |_, _| {
+        Material::new(1.0e6, 0.3, 2000.0).unwrap()
+    })?;
+    let nodes = near_field().foundation_nodes(&other).err().expect("an error").to_string();
+    assert!(nodes.contains("list of nodes"), "{nodes}");
+    let layer = basemat::soil::SoilProfile::on_rigid_bedrock().with_layer(soil(), 4.0)?;
+    let deep = NearField::new(layer, HALF_WIDTH)?;
+    let depth = deep.mesh().err().expect("an error").to_string();
+    assert!(depth.contains("depth of the box"), "{depth}");
+    assert!(deep.ground().is_err());
+    Ok(())
+}
