@@ -14,6 +14,7 @@ mod embedded_rest;
 mod embedded_scenes;
 mod embedded_waves;
 mod energy_balance;
+mod fibre_frames;
 mod fixed_base;
 mod forms;
 mod forms_of_results;

@@ -96,6 +96,84 @@ pub trait InelasticForce: Send + Sync {
     ) -> Result<Vec<SolidPoint>> {
         Ok(Vec::new())
     }
+
+    /// States of the sections of a beam of fibres, for results. Default: none.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn sections(
+        &self,
+        _coordinates: &[[f64; 3]],
+        _displacement: &[f64],
+        _variables: &[f64],
+    ) -> Result<Vec<BeamSectionState>> {
+        Ok(Vec::new())
+    }
+}
+
+/// Method that returns states in an element from coordinates, displacement and internal variables.
+pub(crate) type ReadStates<T> =
+    fn(&dyn InelasticForce, &[[f64; 3]], &[f64], &[f64]) -> Result<Vec<T>>;
+
+/// [`InelasticForce::points`] as a [`ReadStates`].
+pub(crate) fn read_points(
+    force: &dyn InelasticForce,
+    coordinates: &[[f64; 3]],
+    displacement: &[f64],
+    variables: &[f64],
+) -> Result<Vec<SolidPoint>> {
+    force.points(coordinates, displacement, variables)
+}
+
+/// [`InelasticForce::sections`] as a [`ReadStates`].
+pub(crate) fn read_sections(
+    force: &dyn InelasticForce,
+    coordinates: &[[f64; 3]],
+    displacement: &[f64],
+    variables: &[f64],
+) -> Result<Vec<BeamSectionState>> {
+    force.sections(coordinates, displacement, variables)
+}
+
+/// State of a section of a beam of fibres in the plane.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct BeamSectionState {
+    /// Position [x, y, z] on the undeformed line between the nodes, m.
+    pub position: [f64; 3],
+    /// Part of the length of the beam for which the section stands, m.
+    pub length: f64,
+    /// Strain of the line between the nodes; elongation is positive.
+    pub axial_strain: f64,
+    /// Curvature, 1/m; it is positive where it stretches the fibres at negative y.
+    pub curvature: f64,
+    /// Axial force, N; tension is positive.
+    pub axial_force: f64,
+    /// Bending moment, N m, positive with the curvature.
+    pub moment: f64,
+    /// Fibres in the order of the section.
+    pub fibers: Vec<FiberState>,
+}
+
+/// Strain and stress of a fibre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct FiberState {
+    /// Coordinates [y, z] in the section, m.
+    pub position: [f64; 2],
+    /// Area, m².
+    pub area: f64,
+    /// Strain; tension is positive.
+    pub strain: f64,
+    /// Stress, Pa; tension is positive.
+    pub stress: f64,
+}
+
+impl FiberState {
+    /// State of a fibre at [y, z], m, with an area, m².
+    pub fn new(position: [f64; 2], area: f64, strain: f64, stress: f64) -> Self {
+        Self { position, area, strain, stress }
+    }
 }
 
 /// State of a solid at an integration point of an element.

@@ -30,6 +30,11 @@ impl ElementLine {
         Some(Self { length: norm(difference), tangent, horizontal_normal })
     }
 
+    /// Unit vector from the first to the second node.
+    pub(super) fn tangent(&self) -> [f64; 3] {
+        self.tangent
+    }
+
     /// Returns an error unless there are two distinct points.
     ///
     /// `quantity`: name of the length in the error.

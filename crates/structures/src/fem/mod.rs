@@ -10,6 +10,7 @@ mod duplicate;
 mod element;
 mod element_matrix;
 mod element_nodes;
+mod fiber;
 mod force_rotation;
 mod grid;
 #[cfg(test)]
@@ -40,11 +41,16 @@ mod vector;
 pub use crate::geometry::Direction;
 pub(crate) use assembly::{MatrixKind, assemble, set_static_state};
 pub(crate) use beam::EndFrame;
-pub use beam::{Beam, BeamSection, SpaceBeam};
+pub use beam::{Beam, BeamSection, FiberBeam, SpaceBeam};
 pub use element::{Element, ElementFace, MassKind};
+pub use fiber::{
+    BeamFormulation, BeamQuadrature, BilinearSteel, Concrete, FiberSection, MenegottoPinto,
+    UniaxialMaterial, UniaxialResponse,
+};
 pub use grid::Grid;
 pub use hex8::Hex8;
-pub use inelastic_force::{InelasticForce, SolidPoint};
+pub use inelastic_force::{BeamSectionState, FiberState, InelasticForce, SolidPoint};
+pub(crate) use inelastic_force::{ReadStates, read_points, read_sections};
 pub use layer::Layer;
 pub use lumped_mass::LumpedMass;
 pub use material::Material;

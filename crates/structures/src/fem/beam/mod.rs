@@ -1,6 +1,7 @@
 //! Straight beams and columns, in the plane and in space.
 
 mod axes;
+mod fiber_beam;
 mod local_matrices;
 mod plane;
 mod releases;
@@ -8,6 +9,7 @@ mod section;
 mod space;
 
 pub(crate) use axes::EndFrame;
+pub use fiber_beam::FiberBeam;
 pub use plane::Beam;
 pub use section::BeamSection;
 pub use space::SpaceBeam;

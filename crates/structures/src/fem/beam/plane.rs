@@ -197,7 +197,7 @@ impl Element for Beam {
 }
 
 /// Local matrix: axial displacement, deflection and rotation, at both ends.
-fn local_matrix(axial: &BarMatrix, bending: &BendingMatrix) -> [[f64; 6]; 6] {
+pub(super) fn local_matrix(axial: &BarMatrix, bending: &BendingMatrix) -> [[f64; 6]; 6] {
     let mut matrix = [[0.0; 6]; 6];
     copy_block(axial, [0, 3], &mut matrix);
     copy_block(bending, [1, 2, 4, 5], &mut matrix);

@@ -2,7 +2,7 @@
 
 use super::inelastic_elements::InelasticElements;
 use crate::error::{Error, Result, in_bounds, same_length};
-use crate::fem::{Element, SolidPoint};
+use crate::fem::{BeamSectionState, Element, ReadStates, SolidPoint, read_points, read_sections};
 use crate::structure::{FemModel, Structure};
 
 impl FemModel {
@@ -86,9 +86,25 @@ impl FemModel {
     /// [`Error::Index`] when there is no such element, [`Error::Part`] for an element without internal variables, and
     /// errors of its material.
     pub fn solid_points(&self, element: usize) -> Result<Vec<SolidPoint>> {
+        self.element_states(element, read_points)
+    }
+
+    /// Deformations, resultants and fibre stresses of the sections along a [`FiberBeam`](crate::fem::FiberBeam).
+    ///
+    /// They belong to the end of the last step, as [`solid_points`](FemModel::solid_points). The list is empty for other
+    /// elements with internal variables.
+    ///
+    /// # Errors
+    /// As for [`solid_points`](FemModel::solid_points).
+    pub fn beam_sections(&self, element: usize) -> Result<Vec<BeamSectionState>> {
+        self.element_states(element, read_sections)
+    }
+
+    /// States in an element at the end of the last step.
+    fn element_states<T>(&self, element: usize, read: ReadStates<T>) -> Result<Vec<T>> {
         in_bounds("element", element, self.mesh().elements().len())?;
-        let points = self.inelastic.as_ref().and_then(|elements| elements.points(element));
-        points.unwrap_or_else(|| {
+        let states = self.inelastic.as_ref().and_then(|elements| elements.states(element, read));
+        states.unwrap_or_else(|| {
             let reason = "it is linear: points have states in elements with internal variables";
             Err(Error::part(format!("element {element}"), reason))
         })

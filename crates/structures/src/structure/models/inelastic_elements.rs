@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::{CheckpointError, Result, all_finite, same_length};
-use crate::fem::{Direction, Element, InelasticForce, Mesh, SolidPoint, SolidState};
+use crate::fem::{Direction, Element, InelasticForce, Mesh, ReadStates, SolidState, read_points};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Triplets};
 
 /// An element with internal variables, and its degrees of freedom in the model.
@@ -212,23 +212,24 @@ impl InelasticElements {
         self.has_initial_stress
     }
 
-    /// States of an element's points after the last step; `None` for a linear element.
-    pub(super) fn points(&self, element_index: usize) -> Option<Result<Vec<SolidPoint>>> {
-        let position = self.elements.binary_search_by_key(&element_index, |e| e.index).ok()?;
-        Some(self.points_at(&self.elements[position], &self.committed_displacement))
+    /// States in an element at the end of the last step; `None` for a linear element.
+    pub(super) fn states<T>(&self, index: usize, read: ReadStates<T>) -> Option<Result<Vec<T>>> {
+        let position = self.elements.binary_search_by_key(&index, |e| e.index).ok()?;
+        Some(self.states_at(&self.elements[position], &self.committed_displacement, read))
     }
 
-    /// States of the integration points of an element at a displacement of the model.
-    fn points_at(
+    /// States in an element at a displacement of the model.
+    fn states_at<T>(
         &self,
         element: &InelasticElement,
         displacement: &[f64],
-    ) -> Result<Vec<SolidPoint>> {
+        read: ReadStates<T>,
+    ) -> Result<Vec<T>> {
         let Some(force) = element.element.inelastic() else { return Ok(Vec::new()) };
         let mut element_displacement = vec![0.0; element.rows.len()];
         element.gather(displacement, &mut element_displacement);
         let variables = &self.variables[element.variables.clone()];
-        force.points(&element.coordinates, &element_displacement, variables)
+        read(force, &element.coordinates, &element_displacement, variables)
     }
 
     fn scratch(&self) -> MutexGuard<'_, Scratch> {
@@ -338,9 +339,7 @@ impl NonlinearForce for InelasticElements {
         Some(self.total_remainder(midstep, end).unwrap_or(f64::NAN))
     }
 
-    /// Text of the element with the highest mobilised strength at one degree of freedom.
-    ///
-    /// It is the first of `dofs` that belongs to an element with internal variables.
+    /// Text of the element of highest mobilised strength at the first of `dofs` with an inelastic element.
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         self.check_length(displacement).ok()?;
         dofs.iter().find_map(|dof| {
@@ -349,7 +348,7 @@ impl NonlinearForce for InelasticElements {
                 .iter()
                 .filter(|element| element.terms.iter().any(|(term_dof, _)| term_dof == dof));
             let states = touching_elements.filter_map(|element| {
-                let points = self.points_at(element, displacement).ok()?;
+                let points = self.states_at(element, displacement, read_points).ok()?;
                 let states = points.iter().map(|point| point.state);
                 Some(NamedState { name: element.name(), state: states.max_by(by_strength)? })
             });

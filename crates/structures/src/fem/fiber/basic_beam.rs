@@ -1,0 +1,398 @@
+//! Forces of a beam of fibres without its rigid motions.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | v | B basic deformations: elongation (m), rotations of both ends relative to the chord (rad) |
+//! | q | basic forces conjugate to them: axial force (N), moments of both ends (N m) |
+//! | e, s | N deformations and resultants of a section |
+//! | a(x), b(x) | e = a v of the displacement-based element; s = b q in equilibrium |
+//! | w | part of the length of a section |
+//!
+//! The **displacement-based** element interpolates e by a, and q = Σ w aᵀ s(e). The **force-based** element (Spacone,
+//! Filippou and Taucer 1996, Earthq. Eng. Struct. Dyn. 25, 711) is in equilibrium at every section, s(e) = b q, and compatible
+//! in the mean, v = Σ w bᵀ e. Newton's method solves both sets of equations together: with the flexibility f of each
+//! section, e ← e + f (b q − s), F = Σ w bᵀ f b, q ← q + F⁻¹ (v − Σ w bᵀ e). It starts at the state of the last
+//! step, whose q and e are internal variables. Where it does not converge, v approaches its value in parts.
+
+use super::quadrature::BeamPoint;
+use super::section::{FiberSection, SectionResponse};
+use super::small_matrix::{add_congruent, add_transposed, inverse, product};
+use crate::error::{Error, Result};
+use crate::fem::inelastic_force::FiberState;
+use crate::fem::internal_energy::InternalEnergy;
+
+/// Largest number of Newton's iterations inside a force-based element.
+const MAX_ELEMENT_ITERATIONS: usize = 40;
+/// Energy of the last correction at which the iterations end, relative to that of the first or of the whole deformation.
+const ENERGY_TOLERANCE: f64 = 1e-24;
+/// Largest number of parts into which a change of the deformations is divided: powers of this factor.
+const PART_FACTOR: usize = 4;
+/// Largest number of parts.
+const MAX_PARTS: usize = 256;
+
+/// How section deformations follow from those of the element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum BeamFormulation {
+    /// Linear axial displacement and cubic deflection: divide members where they yield (OpenSees' `dispBeamColumn`).
+    #[default]
+    DisplacementBased,
+    /// Exact equilibrium along the member, by iterations inside the element (OpenSees' `forceBeamColumn`).
+    ForceBased,
+}
+
+/// Interpolations along a beam with N deformations of a section and B basic deformations.
+#[derive(Debug)]
+pub(in crate::fem) struct Interpolation<const N: usize, const B: usize> {
+    /// a(x) times the length, at x/L.
+    pub(in crate::fem) deformations: fn(f64) -> [[f64; B]; N],
+    /// b(x) at x/L.
+    pub(in crate::fem) forces: fn(f64) -> [[f64; B]; N],
+    /// Strain of a fibre at [y, z] due to unit deformations of the section.
+    pub(in crate::fem) strains: fn([f64; 2]) -> [f64; N],
+}
+
+/// Bending in one plane: axial strain and curvature.
+pub(in crate::fem) const PLANE_BENDING: Interpolation<2, 3> = Interpolation {
+    deformations: |s| [[1.0, 0.0, 0.0], [0.0, 6.0 * s - 4.0, 6.0 * s - 2.0]],
+    forces: |s| [[1.0, 0.0, 0.0], [0.0, s - 1.0, s]],
+    strains: super::section::plane_strains,
+};
+
+/// A beam without rigid motions: sections at points along a length.
+pub(in crate::fem) struct BasicBeam<'a, const N: usize, const B: usize> {
+    pub(in crate::fem) interpolation: &'static Interpolation<N, B>,
+    pub(in crate::fem) formulation: BeamFormulation,
+    pub(in crate::fem) section: &'a FiberSection,
+    pub(in crate::fem) points: &'a [BeamPoint],
+    /// Length, m.
+    pub(in crate::fem) length: f64,
+}
+
+/// Largest number of sections along a beam.
+const MAX_SECTIONS: usize = 5;
+
+/// Basic forces, tangent, and deformations of the sections.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::fem) struct BasicState<const N: usize, const B: usize> {
+    pub(in crate::fem) forces: [f64; B],
+    /// ∂q/∂v.
+    pub(in crate::fem) stiffness: [[f64; B]; B],
+    /// Deformations of each section, of which the first are in use.
+    deformations: [[f64; N]; MAX_SECTIONS],
+}
+
+impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
+    /// Number of internal variables: those of all fibres, then e and q of a force-based element.
+    pub(in crate::fem) fn variable_count(&self) -> usize {
+        let state_count = match self.formulation {
+            BeamFormulation::DisplacementBased => 0,
+            BeamFormulation::ForceBased => N * self.points.len() + B + B,
+        };
+        self.points.len() * self.section.variable_count() + state_count
+    }
+
+    /// Overwrites `variables` by those of the undeformed beam.
+    pub(in crate::fem) fn initialize(&self, variables: &mut [f64]) {
+        variables.fill(0.0);
+        let count = self.section.variable_count();
+        for index in 0..self.points.len() {
+            self.section.initialize(&mut variables[index * count..(index + 1) * count]);
+        }
+    }
+
+    /// Internal variables of a section.
+    fn section_variables<'v>(&self, index: usize, variables: &'v [f64]) -> &'v [f64] {
+        let count = self.section.variable_count();
+        &variables[index * count..(index + 1) * count]
+    }
+
+    /// Internal variables e, q and v of a force-based element at the end of the last step.
+    fn last_state(&self, variables: &[f64]) -> LastState<N, B> {
+        let first = self.points.len() * self.section.variable_count();
+        let mut values = variables[first..].iter().copied();
+        let mut next = || values.next().unwrap_or(0.0);
+        let mut deformations = [[0.0; N]; MAX_SECTIONS];
+        for section in deformations.iter_mut().take(self.points.len()) {
+            section.iter_mut().for_each(|value| *value = next());
+        }
+        let mut forces = [0.0; B];
+        forces.iter_mut().for_each(|value| *value = next());
+        let mut basic_deformations = [0.0; B];
+        basic_deformations.iter_mut().for_each(|value| *value = next());
+        LastState { deformations, forces, basic_deformations }
+    }
+
+    /// Stiffness of small strains.
+    pub(in crate::fem) fn elastic_stiffness(&self) -> Option<[[f64; B]; B]> {
+        let section_stiffness = self.section.elastic_stiffness(self.interpolation.strains);
+        match self.formulation {
+            BeamFormulation::DisplacementBased => {
+                let mut stiffness = [[0.0; B]; B];
+                for point in self.points {
+                    let a = (self.interpolation.deformations)(point.position);
+                    let factor = point.weight / self.length;
+                    add_congruent(factor, &a, &section_stiffness, &mut stiffness);
+                }
+                Some(stiffness)
+            }
+            BeamFormulation::ForceBased => {
+                let section_flexibility = inverse(section_stiffness)?;
+                let mut flexibility = [[0.0; B]; B];
+                for point in self.points {
+                    let b = (self.interpolation.forces)(point.position);
+                    let factor = point.weight * self.length;
+                    add_congruent(factor, &b, &section_flexibility, &mut flexibility);
+                }
+                inverse(flexibility)
+            }
+        }
+    }
+
+    /// Basic forces and tangent at basic deformations v.
+    ///
+    /// # Errors
+    /// Those of fibres, and [`Error::Scene`] for a force-based element whose iterations do not converge.
+    pub(in crate::fem) fn state(
+        &self,
+        v: &[f64; B],
+        variables: &[f64],
+    ) -> Result<BasicState<N, B>> {
+        match self.formulation {
+            BeamFormulation::DisplacementBased => self.displacement_based_state(v, variables),
+            BeamFormulation::ForceBased => self.force_based_state(v, variables),
+        }
+    }
+
+    fn displacement_based_state(
+        &self,
+        v: &[f64; B],
+        variables: &[f64],
+    ) -> Result<BasicState<N, B>> {
+        let mut state = BasicState::zero();
+        for (index, point) in self.points.iter().enumerate() {
+            let a = (self.interpolation.deformations)(point.position);
+            let deformations = product(&a, v).map(|deformation| deformation / self.length);
+            let response = self.response(index, &deformations, variables)?;
+            add_transposed(point.weight, &a, &response.forces, &mut state.forces);
+            let factor = point.weight / self.length;
+            add_congruent(factor, &a, &response.tangent, &mut state.stiffness);
+            state.deformations[index] = deformations;
+        }
+        Ok(state)
+    }
+
+    /// Response of a section.
+    fn response(
+        &self,
+        index: usize,
+        deformations: &[f64; N],
+        variables: &[f64],
+    ) -> Result<SectionResponse<N>> {
+        let section_variables = self.section_variables(index, variables);
+        self.section.response(deformations, section_variables, self.interpolation.strains)
+    }
+
+    fn force_based_state(&self, v: &[f64; B], variables: &[f64]) -> Result<BasicState<N, B>> {
+        let last = self.last_state(variables);
+        let mut part_count = 1;
+        while part_count <= MAX_PARTS {
+            let mut state = BasicState { forces: last.forces, ..BasicState::zero() };
+            state.deformations = last.deformations;
+            let mut is_found = true;
+            for part in 1..=part_count {
+                let share = part as f64 / part_count as f64;
+                let target: [f64; B] = std::array::from_fn(|i| {
+                    last.basic_deformations[i] + share * (v[i] - last.basic_deformations[i])
+                });
+                is_found = self.iterate(&target, variables, &mut state)?;
+                if !is_found {
+                    break;
+                }
+            }
+            if is_found {
+                return Ok(state);
+            }
+            part_count *= PART_FACTOR;
+        }
+        let quantity = "state of a force-based beam";
+        let needed = "sections whose tangents are regular: less softening, or shorter steps";
+        Err(Error::Scene { quantity, needed })
+    }
+
+    /// Newton's iterations for q and e at v; returns whether they have converged.
+    fn iterate(
+        &self,
+        v: &[f64; B],
+        variables: &[f64],
+        state: &mut BasicState<N, B>,
+    ) -> Result<bool> {
+        let mut largest_energy = 0.0_f64;
+        for _ in 0..MAX_ELEMENT_ITERATIONS {
+            let mut flexibility = [[0.0; B]; B];
+            // v less the deformations of the sections after their own corrections.
+            let mut residual = *v;
+            let mut section_flexibilities = [[[0.0; N]; N]; MAX_SECTIONS];
+            for (index, point) in self.points.iter().enumerate() {
+                let b = (self.interpolation.forces)(point.position);
+                let response = self.response(index, &state.deformations[index], variables)?;
+                let Some(section_flexibility) = inverse(response.tangent) else {
+                    return Ok(false);
+                };
+                let needed_forces = product(&b, &state.forces);
+                let imbalance = std::array::from_fn(|i| needed_forces[i] - response.forces[i]);
+                let correction = product(&section_flexibility, &imbalance);
+                for (value, change) in state.deformations[index].iter_mut().zip(correction) {
+                    *value += change;
+                }
+                let length = point.weight * self.length;
+                add_transposed(-length, &b, &state.deformations[index], &mut residual);
+                add_congruent(length, &b, &section_flexibility, &mut flexibility);
+                section_flexibilities[index] = section_flexibility;
+                largest_energy = largest_energy.max(length * dot(&imbalance, &correction).abs());
+            }
+            let Some(stiffness) = inverse(flexibility) else { return Ok(false) };
+            let increment = product(&stiffness, &residual);
+            for (index, point) in self.points.iter().enumerate() {
+                let b = (self.interpolation.forces)(point.position);
+                let change = product(&section_flexibilities[index], &product(&b, &increment));
+                for (value, change) in state.deformations[index].iter_mut().zip(change) {
+                    *value += change;
+                }
+            }
+            for (force, change) in state.forces.iter_mut().zip(increment) {
+                *force += change;
+            }
+            state.stiffness = stiffness;
+            let is_finite = state.forces.iter().all(|force| force.is_finite());
+            if !is_finite {
+                return Ok(false);
+            }
+            let energy = dot(&increment, &residual).abs();
+            largest_energy = largest_energy.max(energy).max(dot(&state.forces, v).abs());
+            if self.imbalance_energy(variables, state)? + energy
+                <= ENERGY_TOLERANCE * largest_energy
+            {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Energy of the differences between b q and the resultants of the sections, J.
+    fn imbalance_energy(&self, variables: &[f64], state: &BasicState<N, B>) -> Result<f64> {
+        let mut sum = 0.0;
+        for (index, point) in self.points.iter().enumerate() {
+            let b = (self.interpolation.forces)(point.position);
+            let response = self.response(index, &state.deformations[index], variables)?;
+            let needed_forces = product(&b, &state.forces);
+            let imbalance: [f64; N] =
+                std::array::from_fn(|i| needed_forces[i] - response.forces[i]);
+            let Some(section_flexibility) = inverse(response.tangent) else {
+                return Ok(f64::INFINITY);
+            };
+            let correction = product(&section_flexibility, &imbalance);
+            sum += point.weight * self.length * dot(&imbalance, &correction).abs();
+        }
+        Ok(sum)
+    }
+
+    /// Energy of a state, J.
+    ///
+    /// # Errors
+    /// Those of fibres.
+    pub(in crate::fem) fn energy(
+        &self,
+        state: &BasicState<N, B>,
+        variables: &[f64],
+    ) -> Result<InternalEnergy> {
+        let mut sum = InternalEnergy::default();
+        for (index, point) in self.points.iter().enumerate() {
+            let section_variables = self.section_variables(index, variables);
+            let deformations = &state.deformations[index];
+            let strains = self.interpolation.strains;
+            let energy = self.section.energy(deformations, section_variables, strains)?;
+            let length = point.weight * self.length;
+            sum.stored += length * energy.stored;
+            sum.dissipated += length * energy.dissipated;
+        }
+        Ok(sum)
+    }
+
+    /// Deformations, resultants and fibres of each section.
+    ///
+    /// # Errors
+    /// Those of fibres.
+    pub(in crate::fem) fn section_states(
+        &self,
+        state: &BasicState<N, B>,
+        variables: &[f64],
+    ) -> Result<Vec<SectionState<N>>> {
+        let mut states = Vec::with_capacity(self.points.len());
+        for (index, point) in self.points.iter().enumerate() {
+            let deformations = state.deformations[index];
+            let section_variables = self.section_variables(index, variables);
+            let strains = self.interpolation.strains;
+            states.push(SectionState {
+                point: *point,
+                deformations,
+                forces: self.response(index, &deformations, variables)?.forces,
+                fibers: self.section.fiber_states(&deformations, section_variables, strains)?,
+            });
+        }
+        Ok(states)
+    }
+
+    /// Overwrites `variables` by those after a step that ended in a state with basic deformations v.
+    pub(in crate::fem) fn commit(
+        &self,
+        state: &BasicState<N, B>,
+        v: &[f64; B],
+        variables: &mut [f64],
+    ) {
+        let count = self.section.variable_count();
+        for index in 0..self.points.len() {
+            let section_variables = &mut variables[index * count..(index + 1) * count];
+            let strains = self.interpolation.strains;
+            self.section.commit(&state.deformations[index], section_variables, strains);
+        }
+        if self.formulation == BeamFormulation::ForceBased {
+            let sections = state.deformations.iter().take(self.points.len()).flatten();
+            let values = sections.chain(&state.forces).chain(v);
+            for (variable, value) in variables[self.points.len() * count..].iter_mut().zip(values) {
+                *variable = *value;
+            }
+        }
+    }
+}
+
+/// State of a section along a beam.
+pub(in crate::fem) struct SectionState<const N: usize> {
+    pub(in crate::fem) point: BeamPoint,
+    pub(in crate::fem) deformations: [f64; N],
+    pub(in crate::fem) forces: [f64; N],
+    pub(in crate::fem) fibers: Vec<FiberState>,
+}
+
+/// State of a force-based element at the end of the last step.
+struct LastState<const N: usize, const B: usize> {
+    deformations: [[f64; N]; MAX_SECTIONS],
+    forces: [f64; B],
+    basic_deformations: [f64; B],
+}
+
+impl<const N: usize, const B: usize> BasicState<N, B> {
+    fn zero() -> Self {
+        Self {
+            forces: [0.0; B],
+            stiffness: [[0.0; B]; B],
+            deformations: [[0.0; N]; MAX_SECTIONS],
+        }
+    }
+}
+
+fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}

@@ -1,0 +1,163 @@
+//! Sections of fibres: stress–strain laws along a bar, areas, points along a beam.
+//!
+//! | part | files |
+//! |---|---|
+//! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs`, `concrete.rs` |
+//! | sections of fibres | `section.rs` |
+//! | forces of a beam without rigid motions | `basic_beam.rs`; `quadrature.rs`: points along a beam |
+
+mod basic_beam;
+mod bilinear_steel;
+mod concrete;
+mod menegotto_pinto;
+mod quadrature;
+mod section;
+mod small_matrix;
+#[cfg(test)]
+mod tests;
+
+use std::any::Any;
+use std::fmt::Debug;
+
+use super::internal_energy::InternalEnergy;
+use super::material::Material;
+use crate::error::Result;
+
+pub use basic_beam::BeamFormulation;
+pub(super) use basic_beam::{BasicBeam, BasicState, PLANE_BENDING};
+pub use bilinear_steel::BilinearSteel;
+pub use concrete::Concrete;
+pub use menegotto_pinto::MenegottoPinto;
+pub(super) use quadrature::BeamPoint;
+pub use quadrature::BeamQuadrature;
+pub use section::FiberSection;
+pub(super) use section::plane_strains;
+pub(super) use small_matrix::{add_congruent, product};
+
+/// Stress of a fibre and its derivative.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct UniaxialResponse {
+    /// Stress, Pa; tension is positive.
+    pub stress: f64,
+    /// Derivative of the stress with respect to the strain, Pa.
+    pub tangent: f64,
+}
+
+/// Stress–strain law of a fibre: implement this for materials of your own.
+///
+/// Strains and stresses are along the bar, with tension positive. The element that has the fibre stores its internal
+/// variables. `variables` are those **committed** at the end of the last step. Stress, tangent and energy belong to the
+/// straight path from the committed strain to `strain`; only [`commit`](UniaxialMaterial::commit) changes variables.
+///
+/// # Laws of the library
+///
+/// | law | for | source |
+/// |---|---|---|
+/// | [`Material`] | linear elastic fibres, with Young's modulus | |
+/// | [`BilinearSteel`] | steel with kinematic hardening | OpenSees `Steel01` without isotropic hardening |
+/// | [`MenegottoPinto`] | steel with the Bauschinger effect | Menegotto and Pinto 1973; OpenSees `Steel02` |
+/// | [`Concrete`] | concrete without tension | Kent and Park 1971, Scott, Park and Priestley 1982; OpenSees `Concrete01` |
+///
+/// # A law of your own
+///
+/// ```
+/// use basemat::fem::{UniaxialMaterial, UniaxialResponse};
+/// use basemat::structure::InternalEnergy;
+/// use basemat::Result;
+///
+/// /// A cable: no stress in compression.
+/// #[derive(Debug)]
+/// struct Cable {
+///     modulus: f64,
+/// }
+///
+/// impl UniaxialMaterial for Cable {
+///     fn modulus(&self) -> f64 {
+///         self.modulus
+///     }
+///     fn response(&self, strain: f64, _variables: &[f64]) -> Result<UniaxialResponse> {
+///         let tangent = if strain > 0.0 { self.modulus } else { 0.0 };
+///         Ok(UniaxialResponse { stress: tangent * strain, tangent })
+///     }
+///     fn energy(&self, strain: f64, _variables: &[f64]) -> Result<InternalEnergy> {
+///         let stored = 0.5 * self.modulus * strain.max(0.0).powi(2);
+///         Ok(InternalEnergy { stored, dissipated: 0.0 })
+///     }
+///     // Elastic, without internal variables.
+///     fn commit(&self, _strain: f64, _variables: &mut [f64]) {}
+/// }
+///
+/// let cable = Cable { modulus: 160.0e9 };
+/// assert_eq!(cable.response(1e-3, &[])?.stress, 160.0e6);
+/// assert_eq!(cable.response(-1e-3, &[])?.stress, 0.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[auto_impl::auto_impl(Arc, Box)]
+pub trait UniaxialMaterial: Any + Debug + Send + Sync {
+    /// Modulus of small strains, Pa.
+    ///
+    /// It is that of the element's stiffness in Rayleigh damping and in the static forces of P–Δ.
+    fn modulus(&self) -> f64;
+
+    /// Number of internal variables of a fibre. Default: none.
+    fn variable_count(&self) -> usize {
+        0
+    }
+
+    /// Overwrites `variables` by those of a fibre without strain and stress. Default: zeros.
+    fn initialize(&self, variables: &mut [f64]) {
+        variables.fill(0.0);
+    }
+
+    /// Stress and tangent at a strain.
+    ///
+    /// # Errors
+    /// Any: the step ends with it, and nothing of the step is committed.
+    fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse>;
+
+    /// Energy stored and dissipated since the initial state, J/m³.
+    ///
+    /// # Errors
+    /// As for [`response`](UniaxialMaterial::response).
+    fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy>;
+
+    /// Work of the midstep stress that is neither stored nor dissipated, J/m³.
+    ///
+    /// `strains` are those at the start, where the stress is evaluated (usually the middle), and at the end of the step.
+    /// The remainder is σ(midstep)·(end − start) less the changes of [`energy`](UniaxialMaterial::energy). The default
+    /// evaluates this definition.
+    ///
+    /// # Errors
+    /// As for [`response`](UniaxialMaterial::response).
+    fn remainder(&self, strains: [f64; 3], variables: &[f64]) -> Result<f64> {
+        let [start, midstep, end] = strains;
+        let work = self.response(midstep, variables)?.stress * (end - start);
+        let start_energy = self.energy(start, variables)?;
+        let end_energy = self.energy(end, variables)?;
+        let stored_change = end_energy.stored - start_energy.stored;
+        let dissipated_change = end_energy.dissipated - start_energy.dissipated;
+        Ok(work - stored_change - dissipated_change)
+    }
+
+    /// Overwrites `variables` by those after a step that ended with `strain`.
+    fn commit(&self, strain: f64, variables: &mut [f64]);
+}
+
+/// Linear elastic, with Young's modulus.
+impl UniaxialMaterial for Material {
+    fn modulus(&self) -> f64 {
+        self.young_modulus()
+    }
+
+    fn response(&self, strain: f64, _variables: &[f64]) -> Result<UniaxialResponse> {
+        let tangent = self.young_modulus();
+        Ok(UniaxialResponse { stress: tangent * strain, tangent })
+    }
+
+    fn energy(&self, strain: f64, _variables: &[f64]) -> Result<InternalEnergy> {
+        let stored = 0.5 * self.young_modulus() * strain * strain;
+        Ok(InternalEnergy { stored, dissipated: 0.0 })
+    }
+
+    fn commit(&self, _strain: f64, _variables: &mut [f64]) {}
+}

@@ -1,0 +1,103 @@
+//! Inverse of a small matrix.
+
+/// Pivot, relative to the largest entry of the matrix, below which a matrix counts as singular.
+const MIN_RELATIVE_PIVOT: f64 = 1e-14;
+
+/// Inverse of a matrix by elimination with row pivoting; `None` for a singular one.
+pub(in crate::fem) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    // Scale of each row, so that rows of different units do not matter.
+    let mut inverse = [[0.0; N]; N];
+    for (i, (row, unit_row)) in matrix.iter_mut().zip(&mut inverse).enumerate() {
+        let scale = row.iter().fold(0.0_f64, |max, entry| max.max(entry.abs()));
+        if scale.is_nan() || scale <= 0.0 || scale.is_infinite() {
+            return None;
+        }
+        row.iter_mut().for_each(|entry| *entry /= scale);
+        unit_row[i] = 1.0 / scale;
+    }
+    for pivot in 0..N {
+        let row = (pivot..N)
+            .max_by(|a, b| matrix[*a][pivot].abs().total_cmp(&matrix[*b][pivot].abs()))?;
+        matrix.swap(pivot, row);
+        inverse.swap(pivot, row);
+        let value = matrix[pivot][pivot];
+        if value.is_nan() || value.abs() < MIN_RELATIVE_PIVOT {
+            return None;
+        }
+        for column in 0..N {
+            matrix[pivot][column] /= value;
+            inverse[pivot][column] /= value;
+        }
+        for other in (0..N).filter(|other| *other != pivot) {
+            let factor = matrix[other][pivot];
+            for column in 0..N {
+                matrix[other][column] -= factor * matrix[pivot][column];
+                inverse[other][column] -= factor * inverse[pivot][column];
+            }
+        }
+    }
+    Some(inverse)
+}
+
+/// Product of a matrix and a vector.
+pub(in crate::fem) fn product<const R: usize, const C: usize>(
+    matrix: &[[f64; C]; R],
+    vector: &[f64; C],
+) -> [f64; R] {
+    matrix.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum())
+}
+
+/// Adds factor · aᵀ c a to `sum`.
+pub(in crate::fem) fn add_congruent<const R: usize, const C: usize>(
+    factor: f64,
+    a: &[[f64; C]; R],
+    c: &[[f64; R]; R],
+    sum: &mut [[f64; C]; C],
+) {
+    for (k, row) in c.iter().enumerate() {
+        for (l, value) in row.iter().enumerate() {
+            for i in 0..C {
+                let left = factor * value * a[k][i];
+                for j in 0..C {
+                    sum[i][j] += left * a[l][j];
+                }
+            }
+        }
+    }
+}
+
+/// Adds factor · aᵀ x to `sum`.
+pub(in crate::fem) fn add_transposed<const R: usize, const C: usize>(
+    factor: f64,
+    a: &[[f64; C]; R],
+    x: &[f64; R],
+    sum: &mut [f64; C],
+) {
+    for (row, value) in a.iter().zip(x) {
+        for (total, entry) in sum.iter_mut().zip(row) {
+            *total += factor * entry * value;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inverses_of_matrices_of_mixed_units() {
+        let matrix = [[2.0e9, 3.0e6, 1.0e3], [1.0e3, 5.0, -2.0], [4.0e-6, 1.0e-9, 7.0e-9]];
+        let inverse = inverse(matrix).unwrap();
+        for i in 0..3 {
+            for j in 0..3 {
+                let sum: f64 = (0..3).map(|k| inverse[i][k] * matrix[k][j]).sum();
+                let scale: f64 = (0..3).map(|k| (inverse[i][k] * matrix[k][j]).abs()).sum();
+                let unit = if i == j { 1.0 } else { 0.0 };
+                assert!((sum - unit).abs() < 1e-14 * scale.max(1.0), "{i} {j} {sum}");
+            }
+        }
+        assert!(super::inverse([[1.0, 2.0], [2.0, 4.0]]).is_none());
+        assert!(super::inverse([[0.0, 0.0], [0.0, 1.0]]).is_none());
+        assert!(super::inverse([[f64::NAN, 0.0], [0.0, 1.0]]).is_none());
+    }
+}
