@@ -27,7 +27,8 @@ use crate::recipe::Recipe;
 pub(crate) struct PyJoint {
     /// Nodes of the upper and of the lower side.
     sides: [Vec<PyBaseNode>; 2],
-    element_count: usize,
+    /// Number of equal elements; `None` for elements around the nodes of the lower side.
+    element_count: Option<usize>,
     law_object: Option<Py<PyAny>>,
     /// Laws of the elements; none if the joint is bonded.
     laws: Vec<Recipe<dyn InterfaceLaw>>,
@@ -36,14 +37,32 @@ pub(crate) struct PyJoint {
 }
 
 impl PyJoint {
+    /// Joint with checked arguments.
+    fn checked(
+        sides: [&ListOf<'_, PyBaseNode>; 2],
+        element_count: Option<usize>,
+        law: Option<Bound<'_, PyAny>>,
+        gap: f64,
+    ) -> PyResult<Self> {
+        let laws = law.as_ref().map(law_recipes).transpose()?.unwrap_or_default();
+        let sides = sides.map(nodes_of);
+        let joint = Self { sides, element_count, law_object: law.map(Bound::unbind), laws, gap };
+        // The result is not needed: the call checks the arguments.
+        joint.core(None)?;
+        Ok(joint)
+    }
+
     /// The joint for a structure with this number of degrees of freedom.
     pub(crate) fn core(&self, dof_count: Option<usize>) -> PyResult<Joint> {
         let [upper, lower] =
             structure_nodes(self.sides.to_vec(), dof_count)?.try_into().unwrap_or_default();
         let laws = self.laws.iter().map(|make| make());
         let laws: Vec<_> = laws.collect::<basemat::Result<_>>().or_raise()?;
-        let joint = Joint::between(upper, lower, self.element_count)
-            .and_then(|joint| joint.with_gap(self.gap));
+        let joint = match self.element_count {
+            Some(element_count) => Joint::between(upper, lower, element_count),
+            None => Joint::around_nodes(upper, lower),
+        };
+        let joint = joint.and_then(|joint| joint.with_gap(self.gap));
         let laws = (!laws.is_empty()).then_some(laws);
         joint.with(laws, |joint, laws| Ok(joint.with_laws(laws))).or_raise()
     }
@@ -77,17 +96,21 @@ impl PyJoint {
         law: Option<Bound<'_, PyAny>>,
         gap: f64,
     ) -> PyResult<Self> {
-        let laws = law.as_ref().map(law_recipes).transpose()?.unwrap_or_default();
-        let joint = Self {
-            sides: [nodes_of(&upper), nodes_of(&lower)],
-            element_count: count.0,
-            law_object: law.map(Bound::unbind),
-            laws,
-            gap,
-        };
-        // The result is not needed: the call checks the arguments.
-        joint.core(None)?;
-        Ok(joint)
+        Self::checked([&upper, &lower], Some(count.0), law, gap)
+    }
+
+    /// Joint between the lines of nodes ``upper`` and ``lower``, lists of `BaseNode`, with a contact element around each node
+    /// of the lower side: for a lower side whose nodes are dense where pressures are large, as below the ends of a foundation on
+    /// a box of soil (`NearField`). ``law`` and ``gap`` are as in `between`, and have its defaults unless given.
+    #[staticmethod]
+    #[pyo3(signature = (upper, lower, *, law=None, gap=0.0))]
+    fn around_nodes(
+        upper: ListOf<'_, PyBaseNode>,
+        lower: ListOf<'_, PyBaseNode>,
+        law: Option<Bound<'_, PyAny>>,
+        gap: f64,
+    ) -> PyResult<Self> {
+        Self::checked([&upper, &lower], None, law, gap)
     }
 
     /// Nodes of the upper side: list of `BaseNode`.
@@ -102,9 +125,9 @@ impl PyJoint {
         self.sides[1].clone()
     }
 
-    /// Number of contact elements.
+    /// Number of equal contact elements; None for elements around the nodes of the lower side.
     #[getter]
-    fn count(&self) -> usize {
+    fn count(&self) -> Option<usize> {
         self.element_count
     }
 

@@ -77,8 +77,8 @@ mod _core {
         cases::{PyCaseFile, case_numbers, merge_cases},
         error::collect_warnings,
         ground::{
-            PyElasticGround, PyGround, PyImpedances, PyKinematicMotions, PyPlan, PySharedKernels,
-            PySpringGround, PyStrip, PyTrench, PyTrenchElements, PyTrenchGround,
+            PyElasticGround, PyGround, PyImpedances, PyKinematicMotions, PyNearField, PyPlan,
+            PySharedKernels, PySpringGround, PyStrip, PyTrench, PyTrenchElements, PyTrenchGround,
         },
         interface::{
             PyBonded, PyCohesive, PyCoulomb, PyCyclicYielding, PyEarthPressure, PyInterfaceLaw,

@@ -264,6 +264,38 @@ def test_soil_at_rest_carries_what_is_added_later(tmp_path: Path) -> None:
     assert np.array_equal(same.static_displacement, simulation.static_displacement)
 
 
+def test_a_footing_on_a_box_of_clay() -> None:
+    clay = bm.Soil.from_shear_wave_speed(150.0, 0.45, 1800.0)
+    box = bm.NearField(clay, 3.0, strength_profile=lambda depth: 40e3 + 2e3 * depth)
+    mesh = box.mesh()
+    # As in Rust: 14 × 4 elements, contact elements of the base and of both walls.
+    assert len(mesh.elements) == 14 * 4 and len(box.ground().elements) == 12 + 2 * 4
+    nodes = box.foundation_nodes(mesh)
+    assert np.array_equal(mesh.nodes[nodes][[0, -1]], [[-3.0, 0.0], [3.0, 0.0]]) and len(nodes) == 13
+    assert len(bm.NearField(clay, 3.0, size=(9.0, 4.0), foundation_elements=4).ground().elements) != 20
+    block = bm.RigidBlock(6.0, 2.0, 2000.0)
+    soil = bm.FemModel(mesh, on_soil_at_rest=True)
+    group = bm.StructureGroup([(soil, 0.0)], above=[(block, (0.0, 0.0))])
+    upper = group.contact_nodes(1, block.contact_nodes([[-3.0, 0.0], [3.0, 0.0]]))
+    joint = bm.Joint.around_nodes(upper, group.contact_nodes(0, soil.contact_nodes(nodes)), law=bm.Coulomb(0.7))
+    assert joint.count is None
+    small = bm.TrenchGround(clay, bm.Trench(-6.0, 6.0, 3.0).elements(4, 2), kernels=KERNELS)
+    simulation = bm.Simulation(0.02, group, small, bm.Bonded(), joints=[joint], solver=bm.SolverOptions(expected_steps=2))
+    weight = 6.0 * 2.0 * 2000.0 * GRAVITY
+    assert simulation.state.joints[0].normal_force == pytest.approx(weight, rel=1e-6)
+    assert simulation.state.normal_force == pytest.approx(weight, rel=1e-6)
+    again = pickle.loads(pickle.dumps(bm.NearField(clay, 3.0).mesh()))
+    assert np.array_equal(again.nodes, bm.NearField(clay, 3.0).mesh().nodes)
+
+    def broken(depth: float) -> float:
+        raise ZeroDivisionError(f"at {depth} m")
+
+    with pytest.raises(ZeroDivisionError, match="at "):
+        bm.NearField(clay, 3.0, strength_profile=broken).mesh()
+    with pytest.raises(bm.InputError, match="even"):
+        bm.NearField(clay, 3.0, foundation_elements=5)
+
+
 def test_soil_that_cannot_be_at_rest_is_refused() -> None:
     weak = bm.Iwan.hyperbolic(60e6, 5e3, 0.1, 0.3, 1900.0)
     with pytest.raises(bm.InputError, match="element 0"):

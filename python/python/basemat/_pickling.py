@@ -35,6 +35,7 @@ _RETURNING = (
     (_core.StressAtRest, "with_soil_below"),
     (_core.SoilProfile, "stress_at_rest"),
     (_core.Mesh, "with_stress_at_rest"),
+    (_core.NearField, "mesh"),
     (_core.GmshMesh, "mesh"),
     (_core.GmshSpaceMesh, "mesh"),
 )

@@ -1,6 +1,7 @@
 //! Python classes of grounds, their outlines and their impedances.
 
 mod elastic;
+mod near_field;
 mod plan;
 mod spring;
 mod strip;
@@ -9,6 +10,7 @@ mod trench;
 mod trench_ground;
 
 pub(crate) use elastic::{PyElasticGround, PySharedKernels};
+pub(crate) use near_field::PyNearField;
 pub(crate) use plan::PyPlan;
 pub(crate) use spring::PySpringGround;
 pub(crate) use strip::{PyStrip, new_ground};

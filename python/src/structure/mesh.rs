@@ -35,7 +35,7 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
 /// of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",
 /// "rotation_y" and "rotation_z", rotations follow the right-hand rule.
 #[pyclass(name = "Mesh", module = "basemat", dict)]
-pub(crate) struct PyMesh(pub(super) Mesh);
+pub(crate) struct PyMesh(pub(crate) Mesh);
 
 /// Constructor of a link along the line between two nodes.
 type AxialConstructor<E> = fn([usize; 2], f64) -> basemat::Result<E>;
