@@ -97,7 +97,7 @@ fn main() -> Result<()> {
     let capacity = 1e-6 * weight * HALF_WIDTH * (1.0 - 1.0 / SAFETY_FACTOR);
     println!("moment capacity {capacity:.2} MN·m/m\n");
     println!(
-        "soil      moment, MN·m/m   rotation, mrad   left, mrad   settled, mm   deck, m/s²   at 0.5 s, m/s²"
+        "soil      moment, MN·m/m   rotation, mrad       at end   settled, mm   deck, m/s²   at 0.5 s, m/s²"
     );
     let kernels = SharedKernels::default();
     let mut curves = Vec::new();
