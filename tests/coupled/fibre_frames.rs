@@ -21,13 +21,13 @@ const ROOF_MASS: f64 = 30.0e3;
 
 /// What the columns are made of.
 #[derive(Clone, Copy)]
-enum Columns<'a> {
+enum PortalColumns<'a> {
     Linear { young_modulus: f64, area: f64, second_moment: f64 },
     Fibers { section: &'a FiberSection, formulation: BeamFormulation },
 }
 
 /// A portal on footings 2 m wide whose columns have elements of these lengths; returns the right end of its beam, too.
-fn portal(columns: Columns<'_>, lengths: &[f64]) -> Result<(FemModel, usize)> {
+fn portal(columns: PortalColumns<'_>, lengths: &[f64]) -> Result<(FemModel, usize)> {
     let mut mesh = Mesh::new();
     let stiff = |ends| Beam::new(ends, 200.0e9, 0.5, 0.1, 0.0);
     let mut lines = Vec::new();
@@ -45,7 +45,7 @@ fn portal(columns: Columns<'_>, lengths: &[f64]) -> Result<(FemModel, usize)> {
             height += length;
             let above = mesh.add_node(x, height)?;
             match columns {
-                Columns::Linear { young_modulus, area, second_moment } => {
+                PortalColumns::Linear { young_modulus, area, second_moment } => {
                     let density = 500.0 / area;
                     mesh.add(Beam::new(
                         [below, above],
@@ -55,7 +55,7 @@ fn portal(columns: Columns<'_>, lengths: &[f64]) -> Result<(FemModel, usize)> {
                         density,
                     )?)?;
                 }
-                Columns::Fibers { section, formulation } => {
+                PortalColumns::Fibers { section, formulation } => {
                     let beam =
                         FiberBeam::new([below, above], section, BeamQuadrature::Lobatto(5), 500.0)?;
                     mesh.add(beam.with_formulation(formulation))?;
@@ -78,7 +78,7 @@ fn steel_section(hardening_ratio: f64) -> Result<FiberSection> {
 }
 
 /// Displacements of the roof in an earthquake on ground without tension, with the energy of the run.
-fn shaken(columns: Columns<'_>, lengths: &[f64], factor: f64) -> Result<Shaken> {
+fn shaken(columns: PortalColumns<'_>, lengths: &[f64], factor: f64) -> Result<Shaken> {
     let (model, top) = portal(columns, lengths)?;
     let roof = Probe::displacement("roof", model.row(top, Direction::X)?);
     let mut simulation = Simulation::builder(0.005)
@@ -119,10 +119,10 @@ fn a_frame_of_elastic_fibres_is_the_linear_frame() {
         .with_rectangle([[-0.15, -0.05], [0.15, 0.05]], [10, 1], elastic)
         .unwrap();
     let second_moment: f64 = (0..10).map(|i| 0.003 * (-0.135 + 0.03 * f64::from(i)).powi(2)).sum();
-    let linear = Columns::Linear { young_modulus: 210.0e9, area: 0.03, second_moment };
+    let linear = PortalColumns::Linear { young_modulus: 210.0e9, area: 0.03, second_moment };
     let expected = shaken(linear, &[2.0, 2.0], 1.0).unwrap();
     for formulation in [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased] {
-        let fibers = Columns::Fibers { section: &section, formulation };
+        let fibers = PortalColumns::Fibers { section: &section, formulation };
         let computed = shaken(fibers, &[2.0, 2.0], 1.0).unwrap();
         let error = difference(&expected.displacements, &computed.displacements);
         println!("{formulation:?}: {error:.1e}; energy open by {:.1e}", computed.energy_error);
@@ -136,9 +136,12 @@ fn a_frame_of_elastic_fibres_is_the_linear_frame() {
 fn frames_that_yield_and_lift_off_close_the_energy() {
     let section = steel_section(0.01).unwrap();
     let graded = [0.1, 0.2, 0.4, 0.6, 1.4, 0.6, 0.4, 0.2, 0.1];
-    let by_forces = Columns::Fibers { section: &section, formulation: BeamFormulation::ForceBased };
-    let by_displacements =
-        Columns::Fibers { section: &section, formulation: BeamFormulation::DisplacementBased };
+    let by_forces =
+        PortalColumns::Fibers { section: &section, formulation: BeamFormulation::ForceBased };
+    let by_displacements = PortalColumns::Fibers {
+        section: &section,
+        formulation: BeamFormulation::DisplacementBased,
+    };
     let expected = shaken(by_displacements, &graded, 2.0).unwrap();
     let computed = shaken(by_forces, &[COLUMN_HEIGHT], 2.0).unwrap();
     for run in [&expected, &computed] {
@@ -162,7 +165,7 @@ fn frames_of_reinforced_concrete_close_the_energy() {
         .and_then(|section| section.with_bars([[0.16, -0.1], [0.16, 0.1]], 3, 4e-4, bars))
         .unwrap();
     for formulation in [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased] {
-        let columns = Columns::Fibers { section: &section, formulation };
+        let columns = PortalColumns::Fibers { section: &section, formulation };
         let run = shaken(columns, &[0.5, 1.5, 1.5, 0.5], 1.0).unwrap();
         println!("{formulation:?}: {:.1e}, {:.2}", run.energy_error, run.hysteresis);
         assert!(run.energy_error < 1e-9, "{formulation:?}: {:e}", run.energy_error);
@@ -174,7 +177,8 @@ fn frames_of_reinforced_concrete_close_the_energy() {
 #[test]
 fn a_portal_collapses_at_four_plastic_moments_over_its_height() {
     let section = steel_section(1e-6).unwrap();
-    let columns = Columns::Fibers { section: &section, formulation: BeamFormulation::ForceBased };
+    let columns =
+        PortalColumns::Fibers { section: &section, formulation: BeamFormulation::ForceBased };
     let (model, top) = portal(columns, &[COLUMN_HEIGHT]).unwrap();
     let row = model.row(top, Direction::X).unwrap();
     let plastic_moment = 355.0e6 * 0.1 * 0.15 * 0.15;

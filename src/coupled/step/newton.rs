@@ -340,11 +340,11 @@ impl NewtonIteration {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let Self { search, guess, linearised_force, force_displacement, .. } = self;
-        search
-            .search(guess, linearised_force, &mut increment.nonlinear_force, |guess, force| {
-                evaluate_force(linear, data, guess, force_displacement, force)
-            })
-            .map(drop)
+        let nonlinear_force = &mut increment.nonlinear_force;
+        search.search(guess, linearised_force, nonlinear_force, |guess, force| {
+            evaluate_force(linear, data, guess, force_displacement, force)
+        })?;
+        Ok(())
     }
 
     /// Error for an iteration that did not converge; `residual` is its relative out-of-balance force.

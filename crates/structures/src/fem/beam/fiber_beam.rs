@@ -154,7 +154,8 @@ struct DeformedBeam<'a> {
 fn basic_rows(line: &ElementLine) -> BasicRows {
     let [cosine, sine, _] = line.tangent();
     // Rotation of the chord due to displacements to its left.
-    let [x, y] = [sine / line.length, cosine / line.length];
+    let x = sine / line.length;
+    let y = cosine / line.length;
     [
         [-cosine, -sine, 0.0, cosine, sine, 0.0],
         [-x, y, 1.0, x, -y, 0.0],

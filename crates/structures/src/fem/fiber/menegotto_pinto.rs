@@ -204,17 +204,18 @@ impl MenegottoPinto {
         history.reversal = history.last;
         history.min_strain = history.min_strain.min(history.last[0]);
         history.max_strain = history.max_strain.max(history.last[0]);
-        let [a1, a2, a3, a4] = self.isotropic_hardening;
-        let [factor, strain_ratio] = if sign > 0.0 { [a3, a4] } else { [a1, a2] };
+        // a_1 and a_2 in compression, a_3 and a_4 in tension.
+        let first = if sign > 0.0 { 2 } else { 0 };
+        let factor = self.isotropic_hardening[first];
+        let strain_ratio = self.isotropic_hardening[first + 1];
         let range = history.max_strain - history.min_strain;
         let relative_range = range / (2.0 * strain_ratio * self.yield_strain());
         let shift = 1.0 + factor * relative_range.powf(SHIFT_EXPONENT);
         let hardening_modulus = self.hardening_ratio * self.modulus;
         let yield_stress = sign * shift * self.yield_stress;
         let yield_strain = sign * shift * self.yield_strain();
-        let [reversal_strain, reversal_stress] = history.reversal;
-        let strain = (yield_stress - hardening_modulus * yield_strain - reversal_stress
-            + self.modulus * reversal_strain)
+        let strain = (yield_stress - hardening_modulus * yield_strain - history.reversal[1]
+            + self.modulus * history.reversal[0])
             / (self.modulus - hardening_modulus);
         let stress = yield_stress + hardening_modulus * (strain - yield_strain);
         history.intersection = [strain, stress];

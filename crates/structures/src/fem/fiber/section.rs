@@ -205,8 +205,10 @@ impl FiberSection {
         positive("web thickness of an I-section", web_thickness)?;
         positive("flange thickness of an I-section", flange_thickness)?;
         let web_height = positive("web height of an I-section", depth - 2.0 * flange_thickness)?;
-        let [top, edge] = [0.5 * depth, 0.5 * web_height];
-        let [flange, web] = [0.5 * flange_width, 0.5 * web_thickness];
+        let top = 0.5 * depth;
+        let edge = 0.5 * web_height;
+        let flange = 0.5 * flange_width;
+        let web = 0.5 * web_thickness;
         self.with_rectangle([[-top, -flange], [-edge, flange]], [counts[0], 1], material.clone())?
             .with_rectangle([[-edge, -web], [edge, web]], [counts[1], 1], material.clone())?
             .with_rectangle([[edge, -flange], [top, flange]], [counts[0], 1], material)
