@@ -387,6 +387,45 @@ class ElasticGround(Ground):
         """
 
 @final
+class NearField:
+    """Box of soil around a foundation at the surface, as finite elements that may yield.
+
+    The box begins at rest (`Mesh.with_stress_at_rest`) and fills a trench, to which it is bonded: the law of the trench is
+    `Bonded`. The foundation is added to `mesh` by common nodes at the surface, or stands on it by a joint
+    (`Joint.around_nodes`); `ground` is the soil around the box, which stays linear. Elements must be shorter than an
+    eighth of the shortest wave of interest, and have no viscous damping, whatever that of the profile.
+
+    ``soil``: `Soil` or `SoilProfile`. ``half_width``: half the width of the foundation, whose middle is x = 0, m.
+    ``size``: half width and depth of the box (m), 2 and 1 times the half width of the foundation unless given.
+    ``foundation_elements``: number of elements under the foundation, an even number; 6 unless given.
+    ``pressure_at_rest``: gravity (m/s²) and K₀, the ratio of horizontal to vertical pressure at rest; standard gravity and
+    ν/(1 − ν) of each soil unless given. ``strength_profile``: a function of the depth (m) that returns the strength s_u of
+    clay without drainage (Pa), which is `Iwan.hyperbolic` with the constants of the profile, and reaches s_u at a strain of
+    200 s_u/G; the soil is elastic unless given.
+    """
+
+    def __new__(
+        cls,
+        soil: Soil | SoilProfile,
+        half_width: float,
+        *,
+        size: Sequence[float] | None = None,
+        foundation_elements: int | None = None,
+        pressure_at_rest: Sequence[float] | None = None,
+        strength_profile: Callable[[float], float] | None = None,
+    ) -> Self: ...
+    def mesh(self) -> Mesh:
+        """`Mesh` of the box at rest, whose surface has nodes at both ends of the foundation; for a
+        ``FemModel(mesh, on_soil_at_rest=True)``.
+        """
+    def foundation_nodes(self, mesh: Mesh) -> list[int]:
+        """Numbers of the nodes of the surface under the foundation, from left to right: list. ``mesh``: a `Mesh` that begins with
+        that of `mesh`. A welded foundation has these nodes in common with the soil; a joint takes them as its lower side.
+        """
+    def ground(self, *, kernels: SharedKernels | None = None) -> TrenchGround:
+        """`TrenchGround` of the soil around the box. ``kernels``: `SharedKernels` of several grounds; none unless given."""
+
+@final
 class Plan:
     """Square contact cells under a mat, for an `ElasticGround` in plan.
 
@@ -861,6 +900,18 @@ class Joint:
         each; `Bonded` unless given. ``gap`` (m): gap of the unloaded structure, as of an expansion joint; 0 by default.
         It needs a law that opens.
         """
+    @staticmethod
+    def around_nodes(
+        upper: BaseNode | Sequence[BaseNode],
+        lower: BaseNode | Sequence[BaseNode],
+        *,
+        law: _Interface | Sequence[_Interface] | None = None,
+        gap: float = 0.0,
+    ) -> Joint:
+        """Joint between the lines of nodes ``upper`` and ``lower``, lists of `BaseNode`, with a contact element around each node
+        of the lower side: for a lower side whose nodes are dense where pressures are large, as below the ends of a foundation on
+        a box of soil (`NearField`). ``law`` and ``gap`` are as in `between`, and have its defaults unless given.
+        """
     @property
     def upper(self) -> list[BaseNode]:
         """Nodes of the upper side: list of `BaseNode`."""
@@ -868,8 +919,8 @@ class Joint:
     def lower(self) -> list[BaseNode]:
         """Nodes of the lower side: list of `BaseNode`."""
     @property
-    def count(self) -> int:
-        """Number of contact elements."""
+    def count(self) -> int | None:
+        """Number of equal contact elements; None for elements around the nodes of the lower side."""
     @property
     def law(self) -> Any:
         """The argument ``law``; None for a bonded joint."""
