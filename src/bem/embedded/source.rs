@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::pairs::{TRENCH_KINDS, TrenchPairs, trench_classes};
-use super::sampling::QuadratureDomain;
 use super::soil::TrenchSoil;
 use crate::bem::WeightsSource;
 use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, self_pair_classes};
@@ -54,10 +53,9 @@ impl TrenchSource {
         let max_short_travel = MAX_SHORT_STEP_RATIO * elements.trench().half_width();
         let is_short_step = min_speed * time_step <= max_short_travel;
         let degree = if is_short_step { SHORT_STEP_DEGREE } else { ELEMENT_DEGREE };
-        let stages = self.stages(time_step);
-        let domain = QuadratureDomain { stages, time_step };
-        let pairs = TrenchPairs::new(self.soil.clone(), degree).interpolated_in(domain);
+        let pairs = TrenchPairs::new(self.soil.clone(), degree);
         let profile = self.soil.profile().clone();
+        let stages = self.stages(time_step);
         let self_pairs = self_pair_classes(&classes);
         let tolerance = WEIGHT_TOLERANCE;
         let quadrature = Quadrature::over(profile, pairs, self_pairs, stages, time_step, tolerance);

@@ -109,13 +109,6 @@ impl Stages {
         })
     }
 
-    /// The point z with the eigenvalue `lambda`: Q/P.
-    #[cfg(feature = "embedded")]
-    pub(crate) fn circle_point(self, lambda: Complex) -> Complex {
-        let [p, q] = self.stability_polynomials();
-        polynomial(q, lambda) / polynomial(p, lambda)
-    }
-
     /// Eigenvalues of two stages: λ = 2 + z ± √(z² + 10z − 2).
     ///
     /// The smaller root is computed from the product 6(1 − z) of both, without cancellation.
