@@ -1,15 +1,14 @@
-//! GOAL: frames of fibres on ground that they may leave: linear limit, collapse loads, energy.
-//! SCENE: a portal on two footings on springs, shaken; a portal on a fixed base, pushed.
-//! REFERENCE: the same portal of linear beams; plastic hinges in closed form; balance of energy.
+//! GOAL: frames of fibres on ground that they may leave: linear limit, both formulations, energy.
+//! SCENE: a portal on two footings on springs, bonded or with friction, shaken.
+//! REFERENCE: the same portal of linear beams; the other formulation; balance of energy.
 
-use basemat::analyses::{PushControl, push_over};
 use basemat::bem::SpringGround;
-use basemat::coupled::{Load, Probe};
+use basemat::coupled::Probe;
 use basemat::fem::{
     Beam, BeamFormulation, BeamQuadrature, BilinearSteel, Concrete, Direction, FiberBeam,
     FiberSection, LumpedMass, Material, MenegottoPinto, Mesh,
 };
-use basemat::interface::{Bonded, Coulomb};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::el_centro_1940;
 use basemat::structure::{FemModel, RayleighDamping};
 use basemat::{Result, Simulation};
@@ -18,6 +17,9 @@ const COLUMN_HEIGHT: f64 = 4.0;
 const BAY_WIDTH: f64 = 6.0;
 /// Mass at each end of the beam, kg per metre of thickness.
 const ROOF_MASS: f64 = 30.0e3;
+
+const ALL_FORMULATIONS: [BeamFormulation; 2] =
+    [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased];
 
 /// What the columns are made of.
 #[derive(Clone, Copy)]
@@ -29,7 +31,7 @@ enum PortalColumns<'a> {
 /// A portal on footings 2 m wide whose columns have elements of these lengths; returns the right end of its beam, too.
 fn portal(columns: PortalColumns<'_>, lengths: &[f64]) -> Result<(FemModel, usize)> {
     let mut mesh = Mesh::new();
-    let stiff = |ends| Beam::new(ends, 200.0e9, 0.5, 0.1, 0.0);
+    let stiff = |ends| Beam::new(ends, 30.0e9, 0.5, 0.01, 0.0);
     let mut lines = Vec::new();
     let mut tops = Vec::new();
     for x in [0.0, BAY_WIDTH] {
@@ -77,14 +79,19 @@ fn steel_section(hardening_ratio: f64) -> Result<FiberSection> {
     FiberSection::new().with_rectangle([[-0.15, -0.05], [0.15, 0.05]], [30, 1], steel)
 }
 
-/// Displacements of the roof in an earthquake on ground without tension, with the energy of the run.
-fn shaken(columns: PortalColumns<'_>, lengths: &[f64], factor: f64) -> Result<Shaken> {
+/// Displacements of the roof in an earthquake on springs, with the energy of the run.
+fn shaken(
+    columns: PortalColumns<'_>,
+    lengths: &[f64],
+    law: impl InterfaceLaw + 'static,
+    factor: f64,
+) -> Result<Shaken> {
     let (model, top) = portal(columns, lengths)?;
     let roof = Probe::displacement("roof", model.row(top, Direction::X)?);
     let mut simulation = Simulation::builder(0.005)
         .ground(SpringGround::under(&model, 4, 4.0e8, 4.0e8)?)
         .structure(model)
-        .interface(Coulomb::new(0.7)?)
+        .interface(law)
         .motion(el_centro_1940().scaled(factor)?)
         .probe(roof)
         .build()?;
@@ -120,41 +127,50 @@ fn a_frame_of_elastic_fibres_is_the_linear_frame() {
         .unwrap();
     let second_moment: f64 = (0..10).map(|i| 0.003 * (-0.135 + 0.03 * f64::from(i)).powi(2)).sum();
     let linear = PortalColumns::Linear { young_modulus: 210.0e9, area: 0.03, second_moment };
-    let expected = shaken(linear, &[2.0, 2.0], 1.0).unwrap();
-    for formulation in [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased] {
+    let expected = shaken(linear, &[2.0, 2.0], Bonded, 1.0).unwrap();
+    for formulation in ALL_FORMULATIONS {
         let fibers = PortalColumns::Fibers { section: &section, formulation };
-        let computed = shaken(fibers, &[2.0, 2.0], 1.0).unwrap();
+        let computed = shaken(fibers, &[2.0, 2.0], Bonded, 1.0).unwrap();
         let error = difference(&expected.displacements, &computed.displacements);
         println!("{formulation:?}: {error:.1e}; energy open by {:.1e}", computed.energy_error);
-        assert!(error < 1e-8, "{formulation:?}: {error:e}");
+        assert!(error < 1e-9, "{formulation:?}: {error:e}");
         assert!(computed.energy_error < 1e-9, "{formulation:?}: {:e}", computed.energy_error);
     }
 }
 
-/// Both formulations yield alike on uplifting footings, and the energy closes.
+/// A column of one element by forces yields as one of nine elements by displacements.
 #[test]
-fn frames_that_yield_and_lift_off_close_the_energy() {
+fn both_formulations_yield_alike() {
     let section = steel_section(0.01).unwrap();
     let graded = [0.1, 0.2, 0.4, 0.6, 1.4, 0.6, 0.4, 0.2, 0.1];
-    let by_forces =
-        PortalColumns::Fibers { section: &section, formulation: BeamFormulation::ForceBased };
-    let by_displacements = PortalColumns::Fibers {
-        section: &section,
-        formulation: BeamFormulation::DisplacementBased,
-    };
-    let expected = shaken(by_displacements, &graded, 2.0).unwrap();
-    let computed = shaken(by_forces, &[COLUMN_HEIGHT], 2.0).unwrap();
+    let [by_displacements, by_forces] = ALL_FORMULATIONS
+        .map(|formulation| PortalColumns::Fibers { section: &section, formulation });
+    let expected = shaken(by_displacements, &graded, Bonded, 2.0).unwrap();
+    let computed = shaken(by_forces, &[COLUMN_HEIGHT], Bonded, 2.0).unwrap();
     for run in [&expected, &computed] {
         println!("energy open by {:.1e}, hysteresis {:.2}", run.energy_error, run.hysteresis);
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
-        assert!(run.hysteresis > 0.1, "{}", run.hysteresis);
+        assert!(run.hysteresis > 0.5, "{}", run.hysteresis);
     }
     let error = difference(&expected.displacements, &computed.displacements);
     println!("formulations differ by {error:.1e}");
     assert!(error < 0.1, "{error}");
 }
 
-/// Concrete columns with bars crack and yield; the energy closes.
+/// Columns of steel that yield on footings that lift off and slide.
+#[test]
+fn frames_that_yield_and_lift_off_close_the_energy() {
+    let section = steel_section(0.01).unwrap();
+    for formulation in ALL_FORMULATIONS {
+        let columns = PortalColumns::Fibers { section: &section, formulation };
+        let run = shaken(columns, &[0.2, 1.8, 1.8, 0.2], Coulomb::new(0.7).unwrap(), 3.0).unwrap();
+        println!("{formulation:?}: {:.1e}, {:.2}", run.energy_error, run.hysteresis);
+        assert!(run.energy_error < 1e-9, "{formulation:?}: {:e}", run.energy_error);
+        assert!(run.hysteresis > 0.02, "{formulation:?}: {}", run.hysteresis);
+    }
+}
+
+/// Concrete columns with bars crack and yield.
 #[test]
 fn frames_of_reinforced_concrete_close_the_energy() {
     let concrete = Concrete::new(30.0e6, 0.002, 12.0e6, 0.01).unwrap();
@@ -164,38 +180,12 @@ fn frames_of_reinforced_concrete_close_the_energy() {
         .and_then(|section| section.with_bars([[-0.16, -0.1], [-0.16, 0.1]], 3, 4e-4, bars))
         .and_then(|section| section.with_bars([[0.16, -0.1], [0.16, 0.1]], 3, 4e-4, bars))
         .unwrap();
-    for formulation in [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased] {
+    for formulation in ALL_FORMULATIONS {
         let columns = PortalColumns::Fibers { section: &section, formulation };
-        let run = shaken(columns, &[0.5, 1.5, 1.5, 0.5], 1.0).unwrap();
+        let law = Coulomb::new(0.7).unwrap();
+        let run = shaken(columns, &[0.5, 1.5, 1.5, 0.5], law, 1.0).unwrap();
         println!("{formulation:?}: {:.1e}, {:.2}", run.energy_error, run.hysteresis);
         assert!(run.energy_error < 1e-9, "{formulation:?}: {:e}", run.energy_error);
         assert!(run.hysteresis > 0.02, "{formulation:?}: {}", run.hysteresis);
     }
-}
-
-/// A portal with fixed feet under a stiff beam collapses by hinges at both ends of its columns: H = 4 M_p/h.
-#[test]
-fn a_portal_collapses_at_four_plastic_moments_over_its_height() {
-    let section = steel_section(1e-6).unwrap();
-    let columns =
-        PortalColumns::Fibers { section: &section, formulation: BeamFormulation::ForceBased };
-    let (model, top) = portal(columns, &[COLUMN_HEIGHT]).unwrap();
-    let row = model.row(top, Direction::X).unwrap();
-    let plastic_moment = 355.0e6 * 0.1 * 0.15 * 0.15;
-    let collapse = 4.0 * plastic_moment / COLUMN_HEIGHT;
-    let control =
-        PushControl::Displacements { targets: vec![0.02, 0.1, 0.3], first_force: 0.1 * collapse };
-    let curve = push_over(&row, &control, |force| {
-        Simulation::builder(0.01)
-            .ground(SpringGround::under(&model, 4, 1.0e9, 1.0e9)?)
-            .structure(model.clone())
-            .interface(Bonded)
-            .on_fixed_base()
-            .load(Load::constant(row.clone(), force))
-            .build()
-    })
-    .unwrap();
-    let last = curve.points.last().unwrap();
-    println!("{:?} {:.6}", curve.limit, last.force / collapse);
-    assert!((last.force / collapse - 1.0).abs() < 3e-3, "{}", last.force / collapse);
 }

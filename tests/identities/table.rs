@@ -9,7 +9,8 @@ use super::parts::{BodyPart, CoordinatePart, GroundPart, LawPart, MotionPart, Sc
 use super::records::FORMAT_NAMES;
 
 /// Parts without a row, and the reason.
-const WITHOUT_ROWS: [(&str, &str); 6] = [
+const WITHOUT_ROWS: [(&str, &str); 7] = [
+    ("FiberBeam", "beside linear beams in coupled/fibre_frames.rs"),
     (
         "FullPlaneGround",
         "the paper's scheme, which grows by itself: full_plane.rs, and tests/full_plane",

@@ -133,7 +133,7 @@ fn older_formats_are_refused_by_name() {
     form.as_object_mut().unwrap().remove("sum");
     let older: Checkpoint = serde_json::from_value(form.clone()).unwrap();
     let error = simulation.resume(&older).unwrap_err();
-    assert_eq!(error, CheckpointError::Format { found: 7, needed: 13 }.into());
+    assert_eq!(error, CheckpointError::Format { found: 7, needed: 14 }.into());
     // A checkpoint of this format needs a sum.
     form["format"] = Value::from(14);
     let without_sum: Checkpoint = serde_json::from_value(form).unwrap();

@@ -174,7 +174,7 @@ fn block_of_clay(steps: usize) -> Result<Simulation> {
     let duration = time_step * steps as f64;
     let motion = Record::from_fn(time_step, duration, |time| 8.0 * (25.0 * time).sin())?;
     Simulation::builder(time_step)
-        .ground(SpringGround::under(&model, 10, 4.0e8, 4.0e8)?)
+        .ground(SpringGround::under(&model, 40, 4.0e8, 4.0e8)?)
         .structure(model)
         .interface(Coulomb::new(0.5)?)
         .motion(motion)

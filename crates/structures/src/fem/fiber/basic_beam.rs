@@ -25,9 +25,9 @@ use crate::fem::internal_energy::InternalEnergy;
 const MAX_ELEMENT_ITERATIONS: usize = 40;
 /// Energy of the last correction at which the iterations end, relative to that of the first or of the whole deformation.
 const ENERGY_TOLERANCE: f64 = 1e-24;
-/// Largest number of parts into which a change of the deformations is divided: powers of this factor.
+/// Factor of the number of parts of a change of the deformations after a failure.
 const PART_FACTOR: usize = 4;
-/// Largest number of parts.
+/// Largest number of parts of a change of the deformations.
 const MAX_PARTS: usize = 256;
 
 /// How section deformations follow from those of the element.
