@@ -219,7 +219,7 @@ fn clay_limits_the_moment_of_a_block_in_an_earthquake() -> Result<()> {
 /// GOAL: boxes that cannot be made are refused, with quantity, value and need.
 #[test]
 fn boxes_that_cannot_be_made_are_refused() -> Result<()> {
-    let text = |result: Result<NearField>| result.err().expect("an error").to_string();
+    let text = |result: Result<NearField>| result.expect_err("an error").to_string();
     for half_width in [0.0, f64::NAN, f64::INFINITY] {
         assert!(text(NearField::new(soil(), half_width)).contains("half width"));
     }
@@ -230,9 +230,9 @@ fn boxes_that_cannot_be_made_are_refused() -> Result<()> {
     }
     assert!(text(near_field().with_pressure_at_rest(9.81, -0.1)).contains("pressure at rest"));
     let weak = near_field().with_strength_profile(|_| 1.0e3).mesh();
-    assert!(weak.err().expect("an error").to_string().contains("depth of"));
+    assert!(weak.expect_err("an error").to_string().contains("depth of"));
     let negative = near_field().with_strength_profile(|depth| 1.0e3 - 1.0e3 * depth).mesh();
-    assert!(negative.err().expect("an error").to_string().contains("strength of the soil"));
+    assert!(negative.expect_err("an error").to_string().contains("strength of the soil"));
     let huge = near_field().with_foundation_elements(2_000_000_000)?;
     assert!(huge.mesh().is_err() && huge.ground().is_err());
     let wide = near_field().with_size(1e300, 1.0)?;
@@ -240,11 +240,11 @@ fn boxes_that_cannot_be_made_are_refused() -> Result<()> {
     let other = Mesh::quad8_block(&[-1.0, 1.0], &[-1.0, 0.0], |_, _| {
         Material::new(1.0e6, 0.3, 2000.0).unwrap()
     })?;
-    let nodes = near_field().foundation_nodes(&other).err().expect("an error").to_string();
+    let nodes = near_field().foundation_nodes(&other).expect_err("an error").to_string();
     assert!(nodes.contains("list of nodes"), "{nodes}");
     let layer = basemat::soil::SoilProfile::on_rigid_bedrock().with_layer(soil(), 4.0)?;
     let deep = NearField::new(layer, HALF_WIDTH)?;
-    let depth = deep.mesh().err().expect("an error").to_string();
+    let depth = deep.mesh().expect_err("an error").to_string();
     assert!(depth.contains("depth of the box"), "{depth}");
     assert!(deep.ground().is_err());
     Ok(())

@@ -37,7 +37,7 @@ impl BoxLines {
         let count = self.element_count / 2;
         let first = self.end_element();
         let lengths = |ratio: f64| -> Vec<f64> {
-            let length = |k| (first * ratio.powi(k as i32)).min(self.longest_element());
+            let length = |k| (first * ratio.powf(k as f64)).min(self.longest_element());
             (0..count).map(length).collect()
         };
         // The lengths grow by a ratio with which they add up to the half width; their sum ascends with it.

@@ -48,7 +48,7 @@ struct Link {
 /// Links between near elements.
 struct Links {
     /// Links of all elements, one element after the other.
-    links: Vec<Link>,
+    pairs: Vec<Link>,
     /// Index of the first link of each element, and the number of links.
     starts: Vec<usize>,
     /// Distinct blocks; links of equal offset use the same one.
@@ -113,7 +113,7 @@ impl NearFieldBlocks {
                 || rows.any(|(row, rho)| row.iter().any(|g| rho * g.abs() > NEAR_FORCE_RATIO))
         };
         let near = Links::new(cells, is_near, block, &layer)?;
-        if near.links.len() as f64 > MAX_NEAR_FRACTION * (count * count) as f64 {
+        if near.pairs.len() as f64 > MAX_NEAR_FRACTION * (count * count) as f64 {
             return None;
         }
         let far = far_field(cells, is_near, block)?;
@@ -146,7 +146,7 @@ impl NearFieldBlocks {
     pub(super) fn prefers_factors(&self) -> bool {
         let count = self.near.starts.len() - 1;
         count <= MAX_FACTORED_ELEMENTS
-            && self.near.links.len() as f64 > FACTORED_NEAR_FRACTION * (count * count) as f64
+            && self.near.pairs.len() as f64 > FACTORED_NEAR_FRACTION * (count * count) as f64
     }
 
     /// Sets the displacements and the modal amplitudes to those due to `forces`, N.
@@ -268,7 +268,7 @@ impl Links {
         layer: impl Fn(usize) -> f64,
     ) -> Option<Self> {
         let count = cells.len();
-        let mut near = Self { links: vec![], starts: vec![0], blocks: vec![] };
+        let mut near = Self { pairs: vec![], starts: vec![0], blocks: vec![] };
         // Index of the block for each offset; at offset zero also for each compliance of an element's layer.
         let mut block_indices = HashMap::new();
         for source in 0..count {
@@ -289,9 +289,9 @@ impl Links {
                     let columns = [0, 1, 2].map(|c| [block[0][c], block[1][c], block[2][c], 0.0]);
                     near.blocks.push(columns);
                 }
-                near.links.push(Link { element: u32::try_from(receiver).ok()?, block_index });
+                near.pairs.push(Link { element: u32::try_from(receiver).ok()?, block_index });
             }
-            near.starts.push(near.links.len());
+            near.starts.push(near.pairs.len());
         }
         Some(near)
     }
@@ -299,7 +299,7 @@ impl Links {
     /// Links from the element `e` to the elements near it, itself included.
     #[inline(always)]
     fn of(&self, e: usize) -> &[Link] {
-        &self.links[self.starts[e]..self.starts[e + 1]]
+        &self.pairs[self.starts[e]..self.starts[e + 1]]
     }
 
     /// Whether the element `other` is near the element `e`.

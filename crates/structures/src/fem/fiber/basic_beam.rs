@@ -116,12 +116,18 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         let mut next = || values.next().unwrap_or(0.0);
         let mut deformations = [[0.0; N]; MAX_SECTIONS];
         for section in deformations.iter_mut().take(self.points.len()) {
-            section.iter_mut().for_each(|value| *value = next());
+            for value in section.iter_mut() {
+                *value = next();
+            }
         }
         let mut forces = [0.0; B];
-        forces.iter_mut().for_each(|value| *value = next());
+        for value in &mut forces {
+            *value = next();
+        }
         let mut basic_deformations = [0.0; B];
-        basic_deformations.iter_mut().for_each(|value| *value = next());
+        for value in &mut basic_deformations {
+            *value = next();
+        }
         LastState { deformations, forces, basic_deformations }
     }
 

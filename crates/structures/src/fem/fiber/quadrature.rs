@@ -80,12 +80,12 @@ mod tests {
                 assert_eq!(points.len(), count);
                 for power in 0..=degree {
                     let sum: f64 =
-                        points.iter().map(|p| p.weight * p.position.powi(power as i32)).sum();
+                        points.iter().map(|p| p.weight * p.position.powf(power as f64)).sum();
                     assert!((sum - 1.0 / (power as f64 + 1.0)).abs() < 1e-14, "{rule:?} {power}");
                 }
                 let power = degree + 1;
                 let sum: f64 =
-                    points.iter().map(|p| p.weight * p.position.powi(power as i32)).sum();
+                    points.iter().map(|p| p.weight * p.position.powf(power as f64)).sum();
                 assert!((sum - 1.0 / (power as f64 + 1.0)).abs() > 1e-6, "{rule:?} {power}");
             }
         }

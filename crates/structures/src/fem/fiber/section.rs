@@ -78,14 +78,14 @@ impl FiberSection {
         area: f64,
         material: impl UniaxialMaterial,
     ) -> Result<Self> {
-        self.with_fibers(&[(position, area)], Arc::new(material))
+        self.with_fibers(&[(position, area)], &shared(material))
     }
 
     /// Adds fibres of one material, as (position, area).
     fn with_fibers(
         mut self,
         fibers: &[([f64; 2], f64)],
-        material: Arc<dyn UniaxialMaterial>,
+        material: &Arc<dyn UniaxialMaterial>,
     ) -> Result<Self> {
         positive("modulus of a fibre", material.modulus())?;
         for &(position, area) in fibers {
@@ -94,8 +94,7 @@ impl FiberSection {
             let first = self.variable_count;
             self.variable_count += material.variable_count();
             let variables = first..self.variable_count;
-            self.fibers
-                .push(Fiber { position, area, material: Arc::clone(&material), variables });
+            self.fibers.push(Fiber { position, area, material: Arc::clone(material), variables });
         }
         Ok(self)
     }
@@ -125,7 +124,7 @@ impl FiberSection {
                 fibers.push(([y, z], area));
             }
         }
-        self.with_fibers(&fibers, Arc::new(material))
+        self.with_fibers(&fibers, &shared(material))
     }
 
     /// Adds a ring (or a disc) about `center` [y, z] (m), cut into `counts` rings and sectors.
@@ -160,7 +159,7 @@ impl FiberSection {
                 fibers.push((position, area));
             }
         }
-        self.with_fibers(&fibers, Arc::new(material))
+        self.with_fibers(&fibers, &shared(material))
     }
 
     /// Adds `count` bars of `bar_area` (m²) on a straight line between two `ends` [y, z] (m), ends included.
@@ -183,7 +182,7 @@ impl FiberSection {
             [0, 1].map(|axis| (1.0 - s) * ends[0][axis] + s * ends[1][axis])
         };
         let fibers: Vec<_> = (0..count).map(|bar| (position(bar), bar_area)).collect();
-        self.with_fibers(&fibers, Arc::new(material))
+        self.with_fibers(&fibers, &shared(material))
     }
 
     /// Adds an I-section about the middle of its height: two flanges and a web, bent about its strong axis along y.
@@ -340,6 +339,11 @@ impl FiberSection {
             fiber.material.commit(strain, &mut variables[fiber.variables.clone()]);
         }
     }
+}
+
+/// The law of several fibres.
+fn shared(material: impl UniaxialMaterial) -> Arc<dyn UniaxialMaterial> {
+    Arc::new(material)
 }
 
 /// Strain of a fibre by the deformations of its section.

@@ -12,7 +12,9 @@ pub(in crate::fem) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Opti
         if scale.is_nan() || scale <= 0.0 || scale.is_infinite() {
             return None;
         }
-        row.iter_mut().for_each(|entry| *entry /= scale);
+        for entry in row.iter_mut() {
+            *entry /= scale;
+        }
         unit_row[i] = 1.0 / scale;
     }
     for pivot in 0..N {

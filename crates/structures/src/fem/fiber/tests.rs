@@ -76,6 +76,9 @@ fn tangents_and_energies_belong_to_the_stress() {
     }
 }
 
+/// Number of steps of the loops.
+const LOOP_STEP_COUNT: usize = 20_000;
+
 /// Work of small steps around closed loops is the dissipated energy.
 #[test]
 fn work_of_loops_is_the_dissipated_energy() {
@@ -86,9 +89,8 @@ fn work_of_loops_is_the_dissipated_energy() {
         let mut last_strain = 0.0;
         let mut last_dissipated = 0.0;
         let mut decrease_count = 0;
-        const STEP_COUNT: usize = 20_000;
-        for step in 1..=STEP_COUNT {
-            let t = step as f64 / STEP_COUNT as f64;
+        for step in 1..=LOOP_STEP_COUNT {
+            let t = step as f64 / LOOP_STEP_COUNT as f64;
             let strain = 2.0 * scale * t * (6.0 * std::f64::consts::PI * t).sin();
             let stress = law.response(0.5 * (last_strain + strain), &variables).unwrap().stress;
             work += stress * (strain - last_strain);

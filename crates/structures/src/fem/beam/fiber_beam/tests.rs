@@ -136,6 +136,9 @@ fn tangents_are_derivatives_of_forces() {
     }
 }
 
+/// Number of steps of a push.
+const PUSH_STEP_COUNT: usize = 40;
+
 /// Pushes the tip of a cantilever along y, divided into elements of these lengths (m); returns the force at the tip.
 fn push_cantilever(
     section: &FiberSection,
@@ -153,10 +156,9 @@ fn push_cantilever(
     let mut variables = vec![0.0; variable_count * lengths.len()];
     let mut u = vec![0.0; count + 3];
     let tip_dof = count + 1;
-    const STEP_COUNT: usize = 40;
     let mut reaction = 0.0;
-    for step in 1..=STEP_COUNT {
-        u[tip_dof] = tip * step as f64 / STEP_COUNT as f64;
+    for step in 1..=PUSH_STEP_COUNT {
+        u[tip_dof] = tip * step as f64 / PUSH_STEP_COUNT as f64;
         for iteration in 0.. {
             let mut force = vec![0.0; count + 3];
             let mut stiffness = vec![vec![0.0; count + 3]; count + 3];
