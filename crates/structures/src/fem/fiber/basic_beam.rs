@@ -116,18 +116,10 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         let mut next = || values.next().unwrap_or(0.0);
         let mut deformations = [[0.0; N]; MAX_SECTIONS];
         for section in deformations.iter_mut().take(self.points.len()) {
-            for value in section.iter_mut() {
-                *value = next();
-            }
+            *section = std::array::from_fn(|_| next());
         }
-        let mut forces = [0.0; B];
-        for value in &mut forces {
-            *value = next();
-        }
-        let mut basic_deformations = [0.0; B];
-        for value in &mut basic_deformations {
-            *value = next();
-        }
+        let forces = std::array::from_fn(|_| next());
+        let basic_deformations = std::array::from_fn(|_| next());
         LastState { deformations, forces, basic_deformations }
     }
 
