@@ -3221,8 +3221,8 @@ class RigidBlock(Structure):
         carried_weights: Sequence[tuple[float, float]] | None = None,
     ) -> RigidBlock:
         """Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
-        centre of mass, which is ``center_height`` (m) above the base; ``center``, ``p_delta`` and ``carried_weights`` are as in
-        the class.
+        centre of mass, which is ``center_height`` (m) above the base; ``center`` is as in the class, and so are ``p_delta`` and
+        ``carried_weights``, if given.
         """
     def contact_nodes(self, points: ArrayLike) -> list[BaseNode]:
         """Points of the block as contact nodes, a list of `BaseNode`, for a `Joint`. ``points``: array of shape (n, 2) of the
@@ -3275,7 +3275,7 @@ class RigidBody(Structure):
         p_delta: float | None = None,
     ) -> RigidBody:
         """Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-        ``center`` and ``p_delta`` are as in `cuboid`.
+        ``center`` and ``p_delta``, if given, are as in `cuboid`.
         """
     @staticmethod
     def from_mass(
@@ -3292,7 +3292,7 @@ class RigidBody(Structure):
         Coordinates are relative to the point whose motion the degrees of freedom describe. ``outline``: corners of the
         base, list of x and y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the
         negative products of inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m.
-        ``center``: x and y of that point, m; (0, 0) by default. ``p_delta`` is as in `cuboid`.
+        ``center``: x and y of that point, m; (0, 0) by default. ``p_delta``, if given, is as in `cuboid`.
         """
     @property
     def total_mass(self) -> float:

@@ -60,8 +60,8 @@ impl PyRigidBlock {
     }
 
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
-    /// centre of mass, which is ``center_height`` (m) above the base; ``center``, ``p_delta`` and ``carried_weights`` are as in
-    /// the class.
+    /// centre of mass, which is ``center_height`` (m) above the base; ``center`` is as in the class, and so are ``p_delta`` and
+    /// ``carried_weights``, if given.
     #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None, carried_weights=None))]
     #[staticmethod]
     fn from_mass(
@@ -167,7 +167,7 @@ impl PyRigidBody {
     }
 
     /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center`` and ``p_delta`` are as in `cuboid`.
+    /// ``center`` and ``p_delta``, if given, are as in `cuboid`.
     #[pyo3(
         signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"
@@ -188,7 +188,7 @@ impl PyRigidBody {
     /// Coordinates are relative to the point whose motion the degrees of freedom describe. ``outline``: corners of the
     /// base, list of x and y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the
     /// negative products of inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m.
-    /// ``center``: x and y of that point, m; (0, 0) by default. ``p_delta`` is as in `cuboid`.
+    /// ``center``: x and y of that point, m; (0, 0) by default. ``p_delta``, if given, is as in `cuboid`.
     #[pyo3(
         signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"
