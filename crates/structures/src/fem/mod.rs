@@ -31,6 +31,7 @@ mod quad4;
 mod quad8;
 mod quad_force;
 mod shell;
+mod small_matrix;
 mod solid;
 mod spring;
 mod stress_at_rest;

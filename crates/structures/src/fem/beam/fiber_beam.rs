@@ -6,15 +6,18 @@ use super::local_matrices::{AxialForce, Bending, bar_mass};
 use super::plane::local_matrix;
 use crate::error::{Error, Result, finite, not_negative, same_length};
 use crate::fem::element::{Element, MassKind};
+use crate::fem::element_matrix::add_matrix;
 use crate::fem::fiber::{
     BasicBeam, BasicState, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, PLANE_BENDING,
-    add_congruent, plane_strains, product,
+    plane_strains,
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::line::ElementLine;
+use crate::fem::small_matrix::{add_congruent, product};
 use crate::fem::vector::add_scaled;
 use crate::geometry::{Direction, PLANE_DIRECTIONS};
+use crate::linalg::dot;
 
 /// Number of degrees of freedom.
 const DOF_COUNT: usize = 6;
@@ -124,7 +127,7 @@ impl FiberBeam {
             .ok_or(Error::Scene { quantity: "beam of fibres", needed })?;
         let rows = basic_rows(&line);
         let beam = self.basic_beam(line.length);
-        let v = rows.map(|row| row.iter().zip(displacement).map(|(entry, u)| entry * u).sum());
+        let v = rows.map(|row| dot(&row, displacement));
         let state = beam.state(&v, variables)?;
         Ok(DeformedBeam { beam, rows, v, state })
     }
@@ -167,9 +170,7 @@ fn basic_rows(line: &ElementLine) -> BasicRows {
 fn add_stiffness(stiffness: &[[f64; 3]; 3], rows: &BasicRows, matrix: &mut [f64]) {
     let mut sum = [[0.0; DOF_COUNT]; DOF_COUNT];
     add_congruent(1.0, rows, stiffness, &mut sum);
-    for (entry, value) in matrix.iter_mut().zip(sum.as_flattened()) {
-        *entry += value;
-    }
+    add_matrix(matrix, &sum);
 }
 
 impl Element for FiberBeam {
@@ -214,8 +215,7 @@ impl Element for FiberBeam {
         if self.axial_force.is_prescribed || displacement.len() != DOF_COUNT {
             return None;
         }
-        let v = basic_rows(&line)
-            .map(|row| row.iter().zip(displacement).map(|(entry, u)| entry * u).sum());
+        let v = basic_rows(&line).map(|row| dot(&row, displacement));
         let stiffness = self.basic_beam(line.length).elastic_stiffness()?;
         let height_difference = coordinates[1][1] - coordinates[0][1];
         let axial_force = AxialForce {
@@ -293,24 +293,19 @@ impl InelasticForce for FiberBeam {
         deformed.beam.energy(&deformed.state, variables)
     }
 
-    /// From its definition: sections of a force-based element have no strain path of their own.
     fn remainder(
         &self,
         coordinates: &[[f64; 3]],
         displacements: [&[f64]; 3],
         variables: &[f64],
     ) -> Result<f64> {
-        let [start, midstep, end] = displacements;
-        let start_energy = self.energy(coordinates, start, variables)?;
-        let end_state = self.deformed(coordinates, end, variables)?;
-        let end_energy = end_state.beam.energy(&end_state.state, variables)?;
-        let start_state = self.deformed(coordinates, start, variables)?;
-        let midstep_state = self.deformed(coordinates, midstep, variables)?;
-        let work: f64 = (0..3)
-            .map(|i| midstep_state.state.forces[i] * (end_state.v[i] - start_state.v[i]))
-            .sum();
-        let stored_change = end_energy.stored - start_energy.stored;
-        Ok(work - stored_change - (end_energy.dissipated - start_energy.dissipated))
+        let start = self.deformed(coordinates, displacements[0], variables)?;
+        let midstep = self.deformed(coordinates, displacements[1], variables)?;
+        let end = self.deformed(coordinates, displacements[2], variables)?;
+        let increment = std::array::from_fn(|i| end.v[i] - start.v[i]);
+        start
+            .beam
+            .remainder([&start.state, &midstep.state, &end.state], &increment, variables)
     }
 
     fn sections(

@@ -1,6 +1,7 @@
 //! Local matrices of a straight beam: stretching, twisting, bending in one plane.
 
 use crate::fem::element::MassKind;
+use crate::fem::small_matrix::add_outer;
 use crate::linalg::gauss;
 
 /// Number of Gauss points along a beam, exact for products of two cubics.
@@ -184,15 +185,6 @@ fn rotation(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
         deflection_term,
         scale * s * (s - 2.0 * t + shear_ratio),
     ]
-}
-
-/// Adds factor · r rᵀ, with r = `row`, to `matrix`.
-fn add_outer<const N: usize>(factor: f64, row: &[f64; N], matrix: &mut [[f64; N]; N]) {
-    for (entries, a) in matrix.iter_mut().zip(row) {
-        for (entry, b) in entries.iter_mut().zip(row) {
-            *entry += factor * a * b;
-        }
-    }
 }
 
 /// Copies a `block` to the rows and columns `dofs` of a matrix.

@@ -14,12 +14,16 @@
 //! section, e ← e + f (b q − s), F = Σ w bᵀ f b, q ← q + F⁻¹ (v − Σ w bᵀ e). It starts at the state of the last
 //! step, whose q and e are internal variables. Where it does not converge, v approaches its value in parts.
 
+use std::ops::Range;
+
+use super::interpolation::Interpolation;
 use super::quadrature::BeamPoint;
 use super::section::{FiberSection, SectionResponse};
-use super::small_matrix::{add_congruent, add_transposed, inverse, product};
 use crate::error::{Error, Result};
 use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
+use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
+use crate::linalg::dot;
 
 /// Largest number of Newton's iterations inside a force-based element.
 const MAX_ELEMENT_ITERATIONS: usize = 40;
@@ -42,24 +46,6 @@ pub enum BeamFormulation {
     /// Exact equilibrium along the member, by iterations inside the element (OpenSees' `forceBeamColumn`).
     ForceBased,
 }
-
-/// Interpolations along a beam with N deformations of a section and B basic deformations.
-#[derive(Debug)]
-pub(in crate::fem) struct Interpolation<const N: usize, const B: usize> {
-    /// a(x) times the length, at x/L.
-    pub(in crate::fem) deformations: fn(f64) -> [[f64; B]; N],
-    /// b(x) at x/L.
-    pub(in crate::fem) forces: fn(f64) -> [[f64; B]; N],
-    /// Strain of a fibre at [y, z] due to unit deformations of the section.
-    pub(in crate::fem) strains: fn([f64; 2]) -> [f64; N],
-}
-
-/// Bending in one plane: axial strain and curvature.
-pub(in crate::fem) const PLANE_BENDING: Interpolation<2, 3> = Interpolation {
-    deformations: |s| [[1.0, 0.0, 0.0], [0.0, 6.0 * s - 4.0, 6.0 * s - 2.0]],
-    forces: |s| [[1.0, 0.0, 0.0], [0.0, s - 1.0, s]],
-    strains: super::section::plane_strains,
-};
 
 /// A beam without rigid motions: sections at points along a length.
 pub(in crate::fem) struct BasicBeam<'a, const N: usize, const B: usize> {
@@ -97,16 +83,15 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     /// Overwrites `variables` by those of the undeformed beam.
     pub(in crate::fem) fn initialize(&self, variables: &mut [f64]) {
         variables.fill(0.0);
-        let count = self.section.variable_count();
         for index in 0..self.points.len() {
-            self.section.initialize(&mut variables[index * count..(index + 1) * count]);
+            self.section.initialize(&mut variables[self.section_range(index)]);
         }
     }
 
-    /// Internal variables of a section.
-    fn section_variables<'v>(&self, index: usize, variables: &'v [f64]) -> &'v [f64] {
+    /// Range of a section's internal variables among those of the beam.
+    fn section_range(&self, index: usize) -> Range<usize> {
         let count = self.section.variable_count();
-        &variables[index * count..(index + 1) * count]
+        index * count..(index + 1) * count
     }
 
     /// Internal variables e, q and v of a force-based element at the end of the last step.
@@ -189,7 +174,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         deformations: &[f64; N],
         variables: &[f64],
     ) -> Result<SectionResponse<N>> {
-        let section_variables = self.section_variables(index, variables);
+        let section_variables = &variables[self.section_range(index)];
         self.section.response(deformations, section_variables, self.interpolation.strains)
     }
 
@@ -232,6 +217,8 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             let mut flexibility = [[0.0; B]; B];
             // v less the deformations of the sections after their own corrections.
             let mut residual = *v;
+            // Energy of the corrections of sections and element.
+            let mut energy = 0.0;
             let mut section_flexibilities = [[[0.0; N]; N]; MAX_SECTIONS];
             for (index, point) in self.points.iter().enumerate() {
                 let b = (self.interpolation.forces)(point.position);
@@ -242,59 +229,32 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
                 let needed_forces = product(&b, &state.forces);
                 let imbalance = std::array::from_fn(|i| needed_forces[i] - response.forces[i]);
                 let correction = product(&section_flexibility, &imbalance);
-                for (value, change) in state.deformations[index].iter_mut().zip(correction) {
-                    *value += change;
-                }
+                add_to(&mut state.deformations[index], &correction);
                 let length = point.weight * self.length;
                 add_transposed(-length, &b, &state.deformations[index], &mut residual);
                 add_congruent(length, &b, &section_flexibility, &mut flexibility);
                 section_flexibilities[index] = section_flexibility;
-                largest_energy = largest_energy.max(length * dot(&imbalance, &correction).abs());
+                energy += length * dot(&imbalance, &correction).abs();
             }
             let Some(stiffness) = inverse(flexibility) else { return Ok(false) };
             let increment = product(&stiffness, &residual);
             for (index, point) in self.points.iter().enumerate() {
                 let b = (self.interpolation.forces)(point.position);
                 let change = product(&section_flexibilities[index], &product(&b, &increment));
-                for (value, change) in state.deformations[index].iter_mut().zip(change) {
-                    *value += change;
-                }
+                add_to(&mut state.deformations[index], &change);
             }
-            for (force, change) in state.forces.iter_mut().zip(increment) {
-                *force += change;
-            }
+            add_to(&mut state.forces, &increment);
             state.stiffness = stiffness;
-            let is_finite = state.forces.iter().all(|force| force.is_finite());
-            if !is_finite {
+            energy += dot(&increment, &residual).abs();
+            if !energy.is_finite() {
                 return Ok(false);
             }
-            let energy = dot(&increment, &residual).abs();
             largest_energy = largest_energy.max(energy).max(dot(&state.forces, v).abs());
-            if self.imbalance_energy(variables, state)? + energy
-                <= ENERGY_TOLERANCE * largest_energy
-            {
+            if energy <= ENERGY_TOLERANCE * largest_energy {
                 return Ok(true);
             }
         }
         Ok(false)
-    }
-
-    /// Energy of the differences between b q and the resultants of the sections, J.
-    fn imbalance_energy(&self, variables: &[f64], state: &BasicState<N, B>) -> Result<f64> {
-        let mut sum = 0.0;
-        for (index, point) in self.points.iter().enumerate() {
-            let b = (self.interpolation.forces)(point.position);
-            let response = self.response(index, &state.deformations[index], variables)?;
-            let needed_forces = product(&b, &state.forces);
-            let imbalance: [f64; N] =
-                std::array::from_fn(|i| needed_forces[i] - response.forces[i]);
-            let Some(section_flexibility) = inverse(response.tangent) else {
-                return Ok(f64::INFINITY);
-            };
-            let correction = product(&section_flexibility, &imbalance);
-            sum += point.weight * self.length * dot(&imbalance, &correction).abs();
-        }
-        Ok(sum)
     }
 
     /// Energy of a state, J.
@@ -308,13 +268,43 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     ) -> Result<InternalEnergy> {
         let mut sum = InternalEnergy::default();
         for (index, point) in self.points.iter().enumerate() {
-            let section_variables = self.section_variables(index, variables);
+            let section_variables = &variables[self.section_range(index)];
             let deformations = &state.deformations[index];
             let strains = self.interpolation.strains;
             let energy = self.section.energy(deformations, section_variables, strains)?;
             let length = point.weight * self.length;
             sum.stored += length * energy.stored;
             sum.dissipated += length * energy.dissipated;
+        }
+        Ok(sum)
+    }
+
+    /// Work inside a step that is neither stored nor dissipated, J; `states` at its start, mid-step and end.
+    ///
+    /// `increment`: change of the basic deformations from start to end. Sections of a force-based element do not follow
+    /// straight paths, so that their remainder is that of the whole element, by its definition.
+    ///
+    /// # Errors
+    /// Those of fibres.
+    pub(in crate::fem) fn remainder(
+        &self,
+        states: [&BasicState<N, B>; 3],
+        increment: &[f64; B],
+        variables: &[f64],
+    ) -> Result<f64> {
+        if self.formulation == BeamFormulation::ForceBased {
+            let start = self.energy(states[0], variables)?;
+            let end = self.energy(states[2], variables)?;
+            let change = end.stored - start.stored + end.dissipated - start.dissipated;
+            return Ok(dot(&states[1].forces, increment) - change);
+        }
+        let mut sum = 0.0;
+        for (index, point) in self.points.iter().enumerate() {
+            let path = states.map(|state| &state.deformations[index]);
+            let section_variables = &variables[self.section_range(index)];
+            let strains = self.interpolation.strains;
+            let remainder = self.section.remainder(path, section_variables, strains)?;
+            sum += point.weight * self.length * remainder;
         }
         Ok(sum)
     }
@@ -331,7 +321,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         let mut states = Vec::with_capacity(self.points.len());
         for (index, point) in self.points.iter().enumerate() {
             let deformations = state.deformations[index];
-            let section_variables = self.section_variables(index, variables);
+            let section_variables = &variables[self.section_range(index)];
             let strains = self.interpolation.strains;
             states.push(SectionState {
                 point: *point,
@@ -350,16 +340,16 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         v: &[f64; B],
         variables: &mut [f64],
     ) {
-        let count = self.section.variable_count();
         for index in 0..self.points.len() {
-            let section_variables = &mut variables[index * count..(index + 1) * count];
+            let section_variables = &mut variables[self.section_range(index)];
             let strains = self.interpolation.strains;
             self.section.commit(&state.deformations[index], section_variables, strains);
         }
         if self.formulation == BeamFormulation::ForceBased {
+            let first = self.points.len() * self.section.variable_count();
             let sections = state.deformations.iter().take(self.points.len()).flatten();
             let values = sections.chain(&state.forces).chain(v);
-            for (variable, value) in variables[self.points.len() * count..].iter_mut().zip(values) {
+            for (variable, value) in variables[first..].iter_mut().zip(values) {
                 *variable = *value;
             }
         }
@@ -391,6 +381,9 @@ impl<const N: usize, const B: usize> BasicState<N, B> {
     }
 }
 
-fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+/// Adds an increment to values.
+fn add_to<const N: usize>(values: &mut [f64; N], increment: &[f64; N]) {
+    for (value, change) in values.iter_mut().zip(increment) {
+        *value += change;
+    }
 }

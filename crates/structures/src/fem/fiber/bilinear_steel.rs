@@ -36,6 +36,15 @@ pub struct BilinearSteel {
     hardening_ratio: f64,
 }
 
+/// Returns an error unless yield stress and modulus are positive and the hardening ratio is from 0 to below 1.
+pub(super) fn check_steel(yield_stress: f64, modulus: f64, hardening_ratio: f64) -> Result<()> {
+    positive("yield stress of the steel", yield_stress)?;
+    positive("Young's modulus of the steel", modulus)?;
+    let is_ratio = (0.0..1.0).contains(&hardening_ratio);
+    require("hardening ratio of the steel", hardening_ratio, is_ratio, "from 0 to below 1")
+        .map(drop)
+}
+
 /// Part of the stress that yields, and its plastic strain.
 struct YieldingPart {
     stress: f64,
@@ -49,10 +58,7 @@ impl BilinearSteel {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless yield stress and modulus are positive and 0 ≤ b < 1.
     pub fn new(yield_stress: f64, modulus: f64, hardening_ratio: f64) -> Result<Self> {
-        positive("yield stress of the steel", yield_stress)?;
-        positive("Young's modulus of the steel", modulus)?;
-        let is_ratio = (0.0..1.0).contains(&hardening_ratio);
-        require("hardening ratio of the steel", hardening_ratio, is_ratio, "from 0 to below 1")?;
+        check_steel(yield_stress, modulus, hardening_ratio)?;
         Ok(Self { yield_stress, modulus, hardening_ratio })
     }
 

@@ -7,6 +7,7 @@
 //! | ε*, σ* | (ε − ε_r)/(ε_0 − ε_r) and (σ − σ_r)/(σ_0 − σ_r) |
 //! | R | exponent of the transition; it falls with the plastic excursion ξ of the last half cycle |
 
+use super::bilinear_steel::check_steel;
 use super::{UniaxialMaterial, UniaxialResponse};
 use crate::error::{Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
@@ -76,6 +77,11 @@ struct History {
 }
 
 impl History {
+    /// Work of the stress up to a strain with this stress, J/m³.
+    fn work_to(&self, strain: f64, stress: f64) -> f64 {
+        self.work + 0.5 * (self.last[1] + stress) * (strain - self.last[0])
+    }
+
     fn read(variables: &[f64]) -> Self {
         let branch = match variables[0] {
             value if value > 0.0 => Branch::Tension,
@@ -127,10 +133,7 @@ impl MenegottoPinto {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless yield stress and modulus are positive and 0 ≤ b < 1.
     pub fn new(yield_stress: f64, modulus: f64, hardening_ratio: f64) -> Result<Self> {
-        positive("yield stress of the steel", yield_stress)?;
-        positive("Young's modulus of the steel", modulus)?;
-        let is_ratio = (0.0..1.0).contains(&hardening_ratio);
-        require("hardening ratio of the steel", hardening_ratio, is_ratio, "from 0 to below 1")?;
+        check_steel(yield_stress, modulus, hardening_ratio)?;
         Ok(Self {
             yield_stress,
             modulus,
@@ -233,20 +236,20 @@ impl MenegottoPinto {
         let r = exponent * (1.0 - c1 * excursion / (c2 + excursion));
         let strain_range = history.intersection[0] - history.reversal[0];
         let stress_range = history.intersection[1] - history.reversal[1];
+        let b = self.hardening_ratio;
+        if strain_range == 0.0 {
+            // A reversal on the asymptote of the new half cycle, but for rounding: along the asymptote.
+            let tangent = b * self.modulus;
+            let stress = history.reversal[1] + tangent * (strain - history.reversal[0]);
+            return UniaxialResponse { stress, tangent };
+        }
         let ratio = (strain - history.reversal[0]) / strain_range;
         let sum = 1.0 + ratio.abs().powf(r);
         let root = sum.powf(1.0 / r);
-        let b = self.hardening_ratio;
         UniaxialResponse {
             stress: (b * ratio + (1.0 - b) * ratio / root) * stress_range + history.reversal[1],
             tangent: (b + (1.0 - b) / (sum * root)) * stress_range / strain_range,
         }
-    }
-
-    /// Work of the stress up to a strain, J/m³.
-    fn work(&self, strain: f64, history: &History) -> f64 {
-        let stress = self.on_branch(strain, history).stress;
-        history.work + 0.5 * (history.last[1] + stress) * (strain - history.last[0])
     }
 }
 
@@ -268,13 +271,14 @@ impl UniaxialMaterial for MenegottoPinto {
         let history = self.history_at(strain, variables);
         let stress = self.on_branch(strain, &history).stress;
         let stored = 0.5 * stress * stress / self.modulus;
-        Ok(InternalEnergy { stored, dissipated: self.work(strain, &history) - stored })
+        Ok(InternalEnergy { stored, dissipated: history.work_to(strain, stress) - stored })
     }
 
     fn commit(&self, strain: f64, variables: &mut [f64]) {
         let mut history = self.history_at(strain, variables);
-        history.work = self.work(strain, &history);
-        history.last = [strain, self.on_branch(strain, &history).stress];
+        let stress = self.on_branch(strain, &history).stress;
+        history.work = history.work_to(strain, stress);
+        history.last = [strain, stress];
         history.write(variables);
     }
 }

@@ -4,15 +4,15 @@
 //! |---|---|
 //! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs`, `concrete.rs` |
 //! | sections of fibres | `section.rs` |
-//! | forces of a beam without rigid motions | `basic_beam.rs`; `quadrature.rs`: points along a beam |
+//! | forces of a beam without rigid motions | `basic_beam.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
 
 mod basic_beam;
 mod bilinear_steel;
 mod concrete;
+mod interpolation;
 mod menegotto_pinto;
 mod quadrature;
 mod section;
-mod small_matrix;
 #[cfg(test)]
 mod tests;
 
@@ -24,15 +24,15 @@ use super::material::Material;
 use crate::error::Result;
 
 pub use basic_beam::BeamFormulation;
-pub(super) use basic_beam::{BasicBeam, BasicState, PLANE_BENDING};
+pub(super) use basic_beam::{BasicBeam, BasicState};
 pub use bilinear_steel::BilinearSteel;
 pub use concrete::Concrete;
+pub(super) use interpolation::PLANE_BENDING;
 pub use menegotto_pinto::MenegottoPinto;
 pub(super) use quadrature::BeamPoint;
 pub use quadrature::BeamQuadrature;
 pub use section::FiberSection;
 pub(super) use section::plane_strains;
-pub(super) use small_matrix::{add_congruent, product};
 
 /// Stress of a fibre and its derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

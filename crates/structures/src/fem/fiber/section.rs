@@ -8,6 +8,7 @@ use super::UniaxialMaterial;
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
+use crate::fem::small_matrix::add_outer;
 
 /// Fibre of a section.
 #[derive(Debug, Clone)]
@@ -251,7 +252,7 @@ impl FiberSection {
         let mut stiffness = [[0.0; N]; N];
         for fiber in &self.fibers {
             let factor = fiber.area * fiber.material.modulus();
-            add_product(factor, &strains(fiber.position), &mut stiffness);
+            add_outer(factor, &strains(fiber.position), &mut stiffness);
         }
         stiffness
     }
@@ -277,7 +278,7 @@ impl FiberSection {
             for (force, entry) in response.forces.iter_mut().zip(row) {
                 *force += fiber.area * fiber_response.stress * entry;
             }
-            add_product(fiber.area * fiber_response.tangent, &row, &mut response.tangent);
+            add_outer(fiber.area * fiber_response.tangent, &row, &mut response.tangent);
         }
         Ok(response)
     }
@@ -301,6 +302,29 @@ impl FiberSection {
                 .map_err(|fault| within_fiber(index, fault))?;
             sum.stored += fiber.area * energy.stored;
             sum.dissipated += fiber.area * energy.dissipated;
+        }
+        Ok(sum)
+    }
+
+    /// Remainder of a step per length of the beam, J/m; `path`: deformations at its start, mid-step and end.
+    ///
+    /// # Errors
+    /// As for [`FiberSection::response`].
+    pub(in crate::fem) fn remainder<const N: usize>(
+        &self,
+        path: [&[f64; N]; 3],
+        variables: &[f64],
+        strains: fn([f64; 2]) -> [f64; N],
+    ) -> Result<f64> {
+        let mut sum = 0.0;
+        for (index, fiber) in self.fibers.iter().enumerate() {
+            let row = strains(fiber.position);
+            let fiber_strains = path.map(|deformations| fiber_strain(&row, deformations));
+            let remainder = fiber
+                .material
+                .remainder(fiber_strains, &variables[fiber.variables.clone()])
+                .map_err(|fault| within_fiber(index, fault))?;
+            sum += fiber.area * remainder;
         }
         Ok(sum)
     }
@@ -349,15 +373,6 @@ fn shared(material: impl UniaxialMaterial) -> Arc<dyn UniaxialMaterial> {
 /// Strain of a fibre by the deformations of its section.
 fn fiber_strain<const N: usize>(row: &[f64; N], deformations: &[f64; N]) -> f64 {
     row.iter().zip(deformations).map(|(entry, deformation)| entry * deformation).sum()
-}
-
-/// Adds factor · r rᵀ, with r = `row`, to `matrix`.
-fn add_product<const N: usize>(factor: f64, row: &[f64; N], matrix: &mut [[f64; N]; N]) {
-    for (entries, a) in matrix.iter_mut().zip(row) {
-        for (entry, b) in entries.iter_mut().zip(row) {
-            *entry += factor * a * b;
-        }
-    }
 }
 
 /// Adds the index of a fibre to its error.

@@ -155,6 +155,24 @@ fn concrete_unloads_to_residual_strains_and_cracks() {
     assert_eq!(concrete.response(-0.02, &[0.0]).unwrap().stress, -6.0e6);
 }
 
+/// A reversal of one unit in the last place on the asymptote gives a finite stress.
+#[test]
+fn curved_steel_survives_reversals_by_rounding() {
+    for hardening_ratio in [0.0, 0.02] {
+        let steel = MenegottoPinto::new(400.0e6, 200.0e9, hardening_ratio).unwrap();
+        // At the last two, rounding puts the reversal on the asymptote, without and with hardening.
+        for peak in [0.002_f64, 0.01, 0.037_797_484_290_084_275, 0.060_461_340_276_849_03] {
+            let mut variables = vec![0.0; steel.variable_count()];
+            for strain in [peak, peak.next_down(), peak] {
+                steel.commit(strain, &mut variables);
+            }
+            let response = steel.response(peak + 1e-4, &variables).unwrap();
+            assert!(response.stress.is_finite() && response.tangent.is_finite(), "{peak}");
+            assert!(response.stress > 200.0e6 && response.stress < 700.0e6, "{response:?}");
+        }
+    }
+}
+
 /// Values that no law can have are refused.
 #[test]
 fn impossible_laws_are_refused() {

@@ -1,10 +1,10 @@
-//! Inverse of a small matrix.
+//! Inverse and products of small matrices.
 
 /// Pivot, relative to the largest entry of the matrix, below which a matrix counts as singular.
 const MIN_RELATIVE_PIVOT: f64 = 1e-14;
 
 /// Inverse of a matrix by elimination with row pivoting; `None` for a singular one.
-pub(in crate::fem) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
+pub(super) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
     // Scale of each row, so that rows of different units do not matter.
     let mut inverse = [[0.0; N]; N];
     for (i, (row, unit_row)) in matrix.iter_mut().zip(&mut inverse).enumerate() {
@@ -42,7 +42,7 @@ pub(in crate::fem) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Opti
 }
 
 /// Product of a matrix and a vector.
-pub(in crate::fem) fn product<const R: usize, const C: usize>(
+pub(super) fn product<const R: usize, const C: usize>(
     matrix: &[[f64; C]; R],
     vector: &[f64; C],
 ) -> [f64; R] {
@@ -50,7 +50,7 @@ pub(in crate::fem) fn product<const R: usize, const C: usize>(
 }
 
 /// Adds factor · aᵀ c a to `sum`.
-pub(in crate::fem) fn add_congruent<const R: usize, const C: usize>(
+pub(super) fn add_congruent<const R: usize, const C: usize>(
     factor: f64,
     a: &[[f64; C]; R],
     c: &[[f64; R]; R],
@@ -69,7 +69,7 @@ pub(in crate::fem) fn add_congruent<const R: usize, const C: usize>(
 }
 
 /// Adds factor · aᵀ x to `sum`.
-pub(in crate::fem) fn add_transposed<const R: usize, const C: usize>(
+pub(super) fn add_transposed<const R: usize, const C: usize>(
     factor: f64,
     a: &[[f64; C]; R],
     x: &[f64; R],
@@ -78,6 +78,15 @@ pub(in crate::fem) fn add_transposed<const R: usize, const C: usize>(
     for (row, value) in a.iter().zip(x) {
         for (total, entry) in sum.iter_mut().zip(row) {
             *total += factor * entry * value;
+        }
+    }
+}
+
+/// Adds factor · r rᵀ, with r = `row`, to `matrix`.
+pub(super) fn add_outer<const N: usize>(factor: f64, row: &[f64; N], matrix: &mut [[f64; N]; N]) {
+    for (entries, a) in matrix.iter_mut().zip(row) {
+        for (entry, b) in entries.iter_mut().zip(row) {
+            *entry += factor * a * b;
         }
     }
 }
