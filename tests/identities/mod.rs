@@ -33,4 +33,5 @@ mod view;
 mod views;
 mod writings;
 mod yielding_elements;
+mod yielding_hinges;
 mod yielding_soil;

@@ -13,9 +13,9 @@ use super::compare::relative_difference;
 use super::tally::{IdentityTally, scenes};
 
 /// Largest relative difference, by rounding along a path.
-const ROUNDING_LIMIT: f64 = 1e-11;
+pub(crate) const ROUNDING_LIMIT: f64 = 1e-11;
 /// Steps of a path.
-const PATH_STEPS: usize = 12;
+pub(crate) const PATH_STEPS: usize = 12;
 
 /// Orthogonal map of the plane: a turn, after a mirror or not.
 #[derive(Debug, Clone, Copy)]
@@ -75,14 +75,14 @@ fn points(random: &mut Random, node_count: usize) -> Vec<[f64; 2]> {
 }
 
 /// Forces, tangent times the next displacement, energies and remainder along a path of displacements.
-struct PathResults {
-    forces: Vec<f64>,
-    tangent_forces: Vec<f64>,
+pub(crate) struct PathResults {
+    pub(crate) forces: Vec<f64>,
+    pub(crate) tangent_forces: Vec<f64>,
     /// Stored and dissipated energy, remainder.
-    energies: Vec<f64>,
+    pub(crate) energies: Vec<f64>,
 }
 
-fn follow(
+pub(crate) fn follow(
     element: &dyn Element,
     coordinates: &[[f64; 3]],
     path: &[Vec<f64>],
