@@ -53,11 +53,11 @@ struct HingeCase {
     arm: [f64; 3],
 }
 
-const KINDS: [&str; 6] = ["bilinear", "curved", "rectangle", "ellipse", "polygon", "space"];
+const HINGE_KINDS: [&str; 6] = ["bilinear", "curved", "rectangle", "ellipse", "polygon", "space"];
 
 impl HingeCase {
     fn draw(random: &mut Random) -> Self {
-        let kind = random.pick(&KINDS);
+        let kind = random.pick(&HINGE_KINDS);
         let is_in_space = kind == "space";
         let mut vector = |size: f64| -> [f64; 3] {
             let [x, y, z] = std::array::from_fn(|_| random.within(-size, size));

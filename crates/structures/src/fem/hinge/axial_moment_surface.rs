@@ -162,8 +162,9 @@ impl AxialMomentSurface {
                         [m0 + (axial_force - n0) / (n1 - n0) * (m1 - m0); 2]
                     };
                     for moment in moments {
-                        let [min, max] = range.unwrap_or([moment; 2]);
-                        range = Some([min.min(moment), max.max(moment)]);
+                        let bounds = range.get_or_insert([moment; 2]);
+                        bounds[0] = bounds[0].min(moment);
+                        bounds[1] = bounds[1].max(moment);
                     }
                 }
                 range

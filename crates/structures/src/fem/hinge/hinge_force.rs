@@ -123,11 +123,17 @@ impl<L: HingeLaw<D>, const D: usize> HingeForce<L, D> {
     fn weight(&self, deformation: HingeDeformation, motion: Direction, arm: [f64; 3]) -> f64 {
         // The rotation of a mesh in the plane is about z.
         let motion = if motion == Direction::Rotation { Direction::RotationZ } else { motion };
-        let (axis, parts) = match deformation {
-            HingeDeformation::Displacement(axis) => (self.axes[axis], TRANSLATIONS),
-            HingeDeformation::Rotation(axis) => (self.axes[axis], ROTATIONS),
-        };
-        dot(axis, parts.map(|part| part.in_rigid_motion(motion, arm)))
+        match deformation {
+            HingeDeformation::Displacement(axis) => {
+                let displacement =
+                    TRANSLATION_DIRECTIONS.map(|part| part.in_rigid_motion(motion, arm));
+                dot(self.axes[axis], displacement)
+            }
+            HingeDeformation::Rotation(axis) => {
+                let rotation = ROTATION_DIRECTIONS.map(|part| part.in_rigid_motion(motion, arm));
+                dot(self.axes[axis], rotation)
+            }
+        }
     }
 
     /// Deformations by the displacements of the nodes.
@@ -190,9 +196,9 @@ struct DeformedHinge<const D: usize> {
 }
 
 /// Displacements in space.
-const TRANSLATIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+const TRANSLATION_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
 /// Rotations in space.
-const ROTATIONS: [Direction; 3] =
+const ROTATION_DIRECTIONS: [Direction; 3] =
     [Direction::RotationX, Direction::RotationY, Direction::RotationZ];
 
 impl<L: HingeLaw<D>, const D: usize> InelasticForce for HingeForce<L, D> {

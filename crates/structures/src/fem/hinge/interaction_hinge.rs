@@ -87,11 +87,11 @@ impl InteractionHinge {
         rotational_stiffness: f64,
         surface: AxialMomentSurface,
     ) -> Result<Self> {
-        let [axial_stiffness, shear_stiffness] = displacement_stiffness;
-        positive("axial stiffness of the hinge", axial_stiffness)?;
-        positive("shear stiffness of the hinge", shear_stiffness)?;
-        positive("rotational stiffness of the hinge", rotational_stiffness)?;
-        let stiffness = [axial_stiffness, shear_stiffness, rotational_stiffness];
+        let stiffness = [
+            positive("axial stiffness of the hinge", displacement_stiffness[0])?,
+            positive("shear stiffness of the hinge", displacement_stiffness[1])?,
+            positive("rotational stiffness of the hinge", rotational_stiffness)?,
+        ];
         let force = HingeForce {
             law: law(stiffness, 0.0, &surface),
             axes: plane_axes(axis)?,

@@ -8,7 +8,7 @@ use crate::fem::fiber::UniaxialMaterial;
 use crate::fem::internal_energy::InternalEnergy;
 
 /// Index of the rotation among the deformations; the others are displacements.
-const ROTATION: usize = 2;
+const ROTATION_INDEX: usize = 2;
 
 /// Two displacements of one stiffness, and a rotation by a law.
 #[derive(Debug, Clone)]
@@ -38,7 +38,7 @@ impl HingeLaw<3> for MomentLaw {
     }
 
     fn response(&self, deformation: &[f64; 3], variables: &[f64]) -> Result<HingeResponse<3>> {
-        let moment = self.moment_law.response(deformation[ROTATION], variables)?;
+        let moment = self.moment_law.response(deformation[ROTATION_INDEX], variables)?;
         let k = self.displacement_stiffness;
         Ok(HingeResponse {
             forces: [k * deformation[0], k * deformation[1], moment.stress],
@@ -47,17 +47,19 @@ impl HingeLaw<3> for MomentLaw {
     }
 
     fn energy(&self, deformation: &[f64; 3], variables: &[f64]) -> Result<InternalEnergy> {
-        let [x, y, rotation] = *deformation;
-        let bending = self.moment_law.energy(rotation, variables)?;
-        let stored = bending.stored + 0.5 * self.displacement_stiffness * (x * x + y * y);
+        let bending = self.moment_law.energy(deformation[ROTATION_INDEX], variables)?;
+        let squared_displacement: f64 = deformation[..ROTATION_INDEX].iter().map(|d| d * d).sum();
+        let stored = bending.stored + 0.5 * self.displacement_stiffness * squared_displacement;
         Ok(InternalEnergy { stored, ..bending })
     }
 
     /// That of the law, and ½ k Δd (2 d_m − d_0 − d_1) of the displacements.
     fn remainder(&self, deformations: &[[f64; 3]; 3], variables: &[f64]) -> Result<f64> {
-        let rotations = deformations.map(|deformation| deformation[ROTATION]);
-        let [start, midstep, end] = deformations;
-        let displacements: f64 = (0..ROTATION)
+        let rotations = deformations.map(|deformation| deformation[ROTATION_INDEX]);
+        let start = &deformations[0];
+        let midstep = &deformations[1];
+        let end = &deformations[2];
+        let displacements: f64 = (0..ROTATION_INDEX)
             .map(|i| (end[i] - start[i]) * (2.0 * midstep[i] - start[i] - end[i]))
             .sum();
         let bending = self.moment_law.remainder(rotations, variables)?;
@@ -65,6 +67,6 @@ impl HingeLaw<3> for MomentLaw {
     }
 
     fn commit(&self, deformation: &[f64; 3], variables: &mut [f64]) {
-        self.moment_law.commit(deformation[ROTATION], variables);
+        self.moment_law.commit(deformation[ROTATION_INDEX], variables);
     }
 }

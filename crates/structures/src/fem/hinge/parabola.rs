@@ -19,7 +19,8 @@ pub(super) struct DoubleParabola {
 impl ConvexSet<2> for DoubleParabola {
     fn closest_point(&self, trial: &[f64; 2]) -> Option<ClosestPoint<2>> {
         let [a, b] = self.semi_axes;
-        let [x, y] = trial.map(f64::abs);
+        let x = trial[0].abs();
+        let y = trial[1].abs();
         if y / b + (x / a) * (x / a) <= 1.0 + BOUNDARY_ROUNDING {
             return None;
         }

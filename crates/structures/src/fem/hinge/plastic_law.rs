@@ -29,7 +29,7 @@ pub(super) struct PlasticLaw<S, const D: usize, const P: usize> {
 }
 
 /// The part that yields.
-struct YieldingPart<const P: usize> {
+struct PlasticState<const P: usize> {
     forces: [f64; P],
     plastic_deformations: [f64; P],
     /// ∂x/∂x of the trial forces; `None` for an elastic state.
@@ -56,16 +56,16 @@ impl<S: ConvexSet<P>, const D: usize, const P: usize> PlasticLaw<S, D, P> {
     }
 
     /// The part that yields at deformations, from the plastic deformations of the last step.
-    fn yielding_part(&self, deformation: &[f64; D], variables: &[f64]) -> YieldingPart<P> {
+    fn yielding_part(&self, deformation: &[f64; D], variables: &[f64]) -> PlasticState<P> {
         let stiffness: [f64; P] = std::array::from_fn(|i| self.yielding_stiffness(i));
         let plastic: [f64; P] = std::array::from_fn(|i| variables[i]);
         let elastic: [f64; P] = std::array::from_fn(|i| deformation[self.yielding[i]] - plastic[i]);
         let trial: [f64; P] = std::array::from_fn(|i| stiffness[i].sqrt() * elastic[i]);
         let Some(closest) = self.surface.closest_point(&trial) else {
             let forces = std::array::from_fn(|i| stiffness[i] * elastic[i]);
-            return YieldingPart { forces, plastic_deformations: plastic, derivative: None };
+            return PlasticState { forces, plastic_deformations: plastic, derivative: None };
         };
-        YieldingPart {
+        PlasticState {
             forces: std::array::from_fn(|i| stiffness[i].sqrt() * closest.point[i]),
             plastic_deformations: std::array::from_fn(|i| {
                 deformation[self.yielding[i]] - closest.point[i] / stiffness[i].sqrt()
@@ -84,7 +84,7 @@ impl<S: ConvexSet<P>, const D: usize, const P: usize> PlasticLaw<S, D, P> {
     }
 
     /// Work of plastic deformations on the forces at the end of the step.
-    fn plastic_work(&self, part: &YieldingPart<P>, variables: &[f64]) -> f64 {
+    fn plastic_work(&self, part: &PlasticState<P>, variables: &[f64]) -> f64 {
         (0..P).map(|i| part.forces[i] * (part.plastic_deformations[i] - variables[i])).sum()
     }
 }
@@ -146,7 +146,9 @@ where
 
     /// Σ [(s_m − s_1) Δd + Δs²/(2 (1 − b) k)], and ½ k Δd (2 d_m − d_0 − d_1) of the stiffness beside it.
     fn remainder(&self, deformations: &[[f64; D]; 3], variables: &[f64]) -> Result<f64> {
-        let [start, midstep, end] = deformations;
+        let start = &deformations[0];
+        let midstep = &deformations[1];
+        let end = &deformations[2];
         let parts = deformations.each_ref().map(|d| self.yielding_part(d, variables).forces);
         let elastic_stiffness = self.elastic_stiffness();
         let mut remainder = 0.0;

@@ -35,19 +35,19 @@ impl ConvexSet<2> for Polygon {
             let tangent = along.map(|component| component / length);
             let from_start = difference(*trial, start);
             let position = from_start[0] * tangent[0] + from_start[1] * tangent[1];
-            let (point, derivative) = if position <= 0.0 {
-                (start, [[0.0; 2]; 2])
+            let candidate = if position <= 0.0 {
+                ClosestPoint { point: start, derivative: [[0.0; 2]; 2] }
             } else if position >= length {
-                (end, [[0.0; 2]; 2])
+                ClosestPoint { point: end, derivative: [[0.0; 2]; 2] }
             } else {
                 let point = [0, 1].map(|i| start[i] + position * tangent[i]);
-                (point, curve_derivative(tangent, 0.0))
+                ClosestPoint { point, derivative: curve_derivative(tangent, 0.0) }
             };
-            let [dx, dy] = difference(*trial, point);
-            let distance = dx.hypot(dy);
+            let outside = difference(*trial, candidate.point);
+            let distance = outside[0].hypot(outside[1]);
             if distance < min_distance {
                 min_distance = distance;
-                closest = ClosestPoint { point, derivative };
+                closest = candidate;
             }
         }
         Some(closest)

@@ -13,7 +13,7 @@ use crate::fem::inelastic_force::InelasticForce;
 const PLASTIC_MOMENT: f64 = 300.0e3;
 const AXIAL_STRENGTH: f64 = 2.0e6;
 /// Nodes at one place, which is not the origin.
-const POINTS: [[f64; 3]; 2] = [[3.0, 2.0, 0.0]; 2];
+const NODE_POINTS: [[f64; 3]; 2] = [[3.0, 2.0, 0.0]; 2];
 
 /// Yield surfaces of axial force and moment with these strengths.
 fn surfaces() -> Vec<(&'static str, AxialMomentSurface)> {
@@ -66,19 +66,19 @@ fn hinges() -> Vec<(String, Box<dyn Element>, bool)> {
 
 fn initial_variables(force: &dyn InelasticForce) -> Vec<f64> {
     let mut variables = vec![0.0; force.variable_count()];
-    force.initialize(&POINTS, &mut variables).unwrap();
+    force.initialize(&NODE_POINTS, &mut variables).unwrap();
     variables
 }
 
 fn nodal_forces(force: &dyn InelasticForce, u: &[f64], variables: &[f64]) -> Vec<f64> {
     let mut forces = vec![0.0; u.len()];
-    force.force(&POINTS, u, variables, &mut forces).unwrap();
+    force.force(&NODE_POINTS, u, variables, &mut forces).unwrap();
     forces
 }
 
 fn tangent(force: &dyn InelasticForce, u: &[f64], variables: &[f64]) -> Vec<f64> {
     let mut matrix = vec![0.0; u.len() * u.len()];
-    force.tangent(&POINTS, u, variables, &mut matrix).unwrap();
+    force.tangent(&NODE_POINTS, u, variables, &mut matrix).unwrap();
     matrix
 }
 
@@ -119,14 +119,15 @@ fn tangents_and_energies_belong_to_the_forces() {
                 }
             }
             let energy =
-                |u: &[f64], variables: &[f64]| force.energy(&POINTS, u, variables).unwrap();
+                |u: &[f64], variables: &[f64]| force.energy(&NODE_POINTS, u, variables).unwrap();
             let before = energy(&start, &variables);
             let after = energy(&end, &variables);
             let work: f64 =
                 forces.iter().zip(start.iter().zip(&end)).map(|(f, (a, b))| f * (b - a)).sum();
             let stored = after.stored - before.stored;
             let dissipated = after.dissipated - before.dissipated;
-            let remainder = force.remainder(&POINTS, [&start, &midstep, &end], &variables).unwrap();
+            let remainder =
+                force.remainder(&NODE_POINTS, [&start, &midstep, &end], &variables).unwrap();
             let scale = after.stored + before.stored + work.abs();
             let error = (work - stored - dissipated - remainder).abs() / scale;
             assert!(error < 1e-12, "{name}, step {step}: {error:e}");
@@ -135,7 +136,7 @@ fn tangents_and_energies_belong_to_the_forces() {
                 assert!(remainder >= -1e-13 * scale, "{name}, step {step}: {remainder:e}");
             }
             let end_forces = nodal_forces(force, &end, &variables);
-            force.commit(&POINTS, &end, &mut variables);
+            force.commit(&NODE_POINTS, &end, &mut variables);
             // A commit changes neither forces nor energies.
             let committed = nodal_forces(force, &end, &variables);
             for (value, expected) in committed.iter().zip(&end_forces) {
@@ -169,10 +170,11 @@ fn a_bilinear_hinge_follows_masings_path() {
         let forces = nodal_forces(force, &displacement, &variables);
         assert!((forces[5] / moment - 1.0).abs() < 1e-10, "{rotation}: {}", forces[5]);
         assert_eq!(forces[2], -forces[5]);
-        force.commit(&POINTS, &displacement, &mut variables);
+        force.commit(&NODE_POINTS, &displacement, &mut variables);
     }
     // The part (1 − b) M_p does work in the plastic rotations 0.02, 0.03 and 0.05.
-    let dissipated = force.energy(&POINTS, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.05], &variables).unwrap();
+    let dissipated =
+        force.energy(&NODE_POINTS, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.05], &variables).unwrap();
     let expected = 0.99 * 400.0e3 * (0.02 + 0.03 + 0.05);
     assert!((dissipated.dissipated / expected - 1.0).abs() < 1e-10, "{}", dissipated.dissipated);
 }
@@ -224,7 +226,7 @@ impl PressedHinge<'_> {
                 }
             }
             let u = [0.0, 0.0, 0.0, 0.6 * self.elongation, 0.8 * self.elongation, self.rotation];
-            self.force.commit(&POINTS, &u, &mut self.variables);
+            self.force.commit(&NODE_POINTS, &u, &mut self.variables);
         }
         moment
     }
@@ -287,7 +289,7 @@ fn moments_along(hinge: &SpaceHinge, path: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut u = [0.0; 12];
         u[9..].copy_from_slice(rotation);
         let forces = nodal_forces(force, &u, &variables);
-        force.commit(&POINTS, &u, &mut variables);
+        force.commit(&NODE_POINTS, &u, &mut variables);
         moments.push([forces[9], forces[10], forces[11]]);
     }
     moments

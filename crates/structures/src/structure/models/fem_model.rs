@@ -220,9 +220,8 @@ impl FemModel {
 
     /// Replaces the Rayleigh damping, which adds to the elements' own damping.
     ///
-    /// The geometric stiffness of P–Δ does not contribute to it. Elements with internal variables contribute their
-    /// stiffness of small displacements, hinges nothing
-    /// ([`Element::has_stiffness_damping`](crate::fem::Element::has_stiffness_damping)).
+    /// The geometric stiffness of P–Δ does not contribute to it, nor do hinges. Other elements with internal variables
+    /// contribute their stiffness of small displacements.
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
