@@ -87,7 +87,7 @@ fn a_pulse_in_any_direction_turns_the_mast_alike() {
     let peak_rotation = peak(&reference) / MAST_HEIGHT;
     println!("{peak_rotation} for {rotation}");
     assert!((peak_rotation / rotation - 1.0).abs() < 5e-3);
-    for angle in [0.5236, 1.3, 4.0] {
+    for angle in [0.5, 1.3, 4.0] {
         let turned = pushed_displacements(angle, force);
         let scale = peak(&reference);
         let mut largest = 0.0_f64;

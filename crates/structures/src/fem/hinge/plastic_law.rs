@@ -82,10 +82,12 @@ impl<S: ConvexSet<P>, const D: usize, const P: usize> PlasticLaw<S, D, P> {
         }
         stiffness
     }
+}
 
-    /// Work of plastic deformations on the forces at the end of the step.
-    fn plastic_work(&self, part: &PlasticState<P>, variables: &[f64]) -> f64 {
-        (0..P).map(|i| part.forces[i] * (part.plastic_deformations[i] - variables[i])).sum()
+impl<const P: usize> PlasticState<P> {
+    /// Work of the forces at the end of a step on its plastic deformations.
+    fn work(&self, variables: &[f64]) -> f64 {
+        (0..P).map(|i| self.forces[i] * (self.plastic_deformations[i] - variables[i])).sum()
     }
 }
 
@@ -140,7 +142,7 @@ where
             .sum();
         Ok(InternalEnergy {
             stored: finite("energy of a hinge", elastic + yielding)?,
-            dissipated: variables[P] + self.plastic_work(&part, variables),
+            dissipated: variables[P] + part.work(variables),
         })
     }
 
@@ -166,7 +168,7 @@ where
 
     fn commit(&self, deformation: &[f64; D], variables: &mut [f64]) {
         let part = self.yielding_part(deformation, variables);
-        variables[P] += self.plastic_work(&part, variables);
+        variables[P] += part.work(variables);
         variables[..P].copy_from_slice(&part.plastic_deformations);
     }
 }
