@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import basemat as bm
@@ -81,6 +82,10 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
         if page in ran:
             assert {own.name for own in ran[page][1].iterdir()} == {f"{page}.png"}
     assert len(ran["fragility"][0]["table"]) == 200 and ran["fragility"][0]["table"]["error"].isna().all()
+    assert len(ran["fragility"][0]["analysis"]) < 150
+    # Both methods have the same curve within its errors.
+    stripes, capacities = ran["fragility"][0]["stripes"], ran["fragility"][0]["capacities"]
+    assert abs(np.log(stripes.median / capacities.median)) < 2.0 * stripes.log_median_error
     yielding = ran["yielding"][0]
     assert f"reaches {1e-3 * yielding['linear_stress']:.0f} kPa" in (pages.DOCS / "gallery" / "yielding.md").read_text("utf-8")
     assert 35e3 < max(yielding["stress"]) < 40e3
@@ -119,7 +124,17 @@ def test_the_site_has_no_warnings(tmp_path: Path) -> None:
     # Warnings are errors in its settings.
     checked(["-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)])
     names = {own.relative_to(tmp_path).as_posix() for own in tmp_path.rglob("*.html")}
-    assert {"index.html", "tutorial.html", "gallery/cask.html", "api/basemat.html", "api/basemat/opensees.html"} <= names
+    assert {"index.html", "tutorial.html", "gallery/cask.html", "api/index.html", "api/opensees/structure.html"} <= names
+    # A page for each class and function, with the site's header, and a way back to the list.
+    for name in bm.__all__:
+        value = getattr(bm, name)
+        if isinstance(value, type) or callable(value):
+            page = f"api/{name}.html" if isinstance(value, type) else f"api/functions/{name}.html"
+            text = (tmp_path / page).read_text("utf-8")
+            assert "<header" in text and "Reference" in text and "<h1 id=" in text, name
+    run = (tmp_path / "api" / "Run.html").read_text("utf-8")
+    assert 'id="Run.contact"' in run and 'id="Run.plot"' in run and 'href="Simulation.html' in run
+    assert "white-space: pre-wrap" in (tmp_path / "assets" / "site.css").read_text("utf-8")
     for page in ("tutorial.html", "guide.html"):
         assert 'href="warnings.html"' in (tmp_path / page).read_text("utf-8")
     warnings = (tmp_path / "warnings.html").read_text("utf-8")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-import tempfile
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,23 +12,35 @@ from mkdocs.structure.files import File
 
 ROOT = Path(__file__).parents[2]
 SOURCE = "https://github.com/basemat/basemat/blob/main/"
-MODULES = ("basemat", "basemat.opensees", "basemat.containment")
+CODE_STYLE = """
+.md-typeset pre > code { white-space: pre-wrap; overflow-wrap: anywhere }
+.md-typeset table:not([class]) code { overflow-wrap: anywhere }
+"""
+"""Lines of code break where the page is narrower, and do not scroll."""
+sys.path.insert(0, str(Path(__file__).parent))
+from reference import Reference  # noqa: E402
+
+REFERENCE = Reference()
+
+
+def on_config(config: Any) -> Any:
+    """Adds the pages of the reference to the navigation, in their groups."""
+    groups = []
+    for title, names in REFERENCE.groups.items():
+        groups.append({title: [{name: f"api/{REFERENCE.page_of[name]}"} for name in names]})
+    config.nav.append({"Reference": ["api/index.md", *groups]})
+    return config
 
 
 def on_files(files: Any, config: Any) -> Any:
-    """Adds the README as the first page, and the pages that pdoc writes of the docstrings."""
+    """Adds the README as the first page, the table of warnings, and the pages of all classes and functions."""
     readme = (ROOT / "python" / "README.md").read_text("utf-8")
     pages = f"{SOURCE}docs/python/"
     files.append(File.generated(config, "index.md", content=readme.replace(pages, "")))
     files.append(File.generated(config, "warnings.md", content=warnings_of_runs()))
-    import pdoc
-
-    pdoc.render.configure(docformat="google", show_source=False)
-    with tempfile.TemporaryDirectory() as folder:
-        pdoc.pdoc(*MODULES, output_directory=Path(folder))
-        for page in Path(folder).rglob("*.*"):
-            name = page.relative_to(folder).as_posix()
-            files.append(File.generated(config, f"api/{name}", content=page.read_text("utf-8")))
+    files.append(File.generated(config, "assets/site.css", content=CODE_STYLE))
+    for path, text in REFERENCE.pages.items():
+        files.append(File.generated(config, path, content=text))
     return files
 
 

@@ -19,14 +19,14 @@ COLORS = (
     "#fdae6b",
     "#e6550d",
     "#3182bd",
-    "#74c476",
-    "#31a354",
+    "#a1d99b",
+    "#41ab5d",
+    "#00441b",
+    "#fd8d3c",
     "#006d2c",
-    "#e6550d",
-    "#006d2c",
-    "#bcbddc",
-    "#9e9ac8",
-    "#756bb1",
+    "#c994c7",
+    "#807dba",
+    "#3f007d",
 )
 """Of the modes, in their order."""
 OPEN = "#164878"
@@ -50,7 +50,9 @@ def axes_for(axes: Axes | Iterable[Axes] | None, count: int, title: str | None =
     if axes is None:
         size = (8.0, 1.0 + 2.2 * count)
         options = {"sharex": True, "figsize": size, "layout": "constrained", **options}
-        axes = pyplot().subplots(count, **options)[1]
+        if "nrows" not in options:
+            options["nrows"] = count
+        axes = pyplot().subplots(ncols=count // options["nrows"], **options)[1]
     found: list[Axes] = list(np.ravel(axes))  # type: ignore[arg-type]
     if len(found) != count:
         raise InputError(f"axes are {len(found)}, but must be {count}")
