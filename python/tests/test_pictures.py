@@ -41,6 +41,20 @@ def test_modes_of_one_picture_can_be_told_apart(modes: tuple[bm.Mode, ...]) -> N
         assert np.linalg.norm(colors[one] - colors[other]) > 20.0, (one, other)
 
 
+def test_energies_of_one_picture_can_be_told_apart(rocking) -> None:
+    colors = {name: lab(color) for name, color in _figures.ENERGY_COLORS.items()}
+    for one, other in itertools.combinations(colors, 2):
+        assert np.linalg.norm(colors[one] - colors[other]) > 25.0, (one, other)
+    runs = [rocking(friction).run(200, contact_every=10, warn=False) for friction in (0.2, 0.6)]
+    left_out = {"input", "relative_input", "soil_error_bound", "largest", "residual"}
+    assert set(runs[0].energy_balance.to_dict()) - left_out == colors.keys()
+    # The modes of the first run stay, under its label.
+    panels = runs[0].plot(label="rough")
+    count = len(panels[1].collections)
+    runs[1].plot(panels, label="rougher")
+    assert len(panels[1].collections) == count == 1 and panels[1].get_title(loc="left") == "rough"
+
+
 def basement() -> bm.Simulation:
     building = bm.WithWalls(bm.RigidBlock(6.0, 5.0, 1500.0), 3.0)
     elements = bm.Trench(-3.0, 3.0, 3.0).elements(4, 3)

@@ -2055,7 +2055,7 @@ class Run(Summary):
         Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
         with snapshots; unless given, axes of a new figure. For several runs in the same axes:
         ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
-        line style for each run. ``title`` stands above the picture; None for none.
+        line style for each run; contact modes are those of the first run. ``title`` stands above the picture; None for none.
         """
     def plot_contact_plan(
         self,
@@ -2141,8 +2141,8 @@ class Run(Summary):
         """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
 
         The page has the ground motion, the model, warnings, peaks, limits of service and the text of the run; pictures of time
-        series, floor spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of
-        `Simulation.run`), of the contact, the deformed structure and both in motion. The model is a table of all parameters with
+        series, floor spectra of all acceleration probes, pressures on walls below the surface and, with snapshots (``contact_every`` and ``motion_every`` of
+        `Simulation.run`), of the contact, the deformed structure, moments of a `FemModel`'s shells and all in motion. The model is a table of all parameters with
         their units and a program that makes the run again, with its arrays as a file that the page holds. A page that cannot
         be written leaves the one before as it was.
 

@@ -29,6 +29,19 @@ COLORS = (
     "#3f007d",
 )
 """Of the modes, in their order."""
+ENERGY_COLORS = {
+    "kinetic": "#1f77b4",
+    "strain": "#ff7f0e",
+    "hysteresis": "#d62728",
+    "damping": "#2ca02c",
+    "algorithmic": "#8c564b",
+    "midstep_remainder": "#17becf",
+    "soil": "#e377c2",
+    "contact": "#7f7f7f",
+    "interface": "#9467bd",
+    "static_contact": "#d4b000",
+}
+"""Of the energies, by their names."""
 OPEN = "#164878"
 """Of open elements in plan."""
 SOIL, SURFACE = "#eee5d6", "#7d623e"

@@ -52,8 +52,8 @@ def report(
     """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
 
     The page has the ground motion, the model, warnings, peaks, limits of service and the text of the run; pictures of time
-    series, floor spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of
-    `Simulation.run`), of the contact, the deformed structure and both in motion. The model is a table of all parameters with
+    series, floor spectra of all acceleration probes, pressures on walls below the surface and, with snapshots (``contact_every`` and ``motion_every`` of
+    `Simulation.run`), of the contact, the deformed structure, moments of a `FemModel`'s shells and all in motion. The model is a table of all parameters with
     their units and a program that makes the run again, with its arrays as a file that the page holds. A page that cannot
     be written leaves the one before as it was.
 

@@ -47,7 +47,8 @@ def plot_wall_pressures(
                 _draw(panel, heights, limits, text, color, line)
         label_axes(panel, "pressure, kPa", "height, m" if number == 0 else "")
         panel.set_title(title if title is not None and number == 0 else ("left wall", "right wall")[number], fontsize="medium", loc="left")
-        panel.margins(y=0.0)
+        panel.margins(x=0.05, y=0.0)
+        panel.set_xlim(left=0.0)
     key(panels[1])
     return panels
 
