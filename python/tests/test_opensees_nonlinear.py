@@ -6,6 +6,7 @@ REFERENCE: the same columns on the same springs in OpenSees alone.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -190,6 +191,18 @@ def test_a_second_simulation_of_a_model_is_refused() -> None:
     bm.Simulation(STEP, own, ground, bm.Bonded()).run(2)
     with pytest.raises(bm.Error, match="another simulation"):
         bm.Simulation(STEP, own, ground, bm.Bonded())
+
+
+def test_a_page_says_that_the_model_is_in_opensees(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib").use("agg")
+    column("dispBeamColumn")
+    own = opensees.nonlinear_structure(ops, [1], width=WIDTH)
+    simulation = bm.Simulation(STEP, own, bm.SpringGround.under(own, 4, NORMAL, NORMAL), bm.Bonded(), motion=RECORD)
+    run = simulation.run(20, motion_every=5, contact_every=5)
+    run.report(tmp_path / "run.html", simulation)
+    page = (tmp_path / "run.html").read_text("utf-8")
+    assert "The program needs the model of OpenSees, which basemat.opensees.nonlinear_structure takes" in page
+    assert "<td>NonlinearModel(4 nodes, 12 degrees of freedom)</td>" in page and "<h2>Largest deformation</h2>" in page
 
 
 OUTLINE = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]

@@ -38,6 +38,9 @@ class NonlinearModel:
     interaction, no threads of a sweep. Degrees of freedom have the names of `OpenSeesModel`.
     """
 
+    _state_outside = "the model of OpenSees, which basemat.opensees.nonlinear_structure takes"
+    """What a report's program needs, as it is in another program."""
+
     def __init__(self, ops: Any, model: OpenSeesModel) -> None:
         _check(ops, Elements(ops))
         self._ops, self._model = ops, model
