@@ -16,6 +16,7 @@ from . import BaseFaces, BasematWarning, BaseNode, DeformedShape, DofCombination
 from ._opensees_base import Up, faces_of, line_of, masses, moves
 from ._opensees_linear import Elements
 from ._opensees_matrices import largest_entries, matrices
+from ._opensees_nonlinear import NonlinearModel as NonlinearModel
 from ._opensees_rows import Rows
 from ._opensees_shape import base_nodes_of, shape_of
 from ._opensees_ties import Ties
@@ -121,6 +122,22 @@ def structure(
     To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
     than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
     """
+    return _structure(ops, base_nodes, width, outline, faces, below, up, tangent, warn_of_nonlinear=True)
+
+
+def _structure(
+    ops: Any,
+    base_nodes: Sequence[int] | None,
+    width: float | None,
+    outline: Sequence[Any] | None,
+    faces: Sequence[int | Sequence[int]] | None,
+    below: float | None,
+    up: Up,
+    tangent: Literal["initial", "present"],
+    *,
+    warn_of_nonlinear: bool,
+) -> OpenSeesModel:
+    """The structure with masses, damping and stiffness of the model; warnings are for the caller's caller."""
     if tangent not in ("initial", "present"):
         raise InputError(f"tangent is '{tangent}', but must be 'initial' or 'present'")
     directions = _directions(ops)
@@ -143,12 +160,12 @@ def structure(
         # At rest, the present tangent is the initial one. OpenSees 3.7.1 gives another initial stiffness of ShellDKGT
         # and ShellNLDKGT, which resists rigid rotations.
         initial = present
-    if found := elements.not_linear():
+    if warn_of_nonlinear and (found := elements.not_linear()):
         warnings.warn(
             f"the model of OpenSees is not linear: {_named(found)}. Their {tangent} tangent is taken, and stays in "
             "the run",
             BasematWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     ties = Ties(ops, places, directions, penalty)
     if ties.chains:
@@ -157,7 +174,7 @@ def structure(
             f"ties to nodes that follow others: {chains}. They hold here, but not in OpenSees by its constraint handler "
             "Transformation: tie these nodes to the last of the chain",
             BasematWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     stiffness = initial if tangent == "initial" else present
     rows = Rows({tag: tuple(ops.nodeCoord(tag)) for tag in places}, places, ties)
@@ -173,9 +190,9 @@ def structure(
     held = moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0)
     # A node off its plane is why the structure does not rotate freely.
     if text := ties.off_plane(rows.at) or held:
-        warnings.warn(text, BasematWarning, stacklevel=2)
+        warnings.warn(text, BasematWarning, stacklevel=3)
     if uneven := masses(rows, mass, up):
-        warnings.warn(uneven, BasematWarning, stacklevel=2)
+        warnings.warn(uneven, BasematWarning, stacklevel=3)
     names = {place: f"{tag} {name}" for tag, numbers in places.items() for place, name in zip(numbers, directions)}
     options: dict[str, Any] = {"dof_names": [names[int(place)] for place in ties.kept]}
     kept = [_clean(ties.sums.T @ _symmetric(matrix, names) @ ties.sums) for matrix in (mass, stiffness, damping)]
@@ -184,6 +201,38 @@ def structure(
     model = MatrixModel(kept[0], kept[1], base, **options)
     shape = shape_of(ops, rows, base_nodes_of(ops, base_nodes, faces), up)
     return OpenSeesModel(model, rows, shape, None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2]))
+
+
+def nonlinear_structure(
+    ops: Any,
+    base_nodes: Sequence[int] | None = None,
+    *,
+    width: float | None = None,
+    outline: Sequence[Any] | None = None,
+    faces: Sequence[int | Sequence[int]] | None = None,
+    below: float | None = None,
+    up: Up = "z",
+) -> NonlinearModel:
+    """The structure that the current model of OpenSees is, with elements that yield in a run.
+
+    Forces and tangents are those of OpenSees at trial displacements; the end of a step commits them. So one simulation
+    moves the model: build it again for the next one. Elements are ``elasticBeamColumn``, ``dispBeamColumn`` (with
+    sections of fibres), ``zeroLength``, ``Truss``, ``corotTruss`` and ``ShellMITC4``, with the transformations Linear and
+    PDelta, in the plane Corotational, too; others raise an `InputError` that names them. Dashpots act by the damping
+    matrix of `structure`; Rayleigh damping is constant, by the initial stiffness. OpenSees writes no more messages
+    afterwards, as each trial would write one.
+
+    Args:
+        ops: the module ``openseespy.opensees`` with its model at rest, as for `structure`: 2400 degrees of freedom at most.
+        base_nodes: tags of the nodes on the ground; None for ``faces``.
+        width: length of a rigid base in the plane, m; None for several nodes.
+        outline: corners of a rigid base in space; None in the plane and for ``faces``.
+        faces: a flexible base in space; None for a rigid one.
+        below: distance of the ground's surface below the base, m; as in `structure` unless given.
+        up: axis of the model in space that points up, "z" or "y".
+    """
+    model = _structure(ops, base_nodes, width, outline, faces, below, up, "initial", warn_of_nonlinear=False)
+    return NonlinearModel(ops, model)
 
 
 def _directions(ops: Any) -> tuple[str, ...]:
