@@ -9,7 +9,7 @@ use super::parts::{BodyPart, CoordinatePart, GroundPart, LawPart, MotionPart, Sc
 use super::records::FORMAT_NAMES;
 
 /// Parts without a row, and the reason.
-const WITHOUT_ROWS: [(&str, &str); 7] = [
+const WITHOUT_ROWS: [(&str, &str); 8] = [
     ("FiberBeam", "beside linear beams in coupled/fibre_frames.rs"),
     (
         "FullPlaneGround",
@@ -17,6 +17,10 @@ const WITHOUT_ROWS: [(&str, &str); 7] = [
     ),
     ("FixedGround", "private: the ground of a fixed base"),
     ("StructureOnRigidFoundations", "private: the structure of a fixed base"),
+    (
+        "WithElements",
+        "beside a finite-element model in structures/matrices/yielding_elements.rs",
+    ),
     ("NoStructure", "private: takes the place of a structure that a fixed base has returned"),
     ("SharedLaw", "private: one law in the places of several elements"),
     ("OutOfPhase", "private: part of a travelling wave beyond the critical angle"),
