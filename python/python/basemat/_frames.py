@@ -10,6 +10,7 @@ import numpy as np
 from ._core import (
     _ELEMENT_UNITS,
     MODES,
+    BeamSections,
     EquivalentLinear,
     Impedances,
     JointResults,
@@ -34,15 +35,18 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "depth x y z residual_slip residual_slip_across residual_settlement displacement",
+    "m": "depth x y z residual_slip residual_slip_across residual_settlement displacement length fiber_y fiber_z",
+    "1/m": "curvature",
+    "m²": "area",
+    "N·m": "moment",
     "rad": "residual_rotation residual_rotation_across",
-    "Pa": "shear_modulus",
+    "Pa": "shear_modulus stress",
     "s": "time period",
     "m/s": "pseudo_velocity",
     "m/s²": "acceleration pseudo_acceleration peak_acceleration",
     "N/m": "coupling",
     "N/m²": "horizontal vertical",
-    "N": "rocking",
+    "N": "rocking axial_force",
     "Hz": "frequency",
 }
 _UNIT = {**_ELEMENT_UNITS, **{name: unit for unit, names in _UNITS.items() for name in names.split()}}
@@ -210,3 +214,27 @@ def kinematic_frame(self: KinematicMotions) -> DataFrame:
     """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
     frame = _of(self, "frequency", "horizontal rotation vertical")
     return _with_units(frame, {"frequency": "Hz", "rotation": "1/m"})
+
+
+def beam_sections_frame(self: BeamSections) -> DataFrame:
+    """The sections as a pandas frame: a row per section.
+
+    Columns: "x", "y", "z" (m), "length" (m), "axial_strain", "curvature" (1/m), "axial_force" (N) and "moment" (N·m).
+    """
+    columns = {name: getattr(self, name) for name in ("length", "axial_strain", "curvature", "axial_force", "moment")}
+    table = {**dict(zip("xyz", self.position.T)), **columns}
+    return _with_units(pandas().DataFrame(table).rename_axis("section"), _UNIT)
+
+
+def fiber_frame(self: BeamSections) -> DataFrame:
+    """The fibres of all sections as a tidy pandas frame: a row per section and fibre.
+
+    Columns: "section", "fiber" (numbers from 0), "fiber_y", "fiber_z" (m), "area" (m²), "strain" and "stress" (Pa).
+    """
+    sections, fibers = self.fiber_strain.shape if len(self.length) else (0, 0)
+    table = {"section": np.repeat(np.arange(sections), fibers), "fiber": np.tile(np.arange(fibers), sections)}
+    for axis, coordinates in zip("yz", self.fiber_position.reshape(-1, 2).T):
+        table[f"fiber_{axis}"] = np.tile(coordinates, sections)
+    table["area"] = np.tile(self.fiber_area, sections)
+    table["strain"], table["stress"] = self.fiber_strain.ravel(), self.fiber_stress.ravel()
+    return _with_units(pandas().DataFrame(table), _UNIT)

@@ -40,13 +40,13 @@ impl PyFiberSection {
         Self(FiberSection::new())
     }
 
-    /// Adds a fibre at a ``position`` (y and z, m) with an ``area`` (m²).
+    /// Adds a fibre of a ``material`` at a ``position`` (y and z, m) with an ``area`` (m²).
     fn with_fiber(&self, position: [f64; 2], area: f64, material: FiberLaw) -> PyResult<Self> {
         self.0.clone().with_fiber(position, area, material.0).or_raise().map(Self)
     }
 
-    /// Adds a rectangle between two ``corners`` (array of shape (2, 2) of y and z, m), cut into ``counts`` fibres along y and
-    /// along z (two numbers).
+    /// Adds a rectangle of a ``material`` between two ``corners`` (array of shape (2, 2) of y and z, m), cut into ``counts``
+    /// fibres along y and along z (two numbers).
     fn with_rectangle(
         &self,
         corners: Pairs,
@@ -58,8 +58,8 @@ impl PyFiberSection {
         self.0.clone().with_rectangle(corners, counts, material.0).or_raise().map(Self)
     }
 
-    /// Adds a ring about ``center`` (y and z, m) between two ``radii`` (inside, 0 for a disc, and outside; m), cut into
-    /// ``counts`` rings and sectors (two numbers).
+    /// Adds a ring of a ``material`` about ``center`` (y and z, m) between two ``radii`` (inside, 0 for a disc, and outside;
+    /// m), cut into ``counts`` rings and sectors (two numbers).
     fn with_ring(
         &self,
         center: [f64; 2],
@@ -71,8 +71,8 @@ impl PyFiberSection {
         self.0.clone().with_ring(center, radii, counts, material.0).or_raise().map(Self)
     }
 
-    /// Adds ``count`` bars of ``bar_area`` (m²) on a straight line between two ``ends`` (array of shape (2, 2) of y and z, m),
-    /// ends included; a single bar in the middle. Bars do not replace the concrete around them.
+    /// Adds ``count`` bars of a ``material`` and of ``bar_area`` (m²) on a straight line between two ``ends`` (array of shape
+    /// (2, 2) of y and z, m), ends included; a single bar in the middle. Bars do not replace the concrete around them.
     fn with_bars(
         &self,
         ends: Pairs,
@@ -84,9 +84,9 @@ impl PyFiberSection {
         self.0.clone().with_bars(ends, count.0, bar_area, material.0).or_raise().map(Self)
     }
 
-    /// Adds an I-section about the middle of its height, bent about its strong axis: ``sizes`` are its depth over all and its
-    /// flange width, ``thicknesses`` those of web and flanges (two numbers each, m). Each flange has ``counts[0]`` layers of
-    /// fibres along y, the web ``counts[1]``.
+    /// Adds an I-section of a ``material`` about the middle of its height, bent about its strong axis: ``sizes`` are its depth
+    /// over all and its flange width, ``thicknesses`` those of web and flanges (two numbers each, m). Each flange has
+    /// ``counts[0]`` layers of fibres along y, the web ``counts[1]``.
     fn with_i_section(
         &self,
         sizes: [f64; 2],

@@ -44,7 +44,7 @@ impl PyStructure {
 }
 
 /// Attribute of Python's objects of the package that contain a `Structure`.
-const INNER_STRUCTURE: &str = "_structure";
+const INNER_STRUCTURE: &str = "__basemat_structure__";
 
 /// The structure of this package that an object is or contains; `None` for one written in Python.
 fn inner_structure<'py>(object: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyStructure>>> {

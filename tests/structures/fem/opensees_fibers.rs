@@ -199,7 +199,7 @@ fn differences(element: &str, formulation: BeamFormulation, beam_count: usize, s
     }
     let relative: Vec<f64> =
         errors.iter().zip(scales).map(|(error, scale)| error / scale).collect();
-    println!("{element}, {steel}: {relative:.1e?}");
+    println!("{element}, {steel}: {relative:?}");
     largest(&relative)
 }
 

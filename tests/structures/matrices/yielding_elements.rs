@@ -11,8 +11,7 @@ use basemat::fem::{
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    Bilinear, FemModel, MatrixModel, RayleighDamping, Structure, Triplets, WithElements,
-    WithSprings,
+    Bilinear, FemModel, MatrixModel, Structure, Triplets, WithElements, WithSprings,
 };
 use basemat::{Error, Result, Simulation};
 
