@@ -11,8 +11,8 @@ use basemat_problems::dense::{dense, largest, solve_with_prescribed};
 use basemat_problems::table;
 
 /// Dimensions, materials and loads of `opensees.py`.
-const HEIGHT: f64 = 3.0;
-const WEIGHT: f64 = 400.0e3;
+const COLUMN_HEIGHT: f64 = 3.0;
+const TOP_WEIGHT: f64 = 400.0e3;
 const LAYER_COUNT: usize = 20;
 const BAR_AREA: f64 = 491.0e-6;
 
@@ -79,7 +79,7 @@ impl Column {
             variables: Vec::new(),
             displacement: vec![0.0; 3 * (beam_count + 1)],
         };
-        let node = |index: usize| [0.0, HEIGHT * index as f64 / beam_count as f64, 0.0];
+        let node = |index: usize| [0.0, COLUMN_HEIGHT * index as f64 / beam_count as f64, 0.0];
         for index in 0..beam_count {
             let nodes = [index, index + 1];
             let beam = FiberBeam::new(nodes, section, BeamQuadrature::Lobatto(5), 0.0).unwrap();
@@ -145,7 +145,7 @@ impl Column {
 }
 
 /// Columns of the table of cantilevers.
-const QUANTITIES: [&str; 9] = [
+const TABLE_QUANTITIES: [&str; 9] = [
     "x_m",
     "y_m",
     "rotation",
@@ -162,7 +162,7 @@ fn differences(element: &str, formulation: BeamFormulation, beam_count: usize, s
     let table = table("fibers/opensees_cantilevers.csv");
     let elements = table.text("element");
     let steels = table.text("steel");
-    let mut rows = table.rows(QUANTITIES);
+    let mut rows = table.rows(TABLE_QUANTITIES);
     let mut index = 0;
     rows.retain(|_| {
         index += 1;
@@ -178,7 +178,7 @@ fn differences(element: &str, formulation: BeamFormulation, beam_count: usize, s
     let mut column = Column::new(&section, formulation, beam_count);
     let top = 3 * beam_count;
     let mut load = vec![0.0; 3 * (beam_count + 1)];
-    load[top + 1] = -WEIGHT;
+    load[top + 1] = -TOP_WEIGHT;
     let foot = [(0, 0.0), (1, 0.0), (2, 0.0)];
     let mut errors = [0.0_f64; 9];
     let mut scales = [0.0_f64; 9];
