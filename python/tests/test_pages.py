@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -113,18 +114,46 @@ def test_the_basement_has_the_numbers_of_the_example_in_rust(ran: dict[str, tupl
     assert all(f"{own} " in page for own in (*rotations, *drifts, *thrusts))
 
 
+def test_mistakes_have_their_messages(tmp_path: Path) -> None:
+    page = pages.DOCS / "mistakes.md"
+    names = pages.run(page, tmp_path)
+    rows = re.findall(r"^\|`(.+?)`\|(.+?)\|.+\|$", page.read_text("utf-8"), re.M)
+    assert len(rows) > 15
+    for code, message in rows:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                found = "\n".join(eval(code, names).warnings)
+            except bm.Error as error:
+                found = str(error)
+        assert message in found, f"{code}: {found}"
+
+
 def test_the_site_has_no_warnings(tmp_path: Path) -> None:
-    for module in ("mkdocs", "material", "pdoc"):
+    for module in ("mkdocs", "material", "mkdocstrings"):
         pytest.importorskip(module)
     # Warnings are errors in its settings.
     checked(["-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)])
     names = {own.relative_to(tmp_path).as_posix() for own in tmp_path.rglob("*.html")}
-    assert {"index.html", "tutorial.html", "gallery/cask.html", "api/basemat.html", "api/basemat/opensees.html"} <= names
+    assert {"index.html", "tutorial.html", "gallery/cask.html", "reference.html", "reference/basemat.opensees.html"} <= names
+    check_reference(tmp_path / "reference")
     for page in ("tutorial.html", "guide.html"):
         assert 'href="warnings.html"' in (tmp_path / page).read_text("utf-8")
     warnings = (tmp_path / "warnings.html").read_text("utf-8")
     assert warnings.count("<tr>") > 20 and "TimeScheme.midpoint()" in warnings and ">Midpoint<" not in warnings
     assert 'src="../images/cask.png"' in (tmp_path / "gallery" / "cask.html").read_text("utf-8")
+
+
+def check_reference(folder: Path) -> None:
+    """Each name has a page with its members, and with links to other pages."""
+    assert [name for name in bm.__all__ if not (folder / f"{name}.html").is_file()] == []
+    run = (folder / "Run.html").read_text("utf-8")
+    assert 'id="basemat.Run.plot"' in run and 'href="BasematWarning.html' in run
+    simulation = (folder / "Simulation.html").read_text("utf-8")
+    assert "fixed_base" in simulation.partition("</pre>")[0]
+    assert 'href="../reference.html"' in simulation and 'href="../index.html"' in simulation
+    # No text is left as it stands in the source.
+    assert re.findall(r":(?:class|meth|attr|func|data):", run + simulation) == []
 
 
 def pictures(page: str) -> set[str]:
