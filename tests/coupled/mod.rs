@@ -38,6 +38,7 @@ mod soil_box;
 mod soil_column;
 mod standing_scenes;
 mod static_loads;
+mod space_fibre_frames;
 mod sweep;
 mod travel;
 mod trench_springs;
