@@ -9,8 +9,12 @@ use super::parts::{BodyPart, CoordinatePart, GroundPart, LawPart, MotionPart, Sc
 use super::records::FORMAT_NAMES;
 
 /// Parts without a row, and the reason.
-const WITHOUT_ROWS: [(&str, &str); 7] = [
+const WITHOUT_ROWS: [(&str, &str); 8] = [
     ("FiberBeam", "beside linear beams in coupled/fibre_frames.rs"),
+    (
+        "SpaceFiberBeam",
+        "beside beams and frames in the plane, and turned: fiber_beams.rs, fiber_frames.rs",
+    ),
     (
         "FullPlaneGround",
         "the paper's scheme, which grows by itself: full_plane.rs, and tests/full_plane",

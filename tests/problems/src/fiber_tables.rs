@@ -106,11 +106,8 @@ impl FiberTable {
             for part in &self.parts {
                 s += part;
                 let distance = 1.0 - 0.1 * s;
-                let above = mesh.add_node_at(place(
-                    distance * x,
-                    distance * y,
-                    0.4 + TABLE_HEIGHT * s,
-                ))?;
+                let above =
+                    mesh.add_node_at(place(distance * x, distance * y, 0.4 + TABLE_HEIGHT * s))?;
                 self.add_column(&mut mesh, [below, above])?;
                 below = above;
             }
@@ -125,8 +122,7 @@ impl FiberTable {
             mesh.add(SpaceBeam::new(ends, concrete, section, [0.0, 0.0, 1.0])?)?;
         }
         let followers = [corners.clone(), feet].concat();
-        let model =
-            FemModel::on_faces(mesh, &[corners])?.with_rigid_link(leader, &followers)?;
+        let model = FemModel::on_faces(mesh, &[corners])?.with_rigid_link(leader, &followers)?;
         let model = model.with_rayleigh(RayleighDamping::new(0.0, 5e-4)?);
         Ok(TableModel { model, tops })
     }
