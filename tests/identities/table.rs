@@ -12,6 +12,10 @@ use super::records::FORMAT_NAMES;
 const WITHOUT_ROWS: [(&str, &str); 8] = [
     ("FiberBeam", "beside linear beams in coupled/fibre_frames.rs"),
     (
+        "SpaceFiberBeam",
+        "beside beams and frames in the plane, and turned: fiber_beams.rs, fiber_frames.rs",
+    ),
+    (
         "FullPlaneGround",
         "the paper's scheme, which grows by itself: full_plane.rs, and tests/full_plane",
     ),
