@@ -163,7 +163,8 @@ def test_frames_of_sections() -> None:
     simulation.run(200)
     sections = simulation.beam_sections(4)
     frame = sections.to_frame()
-    assert list(frame.columns) == ["x", "y", "z", "length", "axial_strain", "curvature", "axial_force", "moment"]
+    assert list(frame.columns) == ["x", "y", "z", "length", "axial_strain", "curvature", "axial_force", "moment", "shear"]
+    assert frame.attrs["units"]["shear"] == "N"
     assert len(frame) == 5 and frame["moment"].to_numpy().tolist() == sections.moment.tolist()
     assert frame.attrs["units"]["curvature"] == "1/m" and frame.attrs["units"]["moment"] == "N·m"
     fiber_frame = sections.fiber_frame()
@@ -248,6 +249,40 @@ def test_fibres_on_matrices_move_as_in_a_finite_element_model() -> None:
     assert group.beam_sections(1).element == 1
 
 
+def in_space(torsion: float | None = 1e8) -> bm.FiberSection:
+    whole = bm.FiberSection().with_rectangle([[-0.3, -0.2], [0.3, 0.2]], [8, 6], CONCRETE)
+    whole = whole.with_bars([[-0.25, -0.15], [-0.25, 0.15]], 3, 8e-4, STEEL).with_bars([[0.25, -0.15], [0.25, 0.15]], 3, 8e-4, STEEL)
+    return whole if torsion is None else whole.with_torsional_stiffness(torsion)
+
+
+@pytest.mark.parametrize("formulation", ["displacement_based", "force_based"])
+def test_a_column_in_space(formulation: str) -> None:
+    mesh = bm.Mesh.in_space([[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0], [0, 0, 0], [0, 0, 3], [0, 0, 6]])
+    numbers = mesh.add_space_fiber_beams([[4, 5], [5, 6]], in_space(), 600.0, [1.0, 0.2, 0.0], formulation=formulation)  # type: ignore[arg-type]
+    for node, mass in ((0, 1e3), (4, 40e3), (5, 2e3), (6, 40e3)):
+        mesh.add_mass(node, mass, rotary_inertia=[0.2 * mass] * 3)
+    model = bm.FemModel(mesh, [[0, 1, 2, 3]], rigid_links=[(4, [0, 1, 2, 3])])
+    model = pickle.loads(pickle.dumps(model))
+    ground = bm.SpringGround.under(model, 4, 60e6, 60e6)
+    motion = bm.triaxial(bm.el_centro_1940().scaled(1.5), bm.el_centro_1940().scaled(1.2))
+    simulation = bm.Simulation(0.005, model, ground, bm.Coulomb(0.6), motion=motion)
+    run = simulation.run(400)
+    assert run.energy_error < 1e-9
+    sections = simulation.beam_sections(numbers[0])
+    strains = (
+        sections.axial_strain[:, None]
+        - sections.curvature[:, None] * sections.fiber_position[:, 0]
+        + sections.curvature_about_y[:, None] * sections.fiber_position[:, 1]
+    )
+    np.testing.assert_allclose(sections.fiber_strain, strains, atol=1e-15)
+    forces = sections.fiber_stress * sections.fiber_area
+    np.testing.assert_allclose(sections.moment_about_y, forces @ sections.fiber_position[:, 1], rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(sections.torque, 1e8 * sections.twist_rate, rtol=1e-9, atol=1e-6)
+    assert np.abs(sections.moment_about_y).max() > 1e4 and np.abs(sections.moment).max() > 1e4
+    pytest.importorskip("pandas")
+    assert sections.to_frame().attrs["units"]["torque"] == "N·m"
+
+
 def test_an_elements_stiffness() -> None:
     mesh = bm.Mesh([[0.0, 0.0], [0.0, 5.0]])
     mesh.add_beams([[0, 1]], 30e9, 0.4, 0.02, 0.0)
@@ -275,7 +310,10 @@ REFUSED: list[tuple[str, Callable[[], object]]] = [
     ("formulation is 'Force-based', but must be 'force_based'", lambda: LINE.add_fiber_beams(NODES, section(), 0.0, formulation="Force-based")),  # type: ignore[arg-type]
     ("section has 2 entries, but must have one, or 1", lambda: LINE.add_fiber_beams(NODES, [section()] * 2, 0.0)),
     ("must be a FemModel|is linear", lambda: shaken(model_of(fibers())).beam_sections(0)),
-    ("mesh in the plane", lambda: bm.Mesh.in_space([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]).add_fiber_beams(NODES, section(), 0.0)),
+    ("must be in the plane", lambda: bm.Mesh.in_space([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]).add_fiber_beams(NODES, section(), 0.0)),
+    ("must be in space", lambda: LINE.add_space_fiber_beams(NODES, section(), 0.0, [1.0, 0.0, 0.0])),
+    ("torsional stiffness", lambda: bm.Mesh.in_space([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]).add_space_fiber_beams(NODES, in_space(None), 0.0, [1.0, 0.0, 0.0])),
+    ("torsional stiffness of a section of fibres is 0", lambda: in_space(0.0)),
     ("is no law of a fibre", lambda: section(steel="steel")),
     ("is no law of a fibre", lambda: section(steel=Steel)),
     ("the law of a fibre has no method `energy`", lambda: section(steel=type("Part", (), {"response": 0})())),

@@ -35,18 +35,15 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "depth x y z residual_slip residual_slip_across residual_settlement displacement length fiber_y fiber_z",
-    "1/m": "curvature",
-    "m²": "area",
-    "N·m": "moment",
+    "m": "depth x y z residual_slip residual_slip_across residual_settlement displacement",
     "rad": "residual_rotation residual_rotation_across",
-    "Pa": "shear_modulus stress",
+    "Pa": "shear_modulus",
     "s": "time period",
     "m/s": "pseudo_velocity",
     "m/s²": "acceleration pseudo_acceleration peak_acceleration",
     "N/m": "coupling",
     "N/m²": "horizontal vertical",
-    "N": "rocking axial_force",
+    "N": "rocking",
     "Hz": "frequency",
 }
 _UNIT = {**_ELEMENT_UNITS, **{name: unit for unit, names in _UNITS.items() for name in names.split()}}
@@ -216,14 +213,33 @@ def kinematic_frame(self: KinematicMotions) -> DataFrame:
     return _with_units(frame, {"frequency": "Hz", "rotation": "1/m"})
 
 
+_BEAM_UNITS = {
+    name: unit
+    for unit, names in {
+        "m": "x y z length fiber_y fiber_z",
+        "m²": "area",
+        "1/m": "curvature curvature_about_y",
+        "rad/m": "twist_rate",
+        "N": "axial_force shear shear_along_z",
+        "N·m": "moment moment_about_y torque",
+        "Pa": "stress",
+    }.items()
+    for name in names.split()
+}
+
+
 def beam_sections_frame(self: BeamSections) -> DataFrame:
     """The sections as a pandas frame: a row per section.
 
-    Columns: "x", "y", "z" (m), "length" (m), "axial_strain", "curvature" (1/m), "axial_force" (N) and "moment" (N·m).
+    Columns: "x", "y", "z" (m), "length" (m), "axial_strain", "curvature" (1/m), "axial_force" (N), "moment" (N·m) and "shear"
+    (N); in space also "curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate" (rad/m) and "torque".
     """
-    columns = {name: getattr(self, name) for name in ("length", "axial_strain", "curvature", "axial_force", "moment")}
+    names = ["length", "axial_strain", "curvature", "axial_force", "moment", "shear"]
+    if self.position[:, 2].any() or self.twist_rate.any() or self.curvature_about_y.any():
+        names += ["curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate", "torque"]
+    columns = {name: getattr(self, name) for name in names}
     table = {**dict(zip("xyz", self.position.T)), **columns}
-    return _with_units(pandas().DataFrame(table).rename_axis("section"), _UNIT)
+    return _with_units(pandas().DataFrame(table).rename_axis("section"), _BEAM_UNITS)
 
 
 def fiber_frame(self: BeamSections) -> DataFrame:
@@ -237,4 +253,4 @@ def fiber_frame(self: BeamSections) -> DataFrame:
         table[f"fiber_{axis}"] = np.tile(coordinates, sections)
     table["area"] = np.tile(self.fiber_area, sections)
     table["strain"], table["stress"] = self.fiber_strain.ravel(), self.fiber_stress.ravel()
-    return _with_units(pandas().DataFrame(table), _UNIT)
+    return _with_units(pandas().DataFrame(table), _BEAM_UNITS)

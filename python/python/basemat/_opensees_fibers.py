@@ -12,7 +12,14 @@ from . import BilinearSteel, Concrete, DofCombination, FiberSection, InputError,
 from ._opensees_linear import Elements
 from ._opensees_rows import Rows
 
-_FORMULATIONS = {"DispBeamColumn2d": "displacement_based", "ForceBeamColumn2d": "force_based"}
+_FORMULATIONS = {
+    "DispBeamColumn2d": "displacement_based",
+    "ForceBeamColumn2d": "force_based",
+    "DispBeamColumn3d": "displacement_based",
+    "ForceBeamColumn3d": "force_based",
+}
+_TRANSFORMATIONS = ("LinearCrdTransf2d", "LinearCrdTransf3d")
+_SECTIONS = ("FiberSection2d", "FiberSection3d")
 _QUADRATURES = {"Lobatto": "lobatto", "Legendre": "legendre"}
 #: Largest difference of stiffnesses that counts as rounding, relative to the largest entry.
 _ROUNDING = 1e-9
@@ -35,22 +42,24 @@ class FiberBeam(NamedTuple):
     points: int
     quadrature: str
     formulation: str
+    #: Direction of the section's y axis in space; None in the plane.
+    orientation: tuple[float, ...] | None
 
     def add_to(self, mesh: Mesh, ends: list[int]) -> int:
         """Adds the beam to a mesh, without mass; its number there."""
-        [number] = mesh.add_fiber_beams(
-            [ends],
-            self.section,
-            0.0,
-            points=self.points,
-            quadrature=self.quadrature,  # type: ignore[arg-type]
-            formulation=self.formulation,  # type: ignore[arg-type]
-        )
-        return number
+        options: Any = {"points": self.points, "quadrature": self.quadrature, "formulation": self.formulation}
+        if self.orientation is None:
+            return mesh.add_fiber_beams([ends], self.section, 0.0, **options)[0]
+        return mesh.add_space_fiber_beams([ends], self.section, 0.0, self.orientation, **options)[0]
+
+
+def _mesh(places: Any) -> Mesh:
+    """Nodes at places in the plane or in space (array of shape (n, 2) or (n, 3), m)."""
+    return Mesh(places) if places.shape[1] == 2 else Mesh.in_space(places)
 
 
 class FiberBeams:
-    """Beams of fibres of a model in the plane at rest: those that yield in a run, and why others do not.
+    """Beams of fibres of a model at rest: those that yield in a run, and why others do not.
 
     Args:
         ops: the module ``openseespy.opensees``.
@@ -74,21 +83,23 @@ class FiberBeams:
     def mesh(self, at: dict[int, tuple[float, ...]]) -> tuple[Mesh, list[int], dict[int, int]]:
         """Mesh of the beams, tags of its nodes, and numbers of its elements by their tags; ``at``: places of nodes, m."""
         tags = list(dict.fromkeys(tag for beam in self.beams for tag in beam.nodes))
-        mesh = Mesh(np.array([at[tag] for tag in tags]))
+        mesh = _mesh(np.array([at[tag] for tag in tags]))
         number = {tag: k for k, tag in enumerate(tags)}
         return mesh, tags, {beam.tag: beam.add_to(mesh, [number[tag] for tag in beam.nodes]) for beam in self.beams}
 
     def _beam(self, tag: int) -> FiberBeam:
         text = self._elements.part("elements", tag).text
         for name in self._elements.uses("crdTransformation", text):
-            kind = self._elements.part("crdTransformation", name).type
-            if kind != "LinearCrdTransf2d":
-                raise _Unsuitable(f"transformation {name} {kind}, not Linear")
+            part = self._elements.part("crdTransformation", name)
+            if part.type not in _TRANSFORMATIONS:
+                raise _Unsuitable(f"transformation {name} {part.type}, not Linear")
+            if "Offset" in part.text:
+                raise _Unsuitable(f"transformation {name} with joint offsets")
         sections = self._elements.uses("section", text)
         if len(sections) != 1:
             raise _Unsuitable(f"sections {', '.join(sections)}, not one")
         kind = self._elements.part("section", sections[0]).type
-        if kind != "FiberSection2d":
+        if kind not in _SECTIONS:
             raise _Unsuitable(f"section {sections[0]} {kind}, not Fiber")
         rule = re.search(r'"integration": \{"type": "(\w+)"', text)
         points = len(self._ops.eleResponse(tag, "integrationPoints"))
@@ -96,13 +107,23 @@ class FiberBeams:
             name = f"{rule[1]} with {points} points" if rule else "unknown"
             raise _Unsuitable(f"integration {name}, not Lobatto or Legendre with 2 to 5 points")
         one, other = (int(node) for node in self._ops.eleNodes(tag))
+        in_space = kind == "FiberSection3d"
+        section = self._section(tag, int(sections[0]))
+        if in_space:
+            length = float(np.linalg.norm(np.subtract(self._ops.nodeCoord(other), self._ops.nodeCoord(one))))
+            # Of twists of both ends; a printed model has six digits.
+            torsion = self._ops.eleResponse(tag, "basicStiffness")[-1] * length
+            if not torsion > 0.0:
+                raise _Unsuitable(f"section {sections[0]} without torsional stiffness")
+            section = section.with_torsional_stiffness(torsion)
         beam = FiberBeam(
             tag,
             (one, other),
-            self._section(tag, int(sections[0])),
+            section,
             points,
             _QUADRATURES[rule[1]],
             _FORMULATIONS[str(self._ops.eleType(tag))],
+            tuple(self._ops.eleResponse(tag, "yaxis")) if in_space else None,
         )
         self._check_stiffness(beam)
         return beam
@@ -116,7 +137,7 @@ class FiberBeams:
                 "the unloaded structure, or give fibers='linear'"
             )
         y, z, area, material = fibers[:, :4].T
-        y = y - area @ y / area.sum()
+        y, z = y - area @ y / area.sum(), z - area @ z / area.sum()
         laws = {name: self._law(tag, section, int(name)) for name in dict.fromkeys(material.tolist())}
         found = FiberSection()
         for fiber in zip(y, z, area, material):
@@ -151,18 +172,35 @@ class FiberBeams:
 
     def _check_stiffness(self, beam: FiberBeam) -> None:
         """A reason against the beam unless it has the stiffness of OpenSees' element at rest."""
-        expected = np.array(self._ops.eleResponse(beam.tag, "basicStiffness")).reshape(3, 3)
         places = np.array([self._ops.nodeCoord(tag) for tag in beam.nodes])
-        mesh = Mesh(places)
+        mesh = _mesh(places)
         found = mesh.element_stiffness(beam.add_to(mesh, [0, 1]))
-        along = places[1] - places[0]
-        length = np.linalg.norm(along)
-        cosine, sine = along / length
-        x, y = sine / length, cosine / length
-        # Elongation and rotations of both ends relative to the chord.
-        basic = np.array([[-cosine, -sine, 0, cosine, sine, 0], [-x, y, 1, x, -y, 0], [-x, y, 0, x, -y, 1]])
+        basic = _basic_rows(places, beam.orientation)
+        expected = np.array(self._ops.eleResponse(beam.tag, "basicStiffness")).reshape(len(basic), len(basic))
         if np.abs(basic.T @ expected @ basic - found).max() > _ROUNDING * np.abs(found).max():
             raise _Unsuitable("another stiffness at rest than that of its fibres")
+
+
+def _basic_rows(places: Any, orientation: tuple[float, ...] | None) -> Any:
+    """Rows of OpenSees' basic deformations by displacements of both ends, between two places (m).
+
+    They are elongation and rotations of both ends relative to the chord, in space about z, then about y, and the twist.
+    """
+    along = places[1] - places[0]
+    length = float(np.linalg.norm(along))
+    if orientation is None:
+        cosine, sine = along / length
+        x, y = sine / length, cosine / length
+        return np.array([[-cosine, -sine, 0, cosine, sine, 0], [-x, y, 1, x, -y, 0], [-x, y, 0, x, -y, 1]])
+    axes = np.array([along / length, orientation, np.cross(along / length, orientation)])
+    # Rows by displacements and rotations of both ends in the axes of the beam.
+    local = np.zeros((6, 12))
+    local[0, [0, 6]] = -1.0, 1.0
+    for end, (about_z, about_y) in enumerate(((1, 3), (2, 4))):
+        local[about_z, [5 + 6 * end, 1, 7]] = 1.0, 1.0 / length, -1.0 / length
+        local[about_y, [4 + 6 * end, 2, 8]] = 1.0, -1.0 / length, 1.0 / length
+    local[5, [3, 9]] = -1.0, 1.0
+    return local @ np.kron(np.eye(4), axes)
 
 
 def _elastic(value: Callable[[str], float], printed: dict[str, str]) -> Material:
@@ -236,5 +274,5 @@ def _terms(mesh: Mesh, tags: list[int], places: dict[int, list[int]]) -> Iterato
 
 
 def rows_of(rows: Rows, tags: list[int]) -> list[list[DofCombination]]:
-    """Rows of the displacements of nodes along x and y and of their rotation."""
+    """Rows of the displacements of nodes in all directions."""
     return [[DofCombination(rows.ties.terms(place)) for place in rows.places[tag]] for tag in tags]

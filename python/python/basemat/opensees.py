@@ -1,7 +1,7 @@
 """Structures of OpenSeesPy on basemat's grounds.
 
-A model in the plane or in space gives its matrices at its initial tangent, and in the plane its beams of fibres, which yield in
-a run; its base is free of supports, as the ground holds it up.
+A model in the plane or in space gives its matrices at its initial tangent, and its beams of fibres, which yield in a run; its
+base is free of supports, as the ground holds it up.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ def structure(
         tangent: "initial" takes the stiffness of the elements before any load: yield, gaps, P-Delta and
             other large displacements do not happen in a run, but for beams of fibres. "present" takes the stiffness
             at the state that analyses have left, such as the P-Delta of a gravity analysis; no fibres yield then.
-        fibers: "yielding" takes ``dispBeamColumn`` and ``forceBeamColumn`` in the plane with their fibres, which
+        fibers: "yielding" takes ``dispBeamColumn`` and ``forceBeamColumn`` with their fibres, which
             yield in a run: with a Linear transformation, one Fiber section, Lobatto or Legendre integration of 2 to 5
             points, and fibres of Elastic, Steel01 (without isotropic hardening), Steel02 (without initial stress) and
             Concrete01. Others stay linear, with a `BasematWarning` that names element, material and reason. Fibres must be
@@ -166,7 +166,7 @@ def structure(
         # At rest, the present tangent is the initial one. OpenSees 3.7.1 gives another initial stiffness of ShellDKGT
         # and ShellNLDKGT, which resists rigid rotations.
         initial = present
-    with_fibers = FiberBeams(ops, elements) if fibers == "yielding" and tangent == "initial" and len(directions) == 3 else None
+    with_fibers = FiberBeams(ops, elements) if fibers == "yielding" and tangent == "initial" else None
     yielding = {beam.tag for beam in with_fibers.beams} if with_fibers else set()
     rest = {kind: [tag for tag in tags if tag not in yielding] for kind, tags in elements.not_linear().items()}
     if found := {kind: tags for kind, tags in rest.items() if tags}:

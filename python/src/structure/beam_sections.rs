@@ -21,6 +21,12 @@ pub(crate) struct PyBeamSections {
     curvatures: Vec<f64>,
     axial_forces: Vec<f64>,
     moments: Vec<f64>,
+    shears: Vec<f64>,
+    curvatures_about_y: Vec<f64>,
+    moments_about_y: Vec<f64>,
+    shears_along_z: Vec<f64>,
+    twist_rates: Vec<f64>,
+    torques: Vec<f64>,
     fiber_positions: Vec<[f64; 2]>,
     fiber_areas: Vec<f64>,
     fiber_strains: Vec<Vec<f64>>,
@@ -52,6 +58,12 @@ impl PyBeamSections {
             curvatures: values(&sections, |section| section.curvature),
             axial_forces: values(&sections, |section| section.axial_force),
             moments: values(&sections, |section| section.moment),
+            shears: values(&sections, |section| section.shear),
+            curvatures_about_y: values(&sections, |section| section.curvature_about_y),
+            moments_about_y: values(&sections, |section| section.moment_about_y),
+            shears_along_z: values(&sections, |section| section.shear_along_z),
+            twist_rates: values(&sections, |section| section.twist_rate),
+            torques: values(&sections, |section| section.torque),
             fiber_positions: fibers.iter().map(|fiber| fiber.position).collect(),
             fiber_areas: fibers.iter().map(|fiber| fiber.area).collect(),
             fiber_strains: sections.iter().map(strains).collect(),
@@ -86,7 +98,7 @@ impl PyBeamSections {
         self.axial_strains.as_slice().into()
     }
 
-    /// Curvature, positive where it stretches the fibres at negative y: array of shape (n,), 1/m.
+    /// Curvature about z, positive where it stretches the fibres at negative y: array of shape (n,), 1/m.
     #[getter]
     fn curvature(&self) -> Array {
         self.curvatures.as_slice().into()
@@ -98,10 +110,46 @@ impl PyBeamSections {
         self.axial_forces.as_slice().into()
     }
 
-    /// Bending moment, positive with the curvature: array of shape (n,), N m.
+    /// Bending moment about z, positive with the curvature: array of shape (n,), N m.
     #[getter]
     fn moment(&self) -> Array {
         self.moments.as_slice().into()
+    }
+
+    /// Shear force along y: array of shape (n,), N.
+    #[getter]
+    fn shear(&self) -> Array {
+        self.shears.as_slice().into()
+    }
+
+    /// Curvature about y, positive where it stretches the fibres at positive z: array of shape (n,), 1/m; zero in the plane.
+    #[getter]
+    fn curvature_about_y(&self) -> Array {
+        self.curvatures_about_y.as_slice().into()
+    }
+
+    /// Bending moment about y, positive with the curvature about y: array of shape (n,), N m; zero in the plane.
+    #[getter]
+    fn moment_about_y(&self) -> Array {
+        self.moments_about_y.as_slice().into()
+    }
+
+    /// Shear force along z: array of shape (n,), N; zero in the plane.
+    #[getter]
+    fn shear_along_z(&self) -> Array {
+        self.shears_along_z.as_slice().into()
+    }
+
+    /// Change of the rotation about the axis of the beam along it: array of shape (n,), rad/m; zero in the plane.
+    #[getter]
+    fn twist_rate(&self) -> Array {
+        self.twist_rates.as_slice().into()
+    }
+
+    /// Torque, positive with the twist rate: array of shape (n,), N m; zero in the plane.
+    #[getter]
+    fn torque(&self) -> Array {
+        self.torques.as_slice().into()
     }
 
     /// Coordinates y and z of the fibres in their section: array of shape (f, 2), m.

@@ -1,9 +1,9 @@
 //! Cross-sections of fibres, and beams of them.
 
-use basemat::fem::{BeamFormulation, BeamQuadrature, FiberBeam, FiberSection};
+use basemat::fem::{BeamFormulation, BeamQuadrature, FiberBeam, FiberSection, SpaceFiberBeam};
 use pyo3::prelude::*;
 
-use super::connectivity::{Connectivity, PerElement, one_of};
+use super::connectivity::{Connectivity, PerElement, Vectors, one_of};
 use super::fiber_material::FiberLaw;
 use super::mesh::PyMesh;
 use crate::array::{Count, Pairs, whole_numbers};
@@ -11,7 +11,7 @@ use crate::error::{OrRaise, WithOption, input_error};
 use crate::list_arguments::ListOf;
 use crate::names::choice;
 
-/// Cross-section of fibres, each with an area and a law: for `Mesh.add_fiber_beams`.
+/// Cross-section of fibres, each with an area and a law: for `Mesh.add_fiber_beams` and `Mesh.add_space_fiber_beams`.
 ///
 /// It starts without fibres, and each method returns a section with more of them. Positions are y and z in the axes of the
 /// beam (m), from the line between its nodes; y points to the left of a beam seen from its first node to the second, and a
@@ -99,6 +99,11 @@ impl PyFiberSection {
         section.or_raise().map(Self)
     }
 
+    /// Replaces the elastic torsional ``stiffness`` G J (N m²), which beams in space need.
+    fn with_torsional_stiffness(&self, stiffness: f64) -> PyResult<Self> {
+        self.0.clone().with_torsional_stiffness(stiffness).or_raise().map(Self)
+    }
+
     /// Number of fibres.
     #[getter]
     fn fiber_count(&self) -> usize {
@@ -163,7 +168,8 @@ impl PyMesh {
         compression: Option<PerElement>,
     ) -> PyResult<Vec<usize>> {
         if self.has_depth() {
-            return Err(input_error("beams of fibres are for a mesh in the plane"));
+            let needed = "must be in the plane: add_space_fiber_beams adds them in space";
+            return Err(input_error(format!("the mesh of beams by add_fiber_beams {needed}")));
         }
         let quadrature = self::quadrature(quadrature, points)?;
         let formulation = self::formulation(formulation)?;
@@ -178,6 +184,48 @@ impl PyMesh {
             };
             let beam = FiberBeam::new(beam_nodes, beam_section, quadrature, beam_mass)
                 .with(axial_force, FiberBeam::with_compression);
+            Ok(beam.or_raise()?.with_formulation(formulation))
+        }))
+    }
+    /// Adds beams of fibres in space on ``nodes`` (array of shape (beams, 2)): ``section``, a `FiberSection` with a torsional
+    /// stiffness or a list of one per beam, ``mass_per_length`` (kg/m; one number or an array of one per beam) and
+    /// ``orientation`` (x, y and z of a vector, or an array of shape (beams, 3)), whose part perpendicular to the beam is the y
+    /// axis of the section.
+    ///
+    /// ``points``, ``quadrature``, ``formulation`` and ``compression`` (N; none unless given) are as for `Mesh.add_fiber_beams`.
+    /// Axial force and both moments act on the fibres together; torsion is elastic.
+    #[pyo3(signature = (nodes, section, mass_per_length, orientation, *, points=5, quadrature="lobatto", formulation="displacement_based", compression=None))]
+    fn add_space_fiber_beams(
+        &mut self,
+        nodes: Connectivity,
+        section: FiberSectionList,
+        mass_per_length: PerElement,
+        orientation: Vectors,
+        #[pyo3(from_py_with = whole_numbers)] points: usize,
+        quadrature: &str,
+        formulation: &str,
+        compression: Option<PerElement>,
+    ) -> PyResult<Vec<usize>> {
+        if !self.has_depth() {
+            let needed = "must be in space: add_fiber_beams adds them in the plane";
+            return Err(input_error(format!(
+                "the mesh of beams by add_space_fiber_beams {needed}"
+            )));
+        }
+        let quadrature = self::quadrature(quadrature, points)?;
+        let formulation = self::formulation(formulation)?;
+        let ends = nodes.rows::<2>()?;
+        let beam_count = ends.len();
+        self.add_all(ends.iter().enumerate().map(|(beam_index, &beam_nodes)| {
+            let beam_section = one_of(&section.0, "section", beam_index, beam_count)?;
+            let beam_mass = mass_per_length.at("mass_per_length", beam_index, beam_count)?;
+            let vector = *one_of(&orientation.0, "orientation", beam_index, beam_count)?;
+            let axial_force = match &compression {
+                Some(compression) => Some(compression.at("compression", beam_index, beam_count)?),
+                None => None,
+            };
+            let beam = SpaceFiberBeam::new(beam_nodes, beam_section, quadrature, beam_mass, vector)
+                .with(axial_force, SpaceFiberBeam::with_compression);
             Ok(beam.or_raise()?.with_formulation(formulation))
         }))
     }
