@@ -75,14 +75,15 @@ fn points(random: &mut Random, node_count: usize) -> Vec<[f64; 2]> {
 }
 
 /// Forces, tangent times the next displacement, energies and remainder along a path of displacements.
-struct PathResults {
-    forces: Vec<f64>,
-    tangent_forces: Vec<f64>,
+pub(super) struct PathResults {
+    pub(super) forces: Vec<f64>,
+    pub(super) tangent_forces: Vec<f64>,
     /// Stored and dissipated energy, remainder.
-    energies: Vec<f64>,
+    pub(super) energies: Vec<f64>,
 }
 
-fn follow(
+/// Follows a path of displacements from the undeformed element.
+pub(super) fn follow(
     element: &dyn Element,
     coordinates: &[[f64; 3]],
     path: &[Vec<f64>],
