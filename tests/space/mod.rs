@@ -9,6 +9,7 @@ mod elastic;
 mod equations;
 mod finite_elements;
 mod floor_spectra;
+mod hinges;
 mod interaction;
 mod landing;
 mod limits;
