@@ -9,7 +9,7 @@ use super::parts::{BodyPart, CoordinatePart, GroundPart, LawPart, MotionPart, Sc
 use super::records::FORMAT_NAMES;
 
 /// Parts without a row, and the reason.
-const WITHOUT_ROWS: [(&str, &str); 7] = [
+const WITHOUT_ROWS: [(&str, &str); 8] = [
     ("FiberBeam", "beside linear beams in coupled/fibre_frames.rs"),
     (
         "FullPlaneGround",
@@ -19,6 +19,7 @@ const WITHOUT_ROWS: [(&str, &str); 7] = [
     ("StructureOnRigidFoundations", "private: the structure of a fixed base"),
     ("NoStructure", "private: takes the place of a structure that a fixed base has returned"),
     ("SharedLaw", "private: one law in the places of several elements"),
+    ("IncoherentMotion", "random at the elements of one ground: tests/motion/incoherent.rs"),
     ("OutOfPhase", "private: part of a travelling wave beyond the critical angle"),
 ];
 
