@@ -1,8 +1,8 @@
 //! Difference between the motion of each element and that at the reference point.
 //!
 //! The transfer function h − 1 of an element multiplies the spectrum of the record's velocity. Between the frequencies at
-//! which [`Factor`](super::random_part::Factor) gives h, means are interpolated by cubics; random parts have the
-//! weights cos and sin of one angle, so that their variance is the mean of both variances. The angle is (π/2) sin²(πs/2) on
+//! which [`Factor`](super::random_part::Factor) gives h, means and standard deviations are interpolated by cubics. Random parts
+//! of variance 1 have the weights cos and sin of one angle, so that their variance stays 1. The angle is (π/2) sin²(πs/2) on
 //! the fraction s of the interval: it is so smooth that the random part of a short pulse stays within two periods of the interval.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -110,7 +110,9 @@ pub(super) struct Knots {
     pub(super) bandwidth: f64,
     /// Mean of each element's relative motion, for each knot.
     pub(super) means: Vec<Vec<f64>>,
-    /// Random part of each element's relative motion, for each knot.
+    /// Standard deviation of each element's random part, for each knot.
+    pub(super) deviations: Vec<Vec<f64>>,
+    /// Random part of each element's relative motion, of variance 1, for each knot.
     pub(super) random_parts: Vec<Vec<Complex64>>,
 }
 
@@ -118,29 +120,31 @@ impl Knots {
     /// Transfer function h − 1 of an element at the frequencies of a spectrum.
     fn transfer(&self, element: usize, spectrum: &VelocitySpectrum) -> Vec<Complex64> {
         let means: Vec<f64> = self.means.iter().map(|means| means[element]).collect();
+        let deviations: Vec<f64> = self.deviations.iter().map(|values| values[element]).collect();
         let mut transfer = Vec::with_capacity(spectrum.values.len());
         for index in 0..spectrum.values.len() {
             let (knot, fraction) = knot_and_fraction(spectrum.frequency(index), self.bandwidth);
-            // The coherence is an even function of the frequency.
-            let previous_mean = means[if knot == 0 { 1 } else { knot - 1 }];
-            let mean = cubic_mean(
-                [previous_mean, means[knot], means[knot + 1], means[knot + 2]],
-                fraction,
-            );
+            // Means are even functions of the frequency, and deviations grow with it from zero.
+            let mean = cubic_between(&means, 1.0, knot, fraction);
+            let deviation = cubic_between(&deviations, -1.0, knot, fraction);
             let angle = FRAC_PI_2 * (FRAC_PI_2 * fraction).sin().powi(2);
             let random_part = self.random_parts[knot][element] * angle.cos()
                 + self.random_parts[knot + 1][element] * angle.sin();
-            transfer.push(random_part + (mean - 1.0));
+            transfer.push(random_part * deviation + (mean - 1.0));
         }
         transfer
     }
 }
 
-/// Cubic through two values with the slopes of their neighbours (Catmull and Rom), at a fraction of the interval.
-fn cubic_mean(values: [f64; 4], fraction: f64) -> f64 {
-    let [before, first, second, after] = values;
+/// Cubic between two knots with the slopes of their neighbours (Catmull and Rom), at a fraction of the interval.
+///
+/// Values at negative frequencies are `parity` times those at positive ones.
+fn cubic_between(values: &[f64], parity: f64, knot: usize, fraction: f64) -> f64 {
+    let before = if knot == 0 { parity * values[1] } else { values[knot - 1] };
+    let first = values[knot];
+    let second = values[knot + 1];
     let slope = 0.5 * (second - before);
-    let next_slope = 0.5 * (after - first);
+    let next_slope = 0.5 * (values[knot + 2] - first);
     let difference = second - first;
     let quadratic = 3.0 * difference - 2.0 * slope - next_slope;
     let cubic = slope + next_slope - 2.0 * difference;

@@ -95,7 +95,8 @@ impl Incoherence {
     /// Replaces the interval (Hz) between frequencies with independent random phases.
     ///
     /// The random part of the motion precedes and follows the record by about one to two periods of this interval. Between
-    /// these frequencies the covariance of the motions is interpolated; the coherence must not change much within the interval.
+    /// these frequencies variances are interpolated by cubics, and correlations of the random parts are means of both neighbours: the
+    /// coherence must not change much within the interval.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the bandwidth is positive.
@@ -218,12 +219,7 @@ impl Incoherence {
             }
             for component in &mut *components {
                 let factor = factor.as_ref().filter(|_| is_significant(component));
-                let random_part = match factor {
-                    Some(factor) => factor.random_sum(&mut component.phases),
-                    None => vec![Complex64::default(); element_count],
-                };
-                component.knots.means.push(means.clone());
-                component.knots.random_parts.push(random_part);
+                component.add_knot(&means, factor);
             }
         }
         Ok(min_eigenvalue)
@@ -251,8 +247,25 @@ impl RandomComponent {
             is_significant: spectrum.significant_knots(bandwidth),
             spectrum,
             phases: PhaseSequence::new(incoherence.seed, component),
-            knots: Knots { bandwidth, means: vec![], random_parts: vec![] },
+            knots: Knots { bandwidth, means: vec![], deviations: vec![], random_parts: vec![] },
         })
+    }
+
+    /// Adds the next knot: means, and the random part of its factor if the record has motion there.
+    fn add_knot(&mut self, means: &[f64], factor: Option<&Factor>) {
+        let Self { knots, phases, .. } = self;
+        knots.means.push(means.to_vec());
+        let Some(factor) = factor else {
+            knots.deviations.push(vec![0.0; means.len()]);
+            knots.random_parts.push(vec![Complex64::default(); means.len()]);
+            return;
+        };
+        if let [random_part] = &mut knots.random_parts[..] {
+            // Deviations are zero at the first knot, but not beside it.
+            *random_part = factor.unit_random_delays(phases);
+        }
+        knots.deviations.push(factor.deviations());
+        knots.random_parts.push(factor.unit_random_part(phases));
     }
 }
 

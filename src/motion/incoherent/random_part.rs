@@ -15,7 +15,7 @@
 //! pivot is the reference point with the phase zero. This is a conditional simulation (Kameda and Morikawa, "An
 //! interpolating stochastic process for simulation of conditional random fields", Probab. Eng. Mech. 7 (1992), 243–254).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use basemat_fourier::num_complex::Complex64;
 
@@ -76,14 +76,38 @@ impl Factor {
         Ok(Self { means, columns, min_eigenvalue })
     }
 
-    /// Sum of the columns, each with a random phase.
-    pub(super) fn random_sum(&self, phases: &mut PhaseSequence) -> Vec<Complex64> {
+    /// Standard deviation of each element's random part.
+    pub(super) fn deviations(&self) -> Vec<f64> {
+        let mut variances = vec![0.0; self.means.len()];
+        for column in &self.columns {
+            for (variance, factor) in variances.iter_mut().zip(column) {
+                *variance += factor * factor;
+            }
+        }
+        variances.into_iter().map(f64::sqrt).collect()
+    }
+
+    /// Random part of each element with the variance 1: the sum of the columns, each with a random phase.
+    pub(super) fn unit_random_part(&self, phases: &mut PhaseSequence) -> Vec<Complex64> {
+        self.unit_sum(|| Complex64::cis(phases.next_phase()))
+    }
+
+    /// Random part that tends to random delays at low frequencies: imaginary, so that it is smooth at frequency zero.
+    pub(super) fn unit_random_delays(&self, phases: &mut PhaseSequence) -> Vec<Complex64> {
+        self.unit_sum(|| Complex64::new(0.0, if phases.next_phase() < PI { 1.0 } else { -1.0 }))
+    }
+
+    /// Sum of the columns, each times a random number, divided by the standard deviation of each element.
+    fn unit_sum(&self, mut next_number: impl FnMut() -> Complex64) -> Vec<Complex64> {
         let mut sum = vec![Complex64::default(); self.means.len()];
         for column in &self.columns {
-            let phasor = Complex64::cis(phases.next_phase());
+            let number = next_number();
             for (value, factor) in sum.iter_mut().zip(column) {
-                *value += phasor * factor;
+                *value += number * factor;
             }
+        }
+        for (value, deviation) in sum.iter_mut().zip(self.deviations()) {
+            *value /= if deviation > 0.0 { deviation } else { 1.0 };
         }
         sum
     }
