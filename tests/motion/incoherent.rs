@@ -13,9 +13,9 @@ use basemat::structure::RigidBlock;
 use basemat::{Complex, Error, Simulation, Soil};
 
 /// α/c of the coherence, s/m, and the same as its two parameters.
-const SLOWNESS: f64 = 1.0e-3;
-const ALPHA: f64 = 0.3;
-const SPEED: f64 = 300.0;
+const COHERENCE_SLOWNESS: f64 = 1.0e-3;
+const COHERENCE_PARAMETER: f64 = 0.3;
+const SHEAR_WAVE_SPEED: f64 = 300.0;
 
 /// Four cells of different sides, not on a lattice.
 fn cells() -> Vec<ContactElement> {
@@ -25,6 +25,11 @@ fn cells() -> Vec<ContactElement> {
         ContactElement::in_plan([-30.0, -20.0], [5.0, 45.0]),
         ContactElement::in_plan([40.0, 70.0], [-20.0, -10.0]),
     ]
+}
+
+/// Centre of a cell on the surface.
+fn place_of(cell: &ContactElement) -> [f64; 2] {
+    [cell.center()[0], cell.center()[1]]
 }
 
 /// Record whose velocity is a cycle of about 3 Hz, with quiet time around it.
@@ -45,10 +50,9 @@ fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement)
         for i in 0..count {
             for j in 0..count {
                 let fraction = |k: usize| (k as f64 + 0.5) / f64::from(count as u32);
-                let [front, back] = element.depth();
                 points.push([
                     element.left() + element.length() * fraction(i),
-                    front + (back - front) * fraction(j),
+                    element.depth()[0] + element.sides()[1] * fraction(j),
                 ]);
             }
         }
@@ -60,7 +64,7 @@ fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement)
     for [x, y] in &receivers {
         for [source_x, source_y] in &sources {
             let squared_distance = (x - source_x).powi(2) + (y - source_y).powi(2);
-            let exponent = (std::f64::consts::TAU * frequency * SLOWNESS).powi(2);
+            let exponent = (std::f64::consts::TAU * frequency * COHERENCE_SLOWNESS).powi(2);
             sum += (-exponent * squared_distance).exp();
         }
     }
@@ -71,7 +75,7 @@ fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement)
 #[test]
 fn mean_coherence_is_that_of_fine_grids() {
     let cells = cells();
-    let coherence = LucoWong::new(ALPHA, SPEED).unwrap();
+    let coherence = LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap();
     for (frequency, tolerance) in [(0.0, 1e-14), (1.0, 1e-5), (2.0, 2e-4), (4.0, 3e-3)] {
         let matrix = mean_coherence(&coherence, frequency, &cells).unwrap();
         for (i, receiver) in cells.iter().enumerate() {
@@ -113,7 +117,8 @@ fn sample_coherence_is_the_coherence() {
     let record = pulse();
     let records = Triaxial { x: Some(record.clone()), ..Triaxial::default() };
     let reference = [10.0, 6.0];
-    let incoherence = Incoherence::new(LucoWong::new(ALPHA, SPEED).unwrap());
+    let incoherence =
+        Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap());
     let incoherence = incoherence.with_reference(reference).unwrap();
     let motions: Vec<_> = (0..SEED_COUNT)
         .map(|seed| incoherence.clone().with_seed(seed as u64).motion(&records, &cells).unwrap())
@@ -125,8 +130,8 @@ fn sample_coherence_is_the_coherence() {
             .iter()
             .map(|motion| {
                 let ratio = |cell: &ContactElement| {
-                    let [x, y, _] = cell.center();
-                    coefficient(frequency, |time| motion.displacement_at([x, y], time)[0])
+                    let place = place_of(cell);
+                    coefficient(frequency, |time| motion.displacement_at(place, time)[0])
                         / record_coefficient
                 };
                 cells.iter().map(ratio).collect()
@@ -177,7 +182,7 @@ fn coherent_motion_is_the_record() {
         up: Some(quiet_record().scaled(0.3).unwrap()),
     };
     let cells = cells();
-    let coherent = Incoherence::new(LucoWong::new(0.0, SPEED).unwrap());
+    let coherent = Incoherence::new(LucoWong::new(0.0, SHEAR_WAVE_SPEED).unwrap());
     let motion = coherent.motion(&records, &cells).unwrap();
     let azimuth = 0.4_f64;
     let velocity = 900.0;
@@ -188,12 +193,12 @@ fn coherent_motion_is_the_record() {
     let up = Triaxial { up: records.up.clone(), ..Triaxial::default() };
     let wave = TravellingWave::new(up, velocity, origin).unwrap().with_azimuth(azimuth).unwrap();
     for cell in &cells {
-        let [x, y, _] = cell.center();
+        let place = place_of(cell);
         for k in 0..400 {
             let time = 0.0973 * f64::from(k);
-            assert_eq!(motion.displacement_at([x, y], time), records.displacement_at([x, y], time));
-            let expected = wave.displacement_at([x, y], time)[2];
-            let error = (passing.displacement_at([x, y], time)[2] - expected).abs();
+            assert_eq!(motion.displacement_at(place, time), records.displacement_at(place, time));
+            let expected = wave.displacement_at(place, time)[2];
+            let error = (passing.displacement_at(place, time)[2] - expected).abs();
             assert!(error < 1e-14, "{error:e}");
         }
     }
@@ -209,7 +214,8 @@ fn reference_point_has_the_record() {
     cells.push(ContactElement::in_plan([33.0 - 1e-4, 33.0 + 1e-4], [7.0 - 1e-4, 7.0 + 1e-4]));
     let record = quiet_record();
     let records = Triaxial { y: Some(record.clone()), ..Triaxial::default() };
-    let incoherence = Incoherence::new(LucoWong::new(ALPHA, SPEED).unwrap());
+    let incoherence =
+        Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap());
     let incoherence = incoherence.with_reference([33.0, 7.0]).unwrap();
     let first = incoherence.motion(&records, &cells).unwrap();
     let again = incoherence.motion(&records, &cells).unwrap();
@@ -220,8 +226,8 @@ fn reference_point_has_the_record() {
         let time = 0.1 * f64::from(k);
         let at_reference = first.displacement_at([33.0, 7.0], time)[1];
         assert!((at_reference - record.at(time).displacement).abs() < 1e-4 * peak);
-        let [x, y, _] = cells[2].center();
-        let values = [&first, &again, &other].map(|motion| motion.displacement_at([x, y], time));
+        let place = place_of(&cells[2]);
+        let values = [&first, &again, &other].map(|motion| motion.displacement_at(place, time));
         assert_eq!(values[0], values[1]);
         largest_difference = largest_difference.max((values[0][1] - values[2][1]).abs());
     }
@@ -234,11 +240,12 @@ fn random_motion_stays_near_the_record() {
     let cells = cells();
     let record = pulse();
     let records = Triaxial { up: Some(record.clone()), ..Triaxial::default() };
-    let incoherence = Incoherence::new(LucoWong::new(ALPHA, SPEED).unwrap());
+    let incoherence =
+        Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap());
     let motion = incoherence.motion(&records, &cells).unwrap();
-    let [x, y, _] = cells[3].center();
+    let place = place_of(&cells[3]);
     let difference =
-        |time: f64| motion.displacement_at([x, y], time)[2] - record.at(time).displacement;
+        |time: f64| motion.displacement_at(place, time)[2] - record.at(time).displacement;
     let mut energies = [0.0, 0.0];
     for k in 0..1500 {
         let time = 0.01 * f64::from(k);
@@ -260,7 +267,7 @@ fn fault(incoherence: &Incoherence, record: Record, elements: &[ContactElement])
 #[test]
 fn undefined_motions_are_refused() {
     let cells = cells();
-    let fine = Incoherence::new(LucoWong::new(ALPHA, SPEED).unwrap());
+    let fine = Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap());
     assert!(LucoWong::new(-0.1, 300.0).is_err() && LucoWong::new(0.1, 0.0).is_err());
     assert!(fine.clone().with_passage(0.0, 0.0).is_err());
     assert!(fine.clone().with_passage(500.0, f64::NAN).is_err());

@@ -2,7 +2,7 @@
 
 use basemat_problems::heavy;
 use basemat_problems::incoherent_disc::{
-    COMPONENTS, Disc, FREQUENCIES, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
+    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
 };
 
 /// GOAL: the mean square of the disc's motion is the published one, by w* Γ w and over seeds; a run has the motion Σ wᵢuᵢ.
@@ -13,10 +13,10 @@ fn disc_filters_incoherent_motion_as_published() {
     let is_heavy = heavy();
     let disc = Disc::new(if is_heavy { 16 } else { 12 }).unwrap();
     let seed_count = if is_heavy { 200 } else { 40 };
-    for (component, published) in COMPONENTS.into_iter().zip(PUBLISHED_MEAN_SQUARES) {
+    for (component, published) in DISC_COMPONENTS.into_iter().zip(PUBLISHED_MEAN_SQUARES) {
         let weights = disc.weights(component).unwrap();
         let sampled = sampled_mean_squares(&disc, component, &weights, seed_count).unwrap();
-        for (k, frequency) in FREQUENCIES.into_iter().enumerate() {
+        for (k, frequency) in DISC_FREQUENCIES.into_iter().enumerate() {
             let direct = disc.mean_square(&weights[k], frequency).unwrap();
             let [mean, standard_error] = sampled[k];
             println!(

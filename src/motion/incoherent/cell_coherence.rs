@@ -37,7 +37,7 @@ impl<'a> CellCoherence<'a> {
         check_distances(coherence, &points)?;
         let mut classes = Vec::new();
         let mut pair_classes = Vec::with_capacity(points.len() * (points.len() + 1) / 2);
-        let mut known_classes = HashMap::new();
+        let mut class_indices = HashMap::new();
         for i in 0..points.len() {
             for j in 0..=i {
                 // The reference point is a class of its own with each element.
@@ -48,7 +48,7 @@ impl<'a> CellCoherence<'a> {
                 };
                 let next_class = classes.len();
                 let class = match key {
-                    Some(key) => *known_classes.entry(key).or_insert(next_class),
+                    Some(key) => *class_indices.entry(key).or_insert(next_class),
                     None => next_class,
                 };
                 if class == next_class {
@@ -105,19 +105,16 @@ pub(super) fn at_frequency(frequency: f64, fault: Error) -> Error {
     Error::Item { item: format!("coherence at {frequency} Hz"), r#source: Box::new(fault) }
 }
 
-/// Gauss points of an element: four in plan, two in the plane.
+/// Gauss points of an element: two along each side.
 fn gauss_points(element: &ContactElement) -> Vec<[f64; 2]> {
-    let [x, y, _] = element.center();
-    let sides = element.sides();
-    let x_shift = 0.5 * GAUSS_POSITION * sides[0];
-    let is_plan = element.directions().len() > 2;
-    let y_shift = if is_plan { 0.5 * GAUSS_POSITION * sides[1] } else { 0.0 };
-    let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
-    let point_count = if is_plan { 4 } else { 2 };
-    corners[..point_count]
-        .iter()
-        .map(|[i, j]| [x + i * x_shift, y + j * y_shift])
-        .collect()
+    let center = element.center();
+    let mut points = Vec::new();
+    for part in element.parts() {
+        // The middle of a half is at half of half the side.
+        let shift = |axis: usize| 2.0 * GAUSS_POSITION * (part.center()[axis] - center[axis]);
+        points.push([center[0] + shift(0), center[1] + shift(1)]);
+    }
+    points
 }
 
 /// Checks that no two points are farther apart than the model allows.
@@ -142,14 +139,14 @@ fn check_distances(coherence: &dyn Coherence, points: &[Vec<[f64; 2]>]) -> Resul
 
 /// Rounded vector between two elements and their sides; the same for the opposite vector.
 fn offset_key(receiver: &ContactElement, source: &ContactElement) -> Option<[i64; 6]> {
-    let [receiver_x, receiver_y, _] = receiver.center();
-    let [source_x, source_y, _] = source.center();
+    let center = receiver.center();
+    let source_center = source.center();
     let sides = receiver.sides();
     let source_sides = source.sides();
     let unit = OFFSET_TOLERANCE * sides[0].min(sides[1]);
     let numbers = [
-        receiver_x - source_x,
-        receiver_y - source_y,
+        center[0] - source_center[0],
+        center[1] - source_center[1],
         sides[0],
         sides[1],
         source_sides[0],
@@ -167,8 +164,7 @@ fn offset_key(receiver: &ContactElement, source: &ContactElement) -> Option<[i64
     }
     let is_opposite = key[..2] < [0, 0][..];
     if is_opposite {
-        let [x, y, side_x, side_y, source_side_x, source_side_y] = key;
-        key = [-x, -y, source_side_x, source_side_y, side_x, side_y];
+        key = [-key[0], -key[1], key[4], key[5], key[2], key[3]];
     }
     Some(key)
 }

@@ -170,14 +170,14 @@ impl Incoherence {
         let mut indices = HashMap::with_capacity(elements.len());
         let mut delays = Vec::with_capacity(elements.len());
         for (index, element) in elements.iter().enumerate() {
-            let [x, y, _] = element.center();
-            indices.insert(place_key([x, y]), index);
-            let delay =
-                self.slowness[0] * (x - reference[0]) + self.slowness[1] * (y - reference[1]);
+            let place = [element.center()[0], element.center()[1]];
+            indices.insert(place_key(place), index);
+            let delay = self.slowness[0] * (place[0] - reference[0])
+                + self.slowness[1] * (place[1] - reference[1]);
             delays.push(delay);
         }
         let component = |record: Option<&Record>, difference: Option<DifferenceSeries>| {
-            record.map(|record| Component { record: record.clone(), difference })
+            record.map(|record| ComponentMotion { record: record.clone(), difference })
         };
         Ok(IncoherentMotion {
             components: [
@@ -226,7 +226,7 @@ impl Incoherence {
     }
 }
 
-/// Component of the motion while its random part is computed.
+/// ComponentMotion of the motion while its random part is computed.
 struct RandomComponent {
     /// 0 for x, 1 for y, 2 for up.
     component: usize,
@@ -238,7 +238,7 @@ struct RandomComponent {
 }
 
 impl RandomComponent {
-    /// Component of a record, without knots.
+    /// ComponentMotion of a record, without knots.
     fn new(component: usize, record: &Record, incoherence: &Incoherence) -> Result<Self> {
         let bandwidth = incoherence.bandwidth;
         let spectrum = VelocitySpectrum::new(record, bandwidth)?;
@@ -287,15 +287,15 @@ fn place_key([x, y]: [f64; 2]) -> [u64; 2] {
     [(x + 0.0).to_bits(), (y + 0.0).to_bits()]
 }
 
-/// Component of an incoherent motion.
-struct Component {
+/// ComponentMotion of an incoherent motion.
+struct ComponentMotion {
     /// Motion at the reference point.
     record: Record,
     /// Motion of each element minus the record; `None` for a component that the ground ignores.
     difference: Option<DifferenceSeries>,
 }
 
-impl Component {
+impl ComponentMotion {
     /// Displacement (m) of an element at a time (s), without the delay of the wave.
     fn displacement(&self, element: usize, time: f64) -> f64 {
         let difference = self.difference.as_ref().map_or(0.0, |series| series.at(element, time));
@@ -332,7 +332,7 @@ impl Component {
 /// ```
 pub struct IncoherentMotion {
     /// Along x, along y and up.
-    components: [Option<Component>; 3],
+    components: [Option<ComponentMotion>; 3],
     elements: Vec<ContactElement>,
     /// Index of the element with each centre.
     indices: HashMap<[u64; 2], usize>,

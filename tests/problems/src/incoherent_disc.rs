@@ -17,11 +17,11 @@ use basemat::{Complex, Result, Simulation, Soil};
 /// Parameter of the coherence exp(−(α a₀ d/R)²).
 pub const COHERENCE_PARAMETER: f64 = 0.5;
 /// Frequencies of the published table.
-pub const FREQUENCIES: [f64; 3] = [1.0, 2.0, 3.0];
+pub const DISC_FREQUENCIES: [f64; 3] = [1.0, 2.0, 3.0];
 /// Mean square of the horizontal and of the vertical motion over that of the ground, for ν = 1/3.
 pub const PUBLISHED_MEAN_SQUARES: [[f64; 3]; 2] = [[0.732, 0.402, 0.251], [0.730, 0.416, 0.270]];
 /// Component of the motion along x and upwards, for the rows of the table.
-pub const COMPONENTS: [usize; 2] = [0, 2];
+pub const DISC_COMPONENTS: [usize; 2] = [0, 2];
 
 /// Time step and duration of the run from which the weights follow, in R/c.
 const WEIGHTS_TIME_STEP: f64 = 0.05;
@@ -29,7 +29,7 @@ const WEIGHTS_DURATION: f64 = 40.0;
 /// Ratio of the disc's mass to that of a cube of soil of its radius.
 const DISC_MASS_RATIO: f64 = 3e-4;
 /// Interval of a₀ between independent phases.
-const BANDWIDTH: f64 = 0.25;
+const PHASE_BANDWIDTH: f64 = 0.25;
 /// Time step of the record, and time of its pulse, in R/c.
 const RECORD_TIME_STEP: f64 = 0.1;
 const PULSE_TIME: f64 = 60.0;
@@ -70,10 +70,11 @@ impl Disc {
             .build()?;
         let steps = simulation.steps_for(WEIGHTS_DURATION);
         let mut load_coefficients = [Complex::real(0.0); 3];
-        let mut weights = vec![vec![Complex::real(0.0); self.elements.len()]; FREQUENCIES.len()];
+        let mut weights =
+            vec![vec![Complex::real(0.0); self.elements.len()]; DISC_FREQUENCIES.len()];
         simulation.run(steps, |state| {
             let middle = state.time - 0.5 * WEIGHTS_TIME_STEP;
-            for (k, frequency) in FREQUENCIES.iter().enumerate() {
+            for (k, frequency) in DISC_FREQUENCIES.iter().enumerate() {
                 let phasor = Complex::polar(1.0, -frequency * middle);
                 load_coefficients[k] = load_coefficients[k] + phasor.scale(load(middle));
                 for ((weight, element), contact) in
@@ -114,7 +115,7 @@ impl Disc {
             _ => records.up = Some(record.clone()),
         }
         let incoherence = Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, 1.0)?);
-        let incoherence = incoherence.with_bandwidth(BANDWIDTH / TAU)?.with_seed(seed);
+        let incoherence = incoherence.with_bandwidth(PHASE_BANDWIDTH / TAU)?.with_seed(seed);
         Ok((incoherence.motion(&records, &self.elements)?, record))
     }
 
@@ -126,7 +127,7 @@ impl Disc {
         seed: u64,
     ) -> Result<Vec<Complex>> {
         let (motion, record) = self.motion(component, seed)?;
-        let mut responses = vec![Complex::real(0.0); FREQUENCIES.len()];
+        let mut responses = vec![Complex::real(0.0); DISC_FREQUENCIES.len()];
         let mut record_coefficients = responses.clone();
         for sample in 0..2000 {
             let time = RECORD_TIME_STEP * f64::from(sample);
@@ -134,11 +135,11 @@ impl Disc {
                 .elements
                 .iter()
                 .map(|element| {
-                    let [x, y, _] = element.center();
-                    motion.displacement_at([x, y], time)[component]
+                    let place = [element.center()[0], element.center()[1]];
+                    motion.displacement_at(place, time)[component]
                 })
                 .collect();
-            for (k, frequency) in FREQUENCIES.iter().enumerate() {
+            for (k, frequency) in DISC_FREQUENCIES.iter().enumerate() {
                 let phasor = Complex::polar(1.0, -frequency * time);
                 let record_motion = phasor.scale(record.at(time).displacement);
                 record_coefficients[k] = record_coefficients[k] + record_motion;
@@ -161,10 +162,10 @@ impl Disc {
             .motion(motion)
             .build()?;
         let steps = simulation.steps_for(1.8 * PULSE_TIME);
-        let mut responses = vec![Complex::real(0.0); FREQUENCIES.len()];
+        let mut responses = vec![Complex::real(0.0); DISC_FREQUENCIES.len()];
         let mut record_coefficients = responses.clone();
         simulation.run(steps, |state| {
-            for (k, frequency) in FREQUENCIES.iter().enumerate() {
+            for (k, frequency) in DISC_FREQUENCIES.iter().enumerate() {
                 let phasor = Complex::polar(1.0, -frequency * state.time);
                 let displacement = state.absolute_displacement()[component];
                 responses[k] = responses[k] + phasor.scale(displacement);
@@ -183,7 +184,7 @@ pub fn sampled_mean_squares(
     weights: &[Vec<Complex>],
     seed_count: u64,
 ) -> Result<Vec<[f64; 2]>> {
-    let mut squares = vec![vec![]; FREQUENCIES.len()];
+    let mut squares = vec![vec![]; DISC_FREQUENCIES.len()];
     for seed in 0..seed_count {
         let responses = disc.response(component, weights, seed)?;
         for (squares, response) in squares.iter_mut().zip(responses) {

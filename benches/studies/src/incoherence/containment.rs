@@ -81,7 +81,7 @@ fn containment() -> Result<(FemModel, [DofCombination; 3]), AnyError> {
 }
 
 /// Peaks of a run and its floor spectra.
-struct Response {
+struct ContainmentResponse {
     peaks: Vec<f64>,
     /// Pseudo-accelerations of each probe, g.
     spectra: [Vec<f64>; 3],
@@ -147,7 +147,7 @@ impl ContainmentScene {
     }
 
     /// Run with incoherent motion of a seed, or coherent motion.
-    fn run(&self, seed: Option<u64>) -> Result<Response, AnyError> {
+    fn run(&self, seed: Option<u64>) -> Result<ContainmentResponse, AnyError> {
         let soil = Soil::from_shear_wave_speed(SHEAR_WAVE_SPEED, 1.0 / 3.0, 2000.0)?;
         let ground = ElasticGround::under(soil, &self.model, self.cells)?;
         let ground = ground.with_shared_kernels(&self.kernels);
@@ -178,7 +178,7 @@ impl ContainmentScene {
                 spectrum.push(ordinate.pseudo_acceleration / STANDARD_GRAVITY);
             }
         }
-        Ok(Response { peaks: peaks.to_vec(), spectra, energy_error: run.energy_error })
+        Ok(ContainmentResponse { peaks: peaks.to_vec(), spectra, energy_error: run.energy_error })
     }
 }
 

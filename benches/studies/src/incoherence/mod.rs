@@ -13,7 +13,7 @@ use basemat::bem::plan::Plan;
 use basemat::motion::{AbrahamsonCoherence, Coherence, Incoherence, LucoWong, Triaxial};
 use basemat::prelude::*;
 use basemat_problems::incoherent_disc::{
-    COMPONENTS, Disc, FREQUENCIES, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
+    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
 };
 use cpu_time::ThreadTime;
 
@@ -70,12 +70,14 @@ fn disc(options: &IncoherenceOptions) -> Result<String, AnyError> {
     let seed_count = if options.short { 4 } else { options.disc_seeds };
     let disc = Disc::new(cells)?;
     let mut text = "| motion | a₀ | Luco and Mita (1987) | w* Γ w | difference, % | mean over seeds | its standard error |\n|---|---|---|---|---|---|---|\n".to_owned();
-    for ((component, published), name) in
-        COMPONENTS.into_iter().zip(PUBLISHED_MEAN_SQUARES).zip(["horizontal", "vertical"])
+    for ((component, published), name) in DISC_COMPONENTS
+        .into_iter()
+        .zip(PUBLISHED_MEAN_SQUARES)
+        .zip(["horizontal", "vertical"])
     {
         let weights = disc.weights(component)?;
         let sampled = sampled_mean_squares(&disc, component, &weights, seed_count)?;
-        for (k, frequency) in FREQUENCIES.into_iter().enumerate() {
+        for (k, frequency) in DISC_FREQUENCIES.into_iter().enumerate() {
             let direct = disc.mean_square(&weights[k], frequency)?;
             let [mean, standard_error] = sampled[k];
             writeln!(
