@@ -65,6 +65,11 @@ impl<'a> CellCoherence<'a> {
         self.points.len()
     }
 
+    /// Whether all matrices are positive semi-definite.
+    pub(super) fn is_semi_definite(&self) -> bool {
+        self.coherence.is_semi_definite()
+    }
+
     /// Row-major matrix of the coherence at a `frequency` (Hz).
     ///
     /// Returns an error for a coherence that is not between −1 and 1.

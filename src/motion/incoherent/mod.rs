@@ -23,7 +23,8 @@ use random_part::{Factor, NegativeEigenvalues, PhaseSequence};
 #[derive(Clone)]
 pub struct Incoherence {
     horizontal: Arc<dyn Coherence>,
-    vertical: Arc<dyn Coherence>,
+    /// Coherence of the vertical motion, if it is another one.
+    vertical: Option<Arc<dyn Coherence>>,
     /// Slowness of the wave along x and along y, s/m.
     slowness: [f64; 2],
     /// Point at which the motion is that of the records, m; the middle of the base if `None`.
@@ -48,10 +49,9 @@ const DEFAULT_BANDWIDTH: f64 = 0.5;
 impl Incoherence {
     /// Incoherence of this `coherence` in all directions.
     pub fn new(coherence: impl Coherence + 'static) -> Self {
-        let horizontal: Arc<dyn Coherence> = Arc::new(coherence);
         Self {
-            vertical: Arc::clone(&horizontal),
-            horizontal,
+            horizontal: Arc::new(coherence),
+            vertical: None,
             slowness: [0.0; 2],
             reference: None,
             bandwidth: DEFAULT_BANDWIDTH,
@@ -63,7 +63,7 @@ impl Incoherence {
     /// Replaces the coherence of the vertical motion.
     #[must_use]
     pub fn with_vertical(self, coherence: impl Coherence + 'static) -> Self {
-        Self { vertical: Arc::new(coherence), ..self }
+        Self { vertical: Some(Arc::new(coherence)), ..self }
     }
 
     /// Adds a wave that passes with an apparent velocity (m/s) in the direction `azimuth` (rad).
@@ -142,24 +142,23 @@ impl Incoherence {
         require_part("contact elements of an incoherent motion", !patch.has_walls(), needed)?;
         let reference = self.reference.unwrap_or_else(|| patch.center());
         let across = records.y.as_ref().filter(|_| patch.is_plan());
-        let across_record = records.y.as_ref();
+        let component_records = [records.x.as_ref(), across, records.up.as_ref()];
+        let horizontal = self.horizontal.as_ref();
+        let groups: &[(&dyn Coherence, &[usize])] = match &self.vertical {
+            None => &[(horizontal, &[0, 1, 2])],
+            Some(vertical) => &[(horizontal, &[0, 1]), (vertical.as_ref(), &[2])],
+        };
         let mut min_eigenvalue = 0.0_f64;
         let mut differences = [None, None, None];
-        let horizontal_records = [(0, records.x.as_ref()), (1, across)];
-        let vertical_records = [(2, records.up.as_ref())];
-        for (coherence, component_records) in
-            [(&self.horizontal, &horizontal_records[..]), (&self.vertical, &vertical_records[..])]
-        {
-            let cells = CellCoherence::new(coherence.as_ref(), reference, elements)?;
+        for (coherence, group) in groups {
+            let cells = CellCoherence::new(*coherence, reference, elements)?;
             let mut components = Vec::new();
-            for (component, record) in component_records {
-                if let Some(record) = record {
+            for component in *group {
+                if let Some(record) = component_records[*component] {
                     components.push(RandomComponent::new(*component, record, self)?);
                 }
             }
-            let is_semi_definite = coherence.is_semi_definite();
-            let knot_eigenvalue = self.fill_knots(&cells, is_semi_definite, &mut components)?;
-            min_eigenvalue = min_eigenvalue.min(knot_eigenvalue);
+            min_eigenvalue = min_eigenvalue.min(self.fill_knots(&cells, &mut components)?);
             for RandomComponent { component, spectrum, knots, .. } in components {
                 check_memory(elements.len(), spectrum.sample_count())?;
                 differences[component] =
@@ -182,7 +181,7 @@ impl Incoherence {
         Ok(IncoherentMotion {
             components: [
                 component(records.x.as_ref(), x),
-                component(across_record, y),
+                component(records.y.as_ref(), y),
                 component(records.up.as_ref(), up),
             ],
             elements: elements.to_vec(),
@@ -196,7 +195,6 @@ impl Incoherence {
     fn fill_knots(
         &self,
         cells: &CellCoherence<'_>,
-        is_semi_definite: bool,
         components: &mut [RandomComponent],
     ) -> Result<f64> {
         let element_count = cells.order() - 1;
@@ -209,7 +207,7 @@ impl Incoherence {
             let factor = if knot > 0 && components.iter().any(is_significant) {
                 let frequency = knot as f64 * self.bandwidth;
                 let negative_eigenvalues = self.negative_eigenvalues;
-                Some(Factor::new(cells, is_semi_definite, negative_eigenvalues, frequency)?)
+                Some(Factor::new(cells, negative_eigenvalues, frequency)?)
             } else {
                 None
             };

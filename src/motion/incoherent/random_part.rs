@@ -51,14 +51,13 @@ impl Factor {
     /// Factor of the coherence between elements at a `frequency`, Hz.
     pub(super) fn new(
         cells: &CellCoherence<'_>,
-        is_semi_definite: bool,
         negative_eigenvalues: NegativeEigenvalues,
         frequency: f64,
     ) -> Result<Self> {
         let order = cells.order();
         let mut matrix = cells.matrix(frequency)?;
         let mut min_eigenvalue = 0.0;
-        if !is_semi_definite {
+        if !cells.is_semi_definite() {
             min_eigenvalue = clip(&mut matrix, order, negative_eigenvalues)
                 .map_err(|fault| at_frequency(frequency, fault))?;
         }
@@ -68,7 +67,7 @@ impl Factor {
         let columns =
             pivoted_cholesky(diagonal, NEGLECTED_VARIANCE, means.len(), |pivot, column| {
                 for (i, value) in column.iter_mut().enumerate() {
-                    *value = covariance(i, pivot);
+                    *value = covariance(pivot, i);
                 }
             });
         let singular = Error::Singular { matrix: "coherence between elements", order };
