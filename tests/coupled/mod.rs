@@ -37,6 +37,7 @@ mod shear_column;
 mod soil_at_rest;
 mod soil_box;
 mod soil_column;
+mod space_fibre_frames;
 mod standing_scenes;
 mod static_loads;
 mod sweep;

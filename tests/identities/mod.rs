@@ -8,6 +8,8 @@
 mod beds;
 mod blueprint;
 mod compare;
+mod fiber_beams;
+mod fiber_frames;
 mod full_plane;
 mod gmsh;
 mod grounds;

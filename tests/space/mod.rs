@@ -10,6 +10,7 @@ mod equations;
 mod finite_elements;
 mod floor_spectra;
 mod hinges;
+mod incoherent_disc;
 mod interaction;
 mod landing;
 mod limits;

@@ -131,6 +131,7 @@ fn boxed_motions_forward_all_methods() {
         assert!(part.at_faces(&[], 3.0, &mut displacement, &mut impulse));
         assert_eq!([displacement, impulse], [[3.0], [MARKER_VALUE]]);
         assert_eq!(part.soils(), Some(&[MARKER_VALUE][..]));
+        assert_eq!(part.elements(), Some(&[][..]));
         assert!(part.moves_across() && part.records().is_empty());
         assert_eq!(part.velocity(3.0, 1.0), [MARKER_VALUE, 3.0]);
     }

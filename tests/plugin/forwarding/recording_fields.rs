@@ -33,6 +33,11 @@ impl FreeField for RecordingPart {
         true
     }
 
+    fn elements(&self) -> Option<&[ContactElement]> {
+        self.0.add("elements");
+        Some(&[])
+    }
+
     fn soils(&self) -> Option<&[f64]> {
         self.0.add("soils");
         Some(&[MARKER_VALUE])

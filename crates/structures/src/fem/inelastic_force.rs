@@ -167,7 +167,12 @@ pub(crate) fn read_hinge(
     Ok(Vec::from_iter(state))
 }
 
-/// State of a section of a beam of fibres in the plane.
+/// State of a section of a beam of fibres.
+///
+/// Directions are the axes of the beam: x from the first to the second node, y and z in the section. In the plane y is to the
+/// left of x, and what concerns bending along z and torsion is zero. Moments and curvatures follow the right-hand rule.
+/// Shear forces and torque are those of equilibrium along the beam, without the P–Δ effect; they act from the side of
+/// the second node.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct BeamSectionState {
@@ -177,12 +182,24 @@ pub struct BeamSectionState {
     pub length: f64,
     /// Strain of the line between the nodes; elongation is positive.
     pub axial_strain: f64,
-    /// Curvature, 1/m; it is positive where it stretches the fibres at negative y.
+    /// Curvature about z, 1/m; it is positive where it stretches the fibres at negative y.
     pub curvature: f64,
+    /// Curvature about y, 1/m; it is positive where it stretches the fibres at positive z.
+    pub curvature_about_y: f64,
+    /// Change of the rotation about x along the beam, rad/m.
+    pub twist_rate: f64,
     /// Axial force, N; tension is positive.
     pub axial_force: f64,
-    /// Bending moment, N m, positive with the curvature.
+    /// Bending moment about z, N m, positive with the curvature.
     pub moment: f64,
+    /// Bending moment about y, N m, positive with the curvature about y.
+    pub moment_about_y: f64,
+    /// Torque about x, N m, positive with the twist rate.
+    pub torque: f64,
+    /// Shear force along y, N.
+    pub shear: f64,
+    /// Shear force along z, N.
+    pub shear_along_z: f64,
     /// Fibres in the order of the section.
     pub fibers: Vec<FiberState>,
 }

@@ -44,7 +44,7 @@ mod vector;
 pub use crate::geometry::Direction;
 pub(crate) use assembly::{MatrixKind, assemble, set_static_state};
 pub(crate) use beam::EndFrame;
-pub use beam::{Beam, BeamSection, FiberBeam, SpaceBeam};
+pub use beam::{Beam, BeamSection, FiberBeam, SpaceBeam, SpaceFiberBeam};
 pub use element::{Element, ElementFace, MassKind};
 pub use fiber::{
     BeamFormulation, BeamQuadrature, BilinearSteel, Concrete, FiberSection, MenegottoPinto,

@@ -92,10 +92,11 @@ impl FemModel {
         self.element_states(element, read_points)
     }
 
-    /// Deformations, resultants and fibre stresses of the sections along a [`FiberBeam`](crate::fem::FiberBeam).
+    /// Deformations, resultants and fibre stresses of the sections along a beam of fibres.
     ///
-    /// They belong to the end of the last step, as [`solid_points`](FemModel::solid_points). The list is empty for other
-    /// elements with internal variables.
+    /// The beam is a [`FiberBeam`](crate::fem::FiberBeam) or a [`SpaceFiberBeam`](crate::fem::SpaceFiberBeam). The states
+    /// belong to the end of the last step, as [`solid_points`](FemModel::solid_points). The list is empty for other elements
+    /// with internal variables.
     ///
     /// # Errors
     /// As for [`solid_points`](FemModel::solid_points).
