@@ -45,15 +45,12 @@ fn pulse() -> Record {
 /// Mean of the coherence over pairs of points of a fine grid in both cells.
 fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement) -> f64 {
     let points = |element: &ContactElement| {
-        let count = 24;
         let mut points = vec![];
-        for i in 0..count {
-            for j in 0..count {
-                let fraction = |k: usize| (k as f64 + 0.5) / f64::from(count as u32);
-                points.push([
-                    element.left() + element.length() * fraction(i),
-                    element.depth()[0] + element.sides()[1] * fraction(j),
-                ]);
+        for i in 0..24 {
+            for j in 0..24 {
+                let x = element.left() + element.length() * (f64::from(i) + 0.5) / 24.0;
+                let y = element.depth()[0] + element.sides()[1] * (f64::from(j) + 0.5) / 24.0;
+                points.push([x, y]);
             }
         }
         points
@@ -104,7 +101,7 @@ fn coefficient(frequency: f64, mut sample: impl FnMut(f64) -> f64) -> Complex {
     for k in 0..1600 {
         let time = 0.01 * f64::from(k);
         let phase = Complex::polar(1.0, -std::f64::consts::TAU * frequency * time);
-        sum = sum + phase.scale(sample(time));
+        sum += phase.scale(sample(time));
     }
     sum
 }
