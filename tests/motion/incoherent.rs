@@ -68,12 +68,12 @@ fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement)
     sum / (receivers.len() * sources.len()) as f64
 }
 
-/// Means over cells by two Gauss points along each side, where waves are resolved.
+/// Means over cells by two Gauss points along each side: the error is (bl)⁴/180 with b = ωα/c and the side l = 40 m.
 #[test]
 fn mean_coherence_is_that_of_fine_grids() {
     let cells = cells();
     let coherence = LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap();
-    for (frequency, tolerance) in [(0.0, 1e-14), (1.0, 1e-5), (2.0, 2e-4), (4.0, 3e-3)] {
+    for (frequency, tolerance) in [(0.0, 1e-14), (1.0, 6e-5), (2.0, 6e-4), (4.0, 8e-3)] {
         let matrix = mean_coherence(&coherence, frequency, &cells).unwrap();
         for (i, receiver) in cells.iter().enumerate() {
             for (j, source) in cells.iter().enumerate() {
@@ -140,12 +140,12 @@ fn sample_coherence_is_the_coherence() {
                     .iter()
                     .map(|sample| sample[i] * Complex::new(sample[j].re, -sample[j].im))
                     .collect();
-                assert_mean(&products, fine_mean(frequency, receiver, source), 4e-3);
+                assert_mean(&products, fine_mean(frequency, receiver, source), 1e-2);
             }
             // The record at the reference point has its phase.
             let point = ContactElement::in_plan([reference[0]; 2], [reference[1]; 2]);
             let relative: Vec<Complex> = samples.iter().map(|sample| sample[i]).collect();
-            assert_mean(&relative, fine_mean(frequency, receiver, &point), 4e-3);
+            assert_mean(&relative, fine_mean(frequency, receiver, &point), 1e-2);
         }
     }
 }
