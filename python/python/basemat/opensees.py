@@ -46,7 +46,8 @@ class OpenSeesModel:
     ) -> None:
         self._rows, self._shape, self._model = rows, shape, model
         # A simulation takes this in place of the object.
-        self.__basemat_structure__, self._fiber_beams = fibers or (None, {})
+        self.__basemat_structure__: WithElements | None = fibers[0] if fibers else None
+        self._fiber_beams: dict[int, int] = fibers[1] if fibers else {}
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
         self.base = model.base
