@@ -14,6 +14,15 @@ from mkdocs.structure.files import File
 ROOT = Path(__file__).parents[2]
 SOURCE = "https://github.com/basemat/basemat/blob/main/"
 MODULES = ("basemat.opensees", "basemat.containment")
+SUBJECTS = {
+    "Structures": ("Structure", "Mesh", "GmshMesh", "GmshSpaceMesh", "Grid", "Layer", "Storey", "PlanStorey", "DeformedShape"),
+    "Soil and ground": ("Ground", "Soil", "SoilProfile", "SoilLayer", "Strip", "Plan", "Trench", "TrenchElements", "NearField"),
+    "Laws of the interface": ("InterfaceLaw", "Limits", "Joint", "ShallowFooting"),
+    "Springs and materials": ("Hysteresis", "Material", "BeamSection", "Iwan", "DruckerPrager"),
+    "Motions": ("FreeField", "Spectrum", "PlaneWave", "SoilColumn", "InclinedWave", "EquivalentLinear"),
+    "Simulations and results": ("Simulation", "Summary", "State", "Probe", "Load", "JointResults", "Interaction", "Fragility"),
+}
+"""Classes of each subject; classes that extend them belong to it."""
 STYLE = """/* Lines of code as wide as the window allows; longer ones break instead of scrolling. */
 .md-grid { max-width: 76rem; }
 .md-typeset pre > code { white-space: pre-wrap; overflow-wrap: anywhere; }
@@ -27,40 +36,48 @@ def on_files(files: Any, config: Any) -> Any:
     files.append(File.generated(config, "index.md", content=readme.replace(pages, "")))
     files.append(File.generated(config, "warnings.md", content=warnings_of_runs()))
     files.append(File.generated(config, "site.css", content=STYLE))
-    reference = reference_names()
-    files.append(File.generated(config, "reference.md", content=reference_index(reference)))
-    for names in reference.values():
-        for name in names:
+    pages_of_names = reference_pages()
+    files.append(File.generated(config, "reference.md", content=reference_index(pages_of_names)))
+    for group in pages_of_names.values():
+        for name, page in group.items():
             content = f"::: {name}\n" if name in MODULES else f"::: basemat.{name}\n"
-            files.append(File.generated(config, f"reference/{name}.md", content=content))
-    sections = [{title: [f"reference/{name}.md" for name in names]} for title, names in reference.items()]
+            files.append(File.generated(config, page, content=content))
+    sections = [{title: [{name: page} for name, page in group.items()]} for title, group in pages_of_names.items()]
     config.nav.append({"Reference": ["reference.md", *sections]})
     return files
 
 
-def reference_names() -> dict[str, list[str]]:
-    """Names of the package by kind."""
+def reference_pages() -> dict[str, dict[str, str]]:
+    """Names of the package by subject, with their pages."""
     import basemat
 
-    kinds: dict[str, list[str]] = {"Classes": [], "Functions": [], "Values": [], "Modules": list(MODULES)}
+    groups: dict[str, dict[str, str]] = {title: {} for title in (*SUBJECTS, "Other classes", "Functions", "Values", "Modules")}
+    heads = {title: tuple(getattr(basemat, name) for name in names) for title, names in SUBJECTS.items()}
     for name in basemat.__all__:
         item = getattr(basemat, name)
-        kind = "Classes" if inspect.isclass(item) else "Functions" if callable(item) else "Values"
-        kinds[kind].append(name)
-    return kinds
+        if inspect.isclass(item):
+            title = next((title for title, classes in heads.items() if issubclass(item, classes)), "Other classes")
+            groups[title][name] = f"reference/{name}.md"
+        elif callable(item):
+            # Some systems take `Fragility` and `fragility` for the same file.
+            groups["Functions"][name] = f"reference/functions/{name}.md"
+        else:
+            groups["Values"][name] = f"reference/{name}.md"
+    groups["Modules"] = {name: f"reference/{name}.md" for name in MODULES}
+    return groups
 
 
-def reference_index(reference: dict[str, list[str]]) -> str:
+def reference_index(pages_of_names: dict[str, dict[str, str]]) -> str:
     """Page with a line for each name."""
     import basemat
 
     lines = ["# Reference"]
-    for title, names in reference.items():
+    for title, group in pages_of_names.items():
         lines += ["", f"## {title}", "", "| | |", "|---|---|"]
-        for name in names:
+        for name, page in group.items():
             item = importlib.import_module(name) if name in MODULES else getattr(basemat, name)
             summary = "" if title == "Values" else (inspect.getdoc(item) or "").partition("\n\n")[0]
-            lines.append(f"| [`{name}`](reference/{name}.md) | {' '.join(summary.split()).replace('|', '&#124;')} |")
+            lines.append(f"| [`{name}`]({page}) | {' '.join(summary.split()).replace('|', '&#124;')} |")
     return "\n".join(lines) + "\n"
 
 

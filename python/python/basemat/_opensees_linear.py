@@ -110,6 +110,11 @@ class Elements:
             found[int(tag)] = nodes, float(printed[1]) if printed else None
         return found
 
+    def transformations(self, tag: int) -> list[str]:
+        """Types of the geometric transformations of an element."""
+        names = self._uses("crdTransformation", self._part("elements", tag).text)
+        return [self._part("crdTransformation", name).type for name in names]
+
     def _type(self, tag: int) -> str:
         return str(self._ops.eleType(tag))
 

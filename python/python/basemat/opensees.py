@@ -17,6 +17,7 @@ from ._opensees_base import Up, faces_of, line_of, masses, moves
 from ._opensees_fibers import LAWS, FiberBeams, rows_of, without_fibers
 from ._opensees_linear import Elements
 from ._opensees_matrices import largest_entries, matrices
+from ._opensees_nonlinear import NonlinearModel as NonlinearModel
 from ._opensees_rows import Rows
 from ._opensees_shape import base_nodes_of, shape_of
 from ._opensees_ties import Ties
@@ -143,6 +144,23 @@ def structure(
     To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
     than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
     """
+    return _structure(ops, base_nodes, width, outline, faces, below, up, tangent, fibers, warn_of_nonlinear=True)
+
+
+def _structure(
+    ops: Any,
+    base_nodes: Sequence[int] | None,
+    width: float | None,
+    outline: Sequence[Any] | None,
+    faces: Sequence[int | Sequence[int]] | None,
+    below: float | None,
+    up: Up,
+    tangent: Literal["initial", "present"],
+    fibers: Literal["yielding", "linear"],
+    *,
+    warn_of_nonlinear: bool,
+) -> OpenSeesModel:
+    """The structure with masses, damping and stiffness of the model; warnings are for the caller's caller."""
     if tangent not in ("initial", "present"):
         raise InputError(f"tangent is '{tangent}', but must be 'initial' or 'present'")
     if fibers not in ("yielding", "linear"):
@@ -170,12 +188,12 @@ def structure(
     with_fibers = FiberBeams(ops, elements) if fibers == "yielding" and tangent == "initial" else None
     yielding = {beam.tag for beam in with_fibers.beams} if with_fibers else set()
     rest = {kind: [tag for tag in tags if tag not in yielding] for kind, tags in elements.not_linear().items()}
-    if found := {kind: tags for kind, tags in rest.items() if tags}:
+    if warn_of_nonlinear and (found := {kind: tags for kind, tags in rest.items() if tags}):
         warnings.warn(
             f"the model of OpenSees is not linear: {_named(found)}. Their {tangent} tangent is taken, and stays in "
             f"the run{_refused(with_fibers.refused) if with_fibers else ''}",
             BasematWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     ties = Ties(ops, places, directions, penalty)
     if ties.chains:
@@ -184,7 +202,7 @@ def structure(
             f"ties to nodes that follow others: {chains}. They hold here, but not in OpenSees by its constraint handler "
             "Transformation: tie these nodes to the last of the chain",
             BasematWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     stiffness = initial if tangent == "initial" else present
     linear_stiffness = stiffness
@@ -201,9 +219,9 @@ def structure(
     held = moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0)
     # A node off its plane is why the structure does not rotate freely.
     if text := ties.off_plane(rows.at) or held:
-        warnings.warn(text, BasematWarning, stacklevel=2)
+        warnings.warn(text, BasematWarning, stacklevel=3)
     if uneven := masses(rows, mass, up):
-        warnings.warn(uneven, BasematWarning, stacklevel=2)
+        warnings.warn(uneven, BasematWarning, stacklevel=3)
     mesh, fiber_nodes, fiber_beams = with_fibers.mesh(rows.at) if with_fibers and yielding else (None, [], {})
     if mesh is not None:
         linear_stiffness = without_fibers(stiffness, mesh, fiber_nodes, places)
@@ -217,6 +235,38 @@ def structure(
     inelastic = (WithElements(model, mesh, rows_of(rows, fiber_nodes)), fiber_beams) if mesh is not None else None
     sparse = None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2])
     return OpenSeesModel(model, rows, shape, sparse, inelastic)
+
+
+def nonlinear_structure(
+    ops: Any,
+    base_nodes: Sequence[int] | None = None,
+    *,
+    width: float | None = None,
+    outline: Sequence[Any] | None = None,
+    faces: Sequence[int | Sequence[int]] | None = None,
+    below: float | None = None,
+    up: Up = "z",
+) -> NonlinearModel:
+    """The structure that the current model of OpenSees is, with elements that yield in a run.
+
+    Beams of fibres whose laws basemat has yield in `structure`, too, without OpenSees in the run. Forces and tangents are those of OpenSees at trial displacements; the end of a step commits them. So one simulation
+    moves the model: build it again for the next one. Elements are ``elasticBeamColumn``, ``dispBeamColumn`` (with
+    sections of fibres), ``zeroLength``, ``Truss``, ``corotTruss`` and ``ShellMITC4``, with the transformations Linear and
+    PDelta, in the plane Corotational, too; others raise an `InputError` that names them. Dashpots act by the damping
+    matrix of `structure`; Rayleigh damping is constant, by the initial stiffness. OpenSees writes no more messages
+    afterwards, as each trial would write one.
+
+    Args:
+        ops: the module ``openseespy.opensees`` with its model at rest, as for `structure`: 2400 degrees of freedom at most.
+        base_nodes: tags of the nodes on the ground; None for ``faces``.
+        width: length of a rigid base in the plane, m; None for several nodes.
+        outline: corners of a rigid base in space; None in the plane and for ``faces``.
+        faces: a flexible base in space; None for a rigid one.
+        below: distance of the ground's surface below the base, m; as in `structure` unless given.
+        up: axis of the model in space that points up, "z" or "y".
+    """
+    model = _structure(ops, base_nodes, width, outline, faces, below, up, "initial", "linear", warn_of_nonlinear=False)
+    return NonlinearModel(ops, model)
 
 
 def _directions(ops: Any) -> tuple[str, ...]:

@@ -320,8 +320,8 @@ impl InelasticForce for FiberBeam {
         let states = deformed.beam.section_states(&deformed.state, variables)?;
         let &[first, second] = coordinates else { return Ok(Vec::new()) };
         let along = add_scaled(second, -1.0, first);
-        let [_, first_moment, second_moment] = deformed.state.forces;
-        let shear = -(first_moment + second_moment) / deformed.beam.length;
+        let end_moments = deformed.state.forces[1] + deformed.state.forces[2];
+        let shear = -end_moments / deformed.beam.length;
         let sections = states.into_iter().map(|section| BeamSectionState {
             position: add_scaled(first, section.point.position, along),
             length: section.point.weight * deformed.beam.length,

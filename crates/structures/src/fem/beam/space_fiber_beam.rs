@@ -153,7 +153,7 @@ impl SpaceFiberBeam {
         coordinates: &[[f64; 3]],
         displacement: &[f64],
         variables: &[f64],
-    ) -> Result<DeformedBeam<'_>> {
+    ) -> Result<DeformedSpaceBeam<'_>> {
         same_length("coordinates of a beam", coordinates.len(), 2)?;
         same_length("displacement of a beam", displacement.len(), DOF_COUNT)?;
         same_length("internal variables of a beam", variables.len(), self.variable_count())?;
@@ -167,7 +167,7 @@ impl SpaceFiberBeam {
         let state = beam.state(&v, variables)?;
         let twist = dot(&rows.twist, displacement);
         let torsion = Torsion { stiffness: self.torsional_stiffness / axes.length, twist };
-        Ok(DeformedBeam { beam, rows, v, state, torsion })
+        Ok(DeformedSpaceBeam { beam, rows, v, state, torsion })
     }
 
     /// Rotary inertia about the line of the nodes per length, kg m: of mass spread as the stiffness of the fibres.
@@ -179,7 +179,7 @@ impl SpaceFiberBeam {
 }
 
 /// A beam in a deformed state.
-struct DeformedBeam<'a> {
+struct DeformedSpaceBeam<'a> {
     beam: BasicBeam<'a, 3, BASIC_COUNT>,
     rows: BasicRows,
     /// Elongation, and rotations relative to the chord.
@@ -352,8 +352,7 @@ impl InelasticForce for SpaceFiberBeam {
         let &[first, second] = coordinates else { return Ok(Vec::new()) };
         let along = add_scaled(second, -1.0, first);
         let length = deformed.beam.length;
-        let [_, first_about_z, second_about_z, first_about_y, second_about_y] =
-            deformed.state.forces;
+        let end_forces = deformed.state.forces;
         let sections = states.into_iter().map(|section| BeamSectionState {
             position: add_scaled(first, section.point.position, along),
             length: section.point.weight * length,
@@ -365,8 +364,8 @@ impl InelasticForce for SpaceFiberBeam {
             moment: section.forces[1],
             moment_about_y: section.forces[2],
             torque: deformed.torsion.torque(),
-            shear: -(first_about_z + second_about_z) / length,
-            shear_along_z: (first_about_y + second_about_y) / length,
+            shear: -(end_forces[1] + end_forces[2]) / length,
+            shear_along_z: (end_forces[3] + end_forces[4]) / length,
             fibers: section.fibers,
         });
         Ok(sections.collect())
