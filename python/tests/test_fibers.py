@@ -231,7 +231,8 @@ def test_models_pickle() -> None:
     names: dict[str, Any] = {}
     exec(Program(simulation).text("arrays.npz"), names)
     assert same_bits(names["simulation"].run(60)["top"], simulation.run(60)["top"])
-    assert repr(section()).startswith("FiberSection.with_bars(")
+    assert repr(section()).startswith("FiberSection().with_rectangle([[-0.3, -0.5], [0.3, 0.5]], [12, 1], Concrete(")
+    assert repr(section()).count(".with_bars(") == 2
     assert repr(STEEL) == "BilinearSteel(420000000.0, 200000000000.0, 0.015)"
 
 

@@ -156,7 +156,9 @@ def _repr(self: Any) -> str:
         return _values(self)
     is_named = isinstance(made.owner, type) or inspect.isfunction(made.owner)
     owner = made.owner if is_named else type(self)
-    name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
+    # A section shows all of its fibres.
+    before = repr(made.owner) if isinstance(made.owner, _core.FiberSection) else owner.__name__
+    name = owner.__name__ if made.name is None else f"{before}.{made.name}"
     keywords = [f"{name}={_short(value)}" for name, value in made.keywords.items()]
     call = f"{name}({', '.join([*map(_short, made.arguments), *keywords])})"
     # A count that was asked for may have been raised.
