@@ -3257,7 +3257,7 @@ class BeamSections:
         """Coordinates y and z of the fibres in their section: array of shape (f, 2), m."""
     @property
     def fiber_area(self) -> NDArray[np.float64]:
-        """Areas of the fibres: array of shape (f,), m²."""
+        """Area of each fibre, the factor of its stress in the resultants: array of shape (f,), m²."""
     @property
     def fiber_strain(self) -> NDArray[np.float64]:
         """Strains of the fibres, tension positive: array of shape (n, f), numbers without unit."""
