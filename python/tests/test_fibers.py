@@ -108,6 +108,10 @@ def test_sections_have_their_fibres() -> None:
     whole = section()
     assert whole.fiber_count == 12 + 6
     assert whole.axial_stiffness == pytest.approx(0.6 * 2 * 28e6 / 0.0021 + 6 * 800e-6 * 200e9, rel=1e-12)
+    positions = np.stack([(np.arange(12) + 0.5) * 0.05 - 0.3, np.zeros(12)], axis=1)
+    cut = bm.FiberSection().with_fibers(positions, 0.05, CONCRETE).with_fibers([[0.1, 0.2], [0.1, -0.2]], [1e-3, 2e-3], STEEL)
+    assert cut.fiber_count == 14
+    assert cut.axial_stiffness == pytest.approx(0.6 * 2 * 28e6 / 0.0021 + 3e-3 * 200e9, rel=1e-12)
     ring = bm.FiberSection().with_ring([0.0, 0.0], [0.0, 0.5], [4, 16], ELASTIC)
     assert ring.fiber_count == 64
     assert ring.axial_stiffness == pytest.approx(30e9 * np.pi * 0.25, rel=1e-12)
@@ -310,6 +314,7 @@ REFUSED: list[tuple[str, Callable[[], object]]] = [
     ("ultimate stress of the concrete", lambda: bm.Concrete(30e6, 0.002, 31e6, 0.006)),
     ("fibres of a section", lambda: LINE.add_fiber_beams(NODES, bm.FiberSection(), 0.0)),
     ("area of a fibre", lambda: bm.FiberSection().with_fiber([0.0, 0.0], 0.0, STEEL)),
+    ("areas has 2 entries, but must have one, or 3", lambda: bm.FiberSection().with_fibers(np.zeros((3, 2)), [0.1, 0.1], STEEL)),
     ("corners has 1 rows, but must have 2", lambda: bm.FiberSection().with_rectangle([[0.0, 1.0]], [1, 1], STEEL)),
     ("fibres along a side", lambda: bm.FiberSection().with_rectangle([[0.0, 0.0], [1.0, 1.0]], [1, 0], STEEL)),
     ("sectors of fibres", lambda: bm.FiberSection().with_ring([0.0, 0.0], [0.0, 1.0], [1, 2], STEEL)),

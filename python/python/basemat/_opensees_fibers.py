@@ -140,8 +140,9 @@ class FiberBeams:
             )
         y, z = y - area @ y / area.sum(), z - area @ z / area.sum()
         found = FiberSection()
-        for fiber in zip(y, z, area, material):
-            found = found.with_fiber([fiber[0], fiber[1]], fiber[2], laws[fiber[3]])
+        # Neighbours of one material at once.
+        for group in np.split(np.arange(len(y)), np.flatnonzero(np.diff(material)) + 1):
+            found = found.with_fibers(np.stack([y[group], z[group]], axis=1), area[group], laws[material[group[0]]])
         return found
 
     def _law(self, tag: int, section: int, material: int) -> Any:

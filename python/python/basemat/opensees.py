@@ -125,7 +125,7 @@ def structure(
             yield in a run: with a Linear transformation, one Fiber section, Lobatto or Legendre integration of 2 to 5
             points, and fibres of Elastic, Steel01 (without isotropic hardening), Steel02 (without initial stress) and
             Concrete01. Others stay linear, with a `BasematWarning` that names element, material and reason. Fibres must be
-            without stress. "linear" takes the tangent of all.
+            without stress. Rayleigh damping is constant, by their initial stiffness. "linear" takes the tangent of all.
 
     Returns:
         The structure at rest, without the loads of OpenSees and without its ``modalDamping``; a
