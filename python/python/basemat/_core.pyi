@@ -3909,6 +3909,10 @@ class FiberSection:
     def __new__(cls) -> Self: ...
     def with_fiber(self, position: Sequence[float], area: float, material: _FiberLaw) -> FiberSection:
         """Adds a fibre of a ``material`` at a ``position`` (y and z, m) with an ``area`` (m²)."""
+    def with_fibers(self, positions: ArrayLike, areas: ArrayLike, material: _FiberLaw) -> FiberSection:
+        """Adds fibres of a ``material`` at ``positions`` (array of shape (n, 2) of y and z, m) with ``areas`` (m²; one number or an
+        array of one per fibre).
+        """
     def with_rectangle(self, corners: ArrayLike, counts: Sequence[int], material: _FiberLaw) -> FiberSection:
         """Adds a rectangle of a ``material`` between two ``corners`` (array of shape (2, 2) of y and z, m), cut into ``counts``
         fibres along y and along z (two numbers).
