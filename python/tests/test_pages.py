@@ -5,6 +5,7 @@ REFERENCE: numbers that the pages quote; mypy and, where it is installed, pyrigh
 
 from __future__ import annotations
 
+import inspect
 import re
 import subprocess
 import sys
@@ -128,7 +129,7 @@ def test_the_site_has_no_warnings(tmp_path: Path) -> None:
     # A page for each class and function, with the site's header, and a way back to the list.
     for name in bm.__all__:
         value = getattr(bm, name)
-        if isinstance(value, type) or callable(value):
+        if isinstance(value, type) or inspect.isroutine(value):
             page = f"api/{name}.html" if isinstance(value, type) else f"api/functions/{name}.html"
             text = (tmp_path / page).read_text("utf-8")
             assert "<header" in text and "Reference" in text and "<h1 id=" in text, name
