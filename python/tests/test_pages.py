@@ -5,7 +5,6 @@ REFERENCE: numbers that the pages quote; mypy and, where it is installed, pyrigh
 
 from __future__ import annotations
 
-import inspect
 import re
 import subprocess
 import sys
@@ -120,27 +119,34 @@ def test_the_basement_has_the_numbers_of_the_example_in_rust(ran: dict[str, tupl
 
 
 def test_the_site_has_no_warnings(tmp_path: Path) -> None:
-    for module in ("mkdocs", "material", "pdoc"):
+    for module in ("mkdocs", "material", "mkdocstrings"):
         pytest.importorskip(module)
     # Warnings are errors in its settings.
     checked(["-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)])
     names = {own.relative_to(tmp_path).as_posix() for own in tmp_path.rglob("*.html")}
-    assert {"index.html", "tutorial.html", "gallery/cask.html", "api/index.html", "api/opensees/structure.html"} <= names
-    # A page for each class and function, with the site's header, and a way back to the list.
-    for name in bm.__all__:
-        value = getattr(bm, name)
-        if isinstance(value, type) or inspect.isroutine(value):
-            page = f"api/{name}.html" if isinstance(value, type) else f"api/functions/{name}.html"
-            text = (tmp_path / page).read_text("utf-8")
-            assert "<header" in text and "Reference" in text and "<h1 id=" in text, name
-    run = (tmp_path / "api" / "Run.html").read_text("utf-8")
-    assert 'id="Run.contact"' in run and 'id="Run.plot"' in run and 'href="Simulation.html' in run
-    assert "white-space: pre-wrap" in (tmp_path / "assets" / "site.css").read_text("utf-8")
+    assert {"index.html", "tutorial.html", "gallery/cask.html", "reference.html", "reference/basemat.opensees.html"} <= names
+    check_reference(tmp_path / "reference")
     for page in ("tutorial.html", "guide.html"):
         assert 'href="warnings.html"' in (tmp_path / page).read_text("utf-8")
     warnings = (tmp_path / "warnings.html").read_text("utf-8")
     assert warnings.count("<tr>") > 20 and "TimeScheme.midpoint()" in warnings and ">Midpoint<" not in warnings
     assert 'src="../images/cask.png"' in (tmp_path / "gallery" / "cask.html").read_text("utf-8")
+
+
+def check_reference(folder: Path) -> None:
+    """Each name has a page with its members, and with links to other pages."""
+    for name in bm.__all__:
+        value = getattr(bm, name)
+        page = folder / ("functions" if callable(value) and not isinstance(value, type) else "") / f"{name}.html"
+        text = page.read_text("utf-8")
+        assert "<header" in text and f'id="basemat.{name}"' in text, name
+    run = (folder / "Run.html").read_text("utf-8")
+    assert 'id="basemat.Run.plot"' in run and 'href="BasematWarning.html' in run
+    simulation = (folder / "Simulation.html").read_text("utf-8")
+    assert "fixed_base" in simulation.partition("</pre>")[0]
+    assert 'href="../reference.html"' in simulation and 'href="../index.html"' in simulation
+    # No text is left as it stands in the source.
+    assert re.findall(r":(?:class|meth|attr|func|data):", run + simulation) == []
 
 
 def pictures(page: str) -> set[str]:

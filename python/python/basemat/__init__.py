@@ -45,6 +45,8 @@ for _class, _name, _method in (
     (JointResults, "to_frame", _frames.joint_frame),
     (JointResults, "contact_frame", _frames.joint_contact_frame),
     (JointResults, "envelope_frame", _frames.joint_envelope_frame),
+    (BeamSections, "to_frame", _frames.beam_sections_frame),
+    (BeamSections, "fiber_frame", _frames.fiber_frame),
     (Spectrum, "to_frame", _frames.spectrum_frame),
     (Spectrum, "plot", _plots.plot_spectrum),
     (SoilProfile, "plot", _plots.plot_profile),
