@@ -33,6 +33,9 @@ const PHASE_BANDWIDTH: f64 = 0.25;
 /// Time step of the record, and time of its pulse, in R/c.
 const RECORD_TIME_STEP: f64 = 0.1;
 const PULSE_TIME: f64 = 60.0;
+/// Number of samples until the random motion has ended, and the time of the last one, in R/c.
+const SAMPLE_COUNT: u32 = 2000;
+const MOTION_DURATION: f64 = 200.0;
 
 /// The disc: its body and its ground.
 pub struct Disc {
@@ -129,7 +132,7 @@ impl Disc {
         let (motion, record) = self.motion(component, seed)?;
         let mut responses = vec![Complex::real(0.0); DISC_FREQUENCIES.len()];
         let mut record_coefficients = responses.clone();
-        for sample in 0..2000 {
+        for sample in 0..SAMPLE_COUNT {
             let time = RECORD_TIME_STEP * f64::from(sample);
             let displacements: Vec<f64> = self
                 .elements
@@ -154,14 +157,14 @@ impl Disc {
     /// Motion of the disc over that of the record at each frequency, from a run with the motion of a seed.
     pub fn run(&self, component: usize, seed: u64) -> Result<Vec<Complex>> {
         let (motion, record) = self.motion(component, seed)?;
-        let mut simulation = Simulation::builder(RECORD_TIME_STEP)
+        let mut simulation = Simulation::builder(WEIGHTS_TIME_STEP)
             .gravity(0.0)
             .structure(self.body.clone())
             .ground(Self::ground(&self.body, self.cell_count)?)
             .interface(Bonded)
             .motion(motion)
             .build()?;
-        let steps = simulation.steps_for(1.8 * PULSE_TIME);
+        let steps = simulation.steps_for(MOTION_DURATION);
         let mut responses = vec![Complex::real(0.0); DISC_FREQUENCIES.len()];
         let mut record_coefficients = responses.clone();
         simulation.run(steps, |state| {
