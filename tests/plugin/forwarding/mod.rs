@@ -195,7 +195,7 @@ fn boxed_elements_forward_all_methods() {
         part.damping(&[], &mut matrix);
         assert_eq!(matrix, [10.0 * MARKER_VALUE]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
-        assert!(part.inelastic().is_none());
+        assert!(part.inelastic().is_none() && !part.has_stiffness_damping());
         let stress = StressAtRest::new(9.81, 1900.0, 0.5).unwrap();
         assert!(part.with_stress_at_rest(&stress).is_some() && part.is_at_rest());
         assert_eq!(part.compression(), Some(MARKER_VALUE));

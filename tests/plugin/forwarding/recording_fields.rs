@@ -109,6 +109,11 @@ impl Element for RecordingPart {
         None
     }
 
+    fn has_stiffness_damping(&self) -> bool {
+        self.0.add("has_stiffness_damping");
+        false
+    }
+
     fn with_stress_at_rest(&self, _: &StressAtRest) -> Option<Box<dyn Element>> {
         self.0.add("with_stress_at_rest");
         Some(Box::new(RecordingPart(self.0.clone())))
