@@ -2,7 +2,8 @@
 
 use basemat_problems::heavy;
 use basemat_problems::incoherent_disc::{
-    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
+    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, SampledMean,
+    sampled_mean_squares,
 };
 
 /// GOAL: the mean square of the disc's motion is the published one, by w* Γ w, and the mean over seeds is w* Γ w.
@@ -15,7 +16,7 @@ fn disc_filters_incoherent_motion_as_published() {
         let sampled = sampled_mean_squares(&disc, component, &weights, seed_count).unwrap();
         for (k, frequency) in DISC_FREQUENCIES.into_iter().enumerate() {
             let direct = disc.mean_square(&weights[k], frequency).unwrap();
-            let [mean, standard_error] = sampled[k];
+            let SampledMean { mean, standard_error } = sampled[k];
             println!(
                 "{component} a0 = {frequency}: published {}, direct {direct:.4} ({:+.2} %), sampled {mean:.4} ± {standard_error:.4}",
                 published[k],
