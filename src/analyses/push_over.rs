@@ -85,9 +85,8 @@ pub struct PushOver {
 ///
 /// The curve ends at the first force without equilibrium, for example because the structure overturns or slides away.
 /// The limit then lies between two forces that differ by a ten-thousandth. Elements bear at their middles, so that a
-/// base of n elements overturns at (1 − 1/n) of W b/2. A curve with a falling branch ends at its peak;
-/// [`push_over_by_displacement`](super::push_over_by_displacement) follows it. On a half-plane
-/// displacements have no datum: control a rotation or a drift there.
+/// base of n elements overturns at (1 − 1/n) of W b/2. A curve with a falling branch ends at its peak.
+/// On a half-plane displacements have no datum: control a rotation or a drift there.
 ///
 /// ```
 /// use basemat::analyses::{PushControl, push_over};

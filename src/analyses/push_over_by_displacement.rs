@@ -22,7 +22,7 @@ const MIN_PART: f64 = 1.0 / 256.0;
 ///
 /// Uplift, slip, yielding and P–Δ are those of the scene. The states are a path: each commits the internal variables of the
 /// structure and the slip of the foundation, so that unloading and cycles are right. The curve passes the collapse load,
-/// where the structure is a mechanism, and follows a falling branch. `force` of a [`PushPoint`] is the load factor. The
+/// where the structure is a mechanism. `force` of a [`PushPoint`] is the load factor. The
 /// first point is the state without it. An increment
 /// without equilibrium is halved up to eight times. If that does not help, the curve ends, and
 /// [`PushOver::cause`] has the error's text; [`PushOver::limit`] is `None`. On a half-plane displacements have no datum: control a
@@ -48,7 +48,7 @@ const MIN_PART: f64 = 1.0 / 256.0;
 /// assert!((last.displacement - 0.32).abs() < 1e-9);
 /// // The block overturns at W b/2 over its height.
 /// let overturning = 48.0e3 * 9.81 * 2.0 / 6.0;
-/// assert!(last.uplifted_fraction > 0.8 && last.force < overturning && last.force > 0.9 * overturning);
+/// assert!(last.uplifted_fraction > 0.7 && last.force < overturning && last.force > 0.8 * overturning);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
