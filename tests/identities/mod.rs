@@ -8,6 +8,8 @@
 mod beds;
 mod blueprint;
 mod compare;
+mod fiber_beams;
+mod fiber_frames;
 mod full_plane;
 mod gmsh;
 mod grounds;
@@ -33,4 +35,5 @@ mod view;
 mod views;
 mod writings;
 mod yielding_elements;
+mod yielding_hinges;
 mod yielding_soil;

@@ -13,9 +13,9 @@ use super::compare::relative_difference;
 use super::tally::{IdentityTally, scenes};
 
 /// Largest relative difference, by rounding along a path.
-const ROUNDING_LIMIT: f64 = 1e-11;
+pub(super) const ROUNDING_LIMIT: f64 = 1e-11;
 /// Steps of a path.
-const PATH_STEPS: usize = 12;
+pub(super) const PATH_STEPS: usize = 12;
 
 /// Orthogonal map of the plane: a turn, after a mirror or not.
 #[derive(Debug, Clone, Copy)]
@@ -75,14 +75,15 @@ fn points(random: &mut Random, node_count: usize) -> Vec<[f64; 2]> {
 }
 
 /// Forces, tangent times the next displacement, energies and remainder along a path of displacements.
-struct PathResults {
-    forces: Vec<f64>,
-    tangent_forces: Vec<f64>,
+pub(super) struct PathResults {
+    pub(super) forces: Vec<f64>,
+    pub(super) tangent_forces: Vec<f64>,
     /// Stored and dissipated energy, remainder.
-    energies: Vec<f64>,
+    pub(super) energies: Vec<f64>,
 }
 
-fn follow(
+/// Follows a path of displacements from the undeformed element.
+pub(super) fn follow(
     element: &dyn Element,
     coordinates: &[[f64; 3]],
     path: &[Vec<f64>],

@@ -28,9 +28,8 @@ Known = Mapping[int, str]
 
 def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
     """Rows of a description and of those that it is made of; ``name``: what it is for the simulation."""
-    # A model of OpenSees is a MatrixModel.
-    model = getattr(value, "_model", None)
-    value = model if isinstance(model, _core.MatrixModel) else value
+    model = model_of_opensees(value)
+    value = value if model is None else model
     made = value if isinstance(value, Made) else getattr(value, "__dict__", {}).get(_MADE)
     if isinstance(value, _core.Record):
         samples = len(value.accelerations)
@@ -44,12 +43,23 @@ def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
         given = {attribute: getattr(value, attribute) for attribute in _signature(type(value)) if hasattr(value, attribute)}
         yield name, type(value).__name__, ""
         yield from _rows_of_arguments(name, given, inspect.getdoc(type(value)) or "", known)
+    elif hasattr(type(value), "_state_outside"):
+        yield name, repr(value), ""
     elif not inspect.isroutine(value) and hasattr(value, "__dict__"):
         # Of a class that the user wrote.
         yield name, type(value).__name__, ""
         yield from _rows_of_arguments(name, vars(value), "", known)
     else:
         yield name, _shown(value), ""
+
+
+def model_of_opensees(value: Any) -> _core.Structure | None:
+    """The structure that stands for a linear model of OpenSees, with its beams of fibres; None for other objects."""
+    model = getattr(value, "_model", None)
+    if not isinstance(model, _core.MatrixModel):
+        return None
+    with_fibers = getattr(value, "__basemat_structure__", None)
+    return with_fibers if isinstance(with_fibers, _core.Structure) else model
 
 
 def _rows_of_call(name: str, made: Made, known: Known) -> Iterator[Row]:

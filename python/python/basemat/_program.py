@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._parameters import model_of_opensees
 from ._pickling import _CALLS, _MADE, Made, _layer
 
 _SHORT = 30
@@ -153,8 +154,7 @@ class Program:
         kind = type(value)
         if kind.__module__ == "basemat":
             return self._of_package(value)
-        # A model of OpenSees is a MatrixModel.
-        if isinstance(model := getattr(value, "_model", None), _core.MatrixModel):
+        if (model := model_of_opensees(value)) is not None:
             return self._text(model)
         return self._of_user(value)
 
@@ -172,6 +172,9 @@ class Program:
         """An object of a class that the user wrote: its class and its attributes; or a name that is said to be missing."""
         kind = type(value)
         words = f"the {kind.__name__} of the argument {self._subject}"
+        if hasattr(kind, "_state_outside"):
+            self.missing.append(kind._state_outside)
+            return self._subject
         if inspect.isroutine(value) or isinstance(value, type) or not hasattr(value, "__dict__"):
             function = getattr(value, "__name__", kind.__name__)
             self.missing.append(f"the function {function} of the argument {self._subject}")

@@ -1,5 +1,6 @@
 //! Forces of elements with internal variables.
 
+use super::hinge_state::HingeState;
 use super::internal_energy::InternalEnergy;
 use super::solid::SolidState;
 use crate::error::Result;
@@ -81,6 +82,13 @@ pub trait InelasticForce: Send + Sync {
         variables: &[f64],
     ) -> Result<f64>;
 
+    /// Rows of the deformations that can yield: weights of the element's degrees of freedom. Default: none.
+    ///
+    /// A model returns an error if its links and ties do not let one of them change. Such an element would be rigid there.
+    fn yielding_deformations(&self, _coordinates: &[[f64; 3]]) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
     /// Overwrites `variables` by those after a step that ended with `displacement`.
     fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]);
 
@@ -109,6 +117,19 @@ pub trait InelasticForce: Send + Sync {
     ) -> Result<Vec<BeamSectionState>> {
         Ok(Vec::new())
     }
+
+    /// State of a hinge, for results. Default: `None`, for other elements.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn hinge(
+        &self,
+        _coordinates: &[[f64; 3]],
+        _displacement: &[f64],
+        _variables: &[f64],
+    ) -> Result<Option<HingeState>> {
+        Ok(None)
+    }
 }
 
 /// Method that returns states in an element from coordinates, displacement and internal variables.
@@ -135,7 +156,23 @@ pub(crate) fn read_sections(
     force.sections(coordinates, displacement, variables)
 }
 
-/// State of a section of a beam of fibres in the plane.
+/// [`InelasticForce::hinge`] as a [`ReadStates`], with one state or none.
+pub(crate) fn read_hinge(
+    force: &dyn InelasticForce,
+    coordinates: &[[f64; 3]],
+    displacement: &[f64],
+    variables: &[f64],
+) -> Result<Vec<HingeState>> {
+    let state = force.hinge(coordinates, displacement, variables)?;
+    Ok(Vec::from_iter(state))
+}
+
+/// State of a section of a beam of fibres.
+///
+/// Directions are the axes of the beam: x from the first to the second node, y and z in the section. In the plane y is to the
+/// left of x, and what concerns bending along z and torsion is zero. Moments and curvatures follow the right-hand rule.
+/// Shear forces and torque are those of equilibrium along the beam, without the P–Δ effect; they act from the side of
+/// the second node.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct BeamSectionState {
@@ -145,12 +182,24 @@ pub struct BeamSectionState {
     pub length: f64,
     /// Strain of the line between the nodes; elongation is positive.
     pub axial_strain: f64,
-    /// Curvature, 1/m; it is positive where it stretches the fibres at negative y.
+    /// Curvature about z, 1/m; it is positive where it stretches the fibres at negative y.
     pub curvature: f64,
+    /// Curvature about y, 1/m; it is positive where it stretches the fibres at positive z.
+    pub curvature_about_y: f64,
+    /// Change of the rotation about x along the beam, rad/m.
+    pub twist_rate: f64,
     /// Axial force, N; tension is positive.
     pub axial_force: f64,
-    /// Bending moment, N m, positive with the curvature.
+    /// Bending moment about z, N m, positive with the curvature.
     pub moment: f64,
+    /// Bending moment about y, N m, positive with the curvature about y.
+    pub moment_about_y: f64,
+    /// Torque about x, N m, positive with the twist rate.
+    pub torque: f64,
+    /// Shear force along y, N.
+    pub shear: f64,
+    /// Shear force along z, N.
+    pub shear_along_z: f64,
     /// Fibres in the order of the section.
     pub fibers: Vec<FiberState>,
 }

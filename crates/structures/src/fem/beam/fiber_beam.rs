@@ -24,6 +24,8 @@ const DOF_COUNT: usize = 6;
 
 /// Beam or column of fibres in the plane, rigidly connected to its two nodes.
 ///
+/// Meshes in space have a [`SpaceFiberBeam`](super::SpaceFiberBeam).
+///
 /// An Euler–Bernoulli beam whose [`FiberSection`] is integrated at the points of a [`BeamQuadrature`]. With the
 /// [`BeamFormulation`] by displacements (the default) the curvature varies linearly along the element: divide a member
 /// where it yields into several elements. With that by forces one element is a member: forces are in equilibrium at
@@ -318,6 +320,8 @@ impl InelasticForce for FiberBeam {
         let states = deformed.beam.section_states(&deformed.state, variables)?;
         let &[first, second] = coordinates else { return Ok(Vec::new()) };
         let along = add_scaled(second, -1.0, first);
+        let end_moments = deformed.state.forces[1] + deformed.state.forces[2];
+        let shear = -end_moments / deformed.beam.length;
         let sections = states.into_iter().map(|section| BeamSectionState {
             position: add_scaled(first, section.point.position, along),
             length: section.point.weight * deformed.beam.length,
@@ -325,7 +329,9 @@ impl InelasticForce for FiberBeam {
             curvature: section.deformations[1],
             axial_force: section.forces[0],
             moment: section.forces[1],
+            shear,
             fibers: section.fibers,
+            ..BeamSectionState::default()
         });
         Ok(sections.collect())
     }

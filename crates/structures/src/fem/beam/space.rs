@@ -327,12 +327,12 @@ impl Element for SpaceBeam {
 }
 
 /// Adds the nodes of a beam to its error.
-fn within_beam([first, second]: [usize; 2], fault: Error) -> Error {
+pub(super) fn within_beam([first, second]: [usize; 2], fault: Error) -> Error {
     fault.within(format!("beam between nodes {first} and {second}"))
 }
 
 /// Local matrix of axial displacements, torsion, and bending along y and along z.
-fn local_matrix(
+pub(super) fn local_matrix(
     axial: &BarMatrix,
     torsion: &BarMatrix,
     bending: &[BendingMatrix; 2],

@@ -3,7 +3,7 @@
 //! | part | files |
 //! |---|---|
 //! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs`, `concrete.rs` |
-//! | sections of fibres | `section.rs` |
+//! | sections of fibres | `section.rs`, `section_shapes.rs`, `section_checks.rs` |
 //! | forces of a beam without rigid motions | `basic_beam.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
 
 mod basic_beam;
@@ -13,6 +13,8 @@ mod interpolation;
 mod menegotto_pinto;
 mod quadrature;
 mod section;
+mod section_checks;
+mod section_shapes;
 #[cfg(test)]
 mod tests;
 
@@ -27,12 +29,12 @@ pub use basic_beam::BeamFormulation;
 pub(super) use basic_beam::{BasicBeam, BasicState};
 pub use bilinear_steel::BilinearSteel;
 pub use concrete::Concrete;
-pub(super) use interpolation::PLANE_BENDING;
+pub(super) use interpolation::{PLANE_BENDING, SPACE_BENDING};
 pub use menegotto_pinto::MenegottoPinto;
 pub(super) use quadrature::BeamPoint;
 pub use quadrature::BeamQuadrature;
 pub use section::FiberSection;
-pub(super) use section::plane_strains;
+pub(super) use section::{plane_strains, space_strains};
 
 /// Stress of a fibre and its derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

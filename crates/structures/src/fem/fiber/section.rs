@@ -1,11 +1,10 @@
 //! Cross-section of fibres.
 
-use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::UniaxialMaterial;
-use crate::error::{Error, Result, all_finite, at_least, positive};
+use crate::error::{Error, Result, all_finite, positive};
 use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::add_outer;
@@ -28,6 +27,11 @@ struct Fiber {
 /// curvature stretches the fibres at negative y) and take no notice of z. Areas are in m²; in the plane, where all is
 /// per metre of thickness, give the area per metre.
 ///
+/// Beams in space also bend along z (a positive curvature about y stretches the fibres at positive z), and twist elastically
+/// with [`with_torsional_stiffness`](FiberSection::with_torsional_stiffness). Fibres have the strain of their middles: cut
+/// shapes into several fibres along each axis along which the section bends. A beam returns an error if rectangles that are not
+/// divided leave out more than a third of the bending stiffness.
+///
 /// ```
 /// use basemat::fem::{BilinearSteel, Concrete, FiberSection};
 ///
@@ -47,6 +51,10 @@ struct Fiber {
 pub struct FiberSection {
     fibers: Vec<Fiber>,
     variable_count: usize,
+    /// G J, N m²; `None` for a section of beams in the plane.
+    pub(super) torsional_stiffness: Option<f64>,
+    /// Bending stiffness along y and z of rectangular fibres about their own middles, N m², which the strains leave out.
+    pub(super) neglected_stiffness: [f64; 2],
 }
 
 /// Resultants of a section and their derivatives with respect to its N deformations.
@@ -61,6 +69,11 @@ pub(in crate::fem) struct SectionResponse<const N: usize> {
 /// Strain of a fibre due to unit deformations of its section: axial strain, curvature (1/m).
 pub(in crate::fem) fn plane_strains([y, _]: [f64; 2]) -> [f64; 2] {
     [1.0, -y]
+}
+
+/// Strain of a fibre due to axial strain and the curvatures about z and about y (1/m).
+pub(in crate::fem) fn space_strains([y, z]: [f64; 2]) -> [f64; 3] {
+    [1.0, -y, z]
 }
 
 impl FiberSection {
@@ -83,7 +96,7 @@ impl FiberSection {
     }
 
     /// Adds fibres of one material, as (position, area).
-    fn with_fibers(
+    pub(super) fn with_fibers(
         mut self,
         fibers: &[([f64; 2], f64)],
         material: &Arc<dyn UniaxialMaterial>,
@@ -100,118 +113,25 @@ impl FiberSection {
         Ok(self)
     }
 
-    /// Adds a rectangle between two `corners` [y, z] (m), cut into `counts` fibres along y and z.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] and [`Error::Input`] for corners that are not finite or equal in y or z, and for a material
-    /// without a positive modulus; [`Error::Size`] without fibres.
-    pub fn with_rectangle(
-        self,
-        corners: [[f64; 2]; 2],
-        counts: [usize; 2],
-        material: impl UniaxialMaterial,
-    ) -> Result<Self> {
-        all_finite("corners of a rectangle of fibres", corners.as_flattened())?;
-        let sizes = [0, 1].map(|axis| (corners[1][axis] - corners[0][axis]) / counts[axis] as f64);
-        for count in counts {
-            at_least("fibres along a side of a rectangle", count, 1)?;
+    /// Adds bending stiffness that the strains of fibres leave out, N m².
+    pub(super) fn with_neglected_stiffness(mut self, stiffness: [f64; 2]) -> Self {
+        for (sum, value) in self.neglected_stiffness.iter_mut().zip(stiffness) {
+            *sum += value;
         }
-        let area = positive("area of a fibre", (sizes[0] * sizes[1]).abs())?;
-        let mut fibers = Vec::with_capacity(counts[0] * counts[1]);
-        for i in 0..counts[0] {
-            for j in 0..counts[1] {
-                let y = corners[0][0] + (i as f64 + 0.5) * sizes[0];
-                let z = corners[0][1] + (j as f64 + 0.5) * sizes[1];
-                fibers.push(([y, z], area));
-            }
-        }
-        self.with_fibers(&fibers, &shared(material))
+        self
     }
 
-    /// Adds a ring (or a disc) about `center` [y, z] (m), cut into `counts` rings and sectors.
+    /// Sets the torsional stiffness G J (N m²) for beams in space.
     ///
-    /// `radii`: inside (0 for a disc) and outside, m. Each fibre lies at the centroid of its part of the ring.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] and [`Error::Input`] unless the centre is finite and 0 ≤ inside < outside, and for a material
-    /// without a positive modulus; [`Error::Size`] unless there are a ring and three sectors.
-    pub fn with_ring(
-        self,
-        center: [f64; 2],
-        radii: [f64; 2],
-        counts: [usize; 2],
-        material: impl UniaxialMaterial,
-    ) -> Result<Self> {
-        all_finite("centre of a ring of fibres", &center)?;
-        crate::error::not_negative("inner radius of a ring of fibres", radii[0])?;
-        let thickness = positive("thickness of a ring of fibres", radii[1] - radii[0])?;
-        at_least("rings of fibres", counts[0], 1)?;
-        at_least("sectors of fibres", counts[1], 3)?;
-        let half_angle = PI / counts[1] as f64;
-        let mut fibers = Vec::with_capacity(counts[0] * counts[1]);
-        for ring in 0..counts[0] {
-            let inner = radii[0] + thickness * ring as f64 / counts[0] as f64;
-            let outer = radii[0] + thickness * (ring + 1) as f64 / counts[0] as f64;
-            let area = half_angle * (outer * outer - inner * inner);
-            let radius = 2.0 * half_angle.sin() * (outer.powi(3) - inner.powi(3)) / (3.0 * area);
-            for sector in 0..counts[1] {
-                let angle = 2.0 * half_angle * (sector as f64 + 0.5);
-                let position = [center[0] + radius * angle.cos(), center[1] + radius * angle.sin()];
-                fibers.push((position, area));
-            }
-        }
-        self.with_fibers(&fibers, &shared(material))
-    }
-
-    /// Adds `count` bars of `bar_area` (m²) on a straight line between two `ends` [y, z] (m), ends included.
-    ///
-    /// A single bar lies in the middle. The bars do not replace the concrete around them.
+    /// The section twists elastically: its torque, G J times the twist rate, has no part in the stresses of the fibres. J is
+    /// as for [`BeamSection::new`](crate::fem::BeamSection::new). Cracked concrete has a fraction of the uncracked stiffness.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for the ends, [`Error::Size`] without bars, [`Error::Input`] unless area and modulus are
-    /// positive.
-    pub fn with_bars(
-        self,
-        ends: [[f64; 2]; 2],
-        count: usize,
-        bar_area: f64,
-        material: impl UniaxialMaterial,
-    ) -> Result<Self> {
-        at_least("bars of a layer", count, 1)?;
-        let position = |bar: usize| {
-            let s = if count == 1 { 0.5 } else { bar as f64 / (count - 1) as f64 };
-            [0, 1].map(|axis| (1.0 - s) * ends[0][axis] + s * ends[1][axis])
-        };
-        let fibers: Vec<_> = (0..count).map(|bar| (position(bar), bar_area)).collect();
-        self.with_fibers(&fibers, &shared(material))
-    }
-
-    /// Adds an I-section about the middle of its height: two flanges and a web, bent about its strong axis along y.
-    ///
-    /// `depth` over all and `flange_width`, with the thicknesses of web and flanges, m. Each flange has `counts[0]` and
-    /// the web `counts[1]` layers of fibres along y.
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless all are positive and the flanges thinner than half of the depth; as
-    /// [`with_rectangle`](FiberSection::with_rectangle).
-    pub fn with_i_section(
-        self,
-        [depth, flange_width]: [f64; 2],
-        [web_thickness, flange_thickness]: [f64; 2],
-        counts: [usize; 2],
-        material: impl UniaxialMaterial + Clone,
-    ) -> Result<Self> {
-        positive("flange width of an I-section", flange_width)?;
-        positive("web thickness of an I-section", web_thickness)?;
-        positive("flange thickness of an I-section", flange_thickness)?;
-        let web_height = positive("web height of an I-section", depth - 2.0 * flange_thickness)?;
-        let top = 0.5 * depth;
-        let edge = 0.5 * web_height;
-        let flange = 0.5 * flange_width;
-        let web = 0.5 * web_thickness;
-        self.with_rectangle([[-top, -flange], [-edge, flange]], [counts[0], 1], material.clone())?
-            .with_rectangle([[-edge, -web], [edge, web]], [counts[1], 1], material.clone())?
-            .with_rectangle([[edge, -flange], [top, flange]], [counts[0], 1], material)
+    /// [`Error::Input`] unless it is positive.
+    pub fn with_torsional_stiffness(self, torsional_stiffness: f64) -> Result<Self> {
+        let quantity = "torsional stiffness of a section of fibres";
+        let torsional_stiffness = Some(positive(quantity, torsional_stiffness)?);
+        Ok(Self { torsional_stiffness, ..self })
     }
 
     /// Number of fibres.
@@ -222,14 +142,6 @@ impl FiberSection {
     /// Axial stiffness Σ E A of small strains, N.
     pub fn axial_stiffness(&self) -> f64 {
         self.fibers.iter().map(|fiber| fiber.material.modulus() * fiber.area).sum()
-    }
-
-    /// Returns an error for a section without fibres, or whose fibres lie on a line along z.
-    pub(in crate::fem) fn check_plane(&self) -> Result<()> {
-        at_least("fibres of a section", self.fiber_count(), 2)?;
-        let [[axial, coupling], [_, bending]] = self.elastic_stiffness(plane_strains);
-        let depth = bending - coupling * coupling / axial;
-        positive("bending stiffness of a section of fibres", depth).map(drop)
     }
 
     /// Number of internal variables.
@@ -366,7 +278,7 @@ impl FiberSection {
 }
 
 /// The law of several fibres.
-fn shared(material: impl UniaxialMaterial) -> Arc<dyn UniaxialMaterial> {
+pub(super) fn shared(material: impl UniaxialMaterial) -> Arc<dyn UniaxialMaterial> {
     Arc::new(material)
 }
 
