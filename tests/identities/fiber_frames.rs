@@ -39,7 +39,7 @@ impl FiberPortal {
 
     fn add_mass(&self, mesh: &mut Mesh, node: usize, mass: f64) -> Result<()> {
         let mass = if self.in_space {
-            LumpedMass::in_space(node, mass, [mass; 3])?
+            LumpedMass::in_space(node, mass, [0.0; 3])?
         } else {
             LumpedMass::new(node, mass)?
         };
@@ -76,8 +76,6 @@ impl FiberPortal {
     /// The model, and the node at the top of its right column.
     fn model(&self) -> Result<(FemModel, usize)> {
         let mut mesh = if self.in_space { Mesh::in_space() } else { Mesh::new() };
-        let leader = self.node(&mut mesh, 0.0, 0.0, 0.3)?;
-        self.add_mass(&mut mesh, leader, 8.0e3)?;
         let [half_length, half_width] = MAT_SIDES.map(|side| 0.5 * side);
         let corners: &[[f64; 2]] = if self.in_space {
             &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
@@ -87,14 +85,14 @@ impl FiberPortal {
         let mut contact_nodes = Vec::new();
         for [x, y] in corners {
             let node = self.node(&mut mesh, x * half_length, y * half_width, 0.0)?;
-            self.add_mass(&mut mesh, node, 1.0)?;
+            self.add_mass(&mut mesh, node, 8.0e3 / corners.len() as f64)?;
             contact_nodes.push(node);
         }
-        let mut followers = contact_nodes.clone();
+        let mut feet = Vec::new();
         let mut tops = Vec::new();
         for (x, mass) in [(-1.2, 6.0e3), (1.2, 7.0e3)] {
             let foot = self.node(&mut mesh, x, 0.0, 0.3)?;
-            followers.push(foot);
+            feet.push(foot);
             let mut below = foot;
             for up in [0.2 * FRAME_HEIGHT, FRAME_HEIGHT] {
                 let above = self.node(&mut mesh, x, 0.0, 0.3 + up)?;
@@ -106,11 +104,11 @@ impl FiberPortal {
         }
         self.add_girder(&mut mesh, [tops[0], tops[1]])?;
         let model = if self.in_space {
-            FemModel::on_faces(mesh, &[contact_nodes])?
+            FemModel::on_faces(mesh, &[contact_nodes.clone()])?
         } else {
             FemModel::new(mesh, &contact_nodes)?
         };
-        let model = model.with_rigid_link(leader, &followers)?;
+        let model = model.with_rigid_link(feet[0], &[&contact_nodes[..], &feet[1..]].concat())?;
         let model = model.with_rayleigh(RayleighDamping::new(0.0, 5e-4)?);
         Ok((model.with_p_delta(9.81)?, tops[1]))
     }
