@@ -37,4 +37,14 @@ rm -rf "$clean"
 "${programs/#$venv/$clean}/pip" install -q "$wheel"
 (cd "$clean" && PATH=/usr/bin:/bin "${programs/#$venv/$clean}/python" -m basemat.containment --duration 2)
 case "$wheel" in *-cp39-abi3-*) ;; *) echo "no abi3 wheel: $wheel"; exit 1 ;; esac
+# The workflow that builds wheels for other systems, against the schema of such files that the linter contains.
+if "$programs/pip" install -q check-jsonschema; then
+    "$programs/check-jsonschema" --builtin-schema vendor.github-workflows ../.github/workflows/*.yml
+fi
+# On Linux: the oldest C library that the wheel runs with, which depends on the machine that builds it. Wheels that are given
+# away are built in images of manylinux (.github/workflows/wheels.yml).
+if [[ "$(uname -s)" == Linux ]] && "$programs/pip" install -q auditwheel; then
+    case "$wheel" in *manylinux*) ;; *) echo "no manylinux wheel: $wheel"; exit 1 ;; esac
+    "$programs/auditwheel" show "$wheel" | grep -A1 "is consistent with"
+fi
 echo "wheel: $wheel"

@@ -169,6 +169,7 @@
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
+//! | coherence of ground motion | [`motion::Coherence`], or a closure in [`motion::CoherenceFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | soil that has convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
 //! | damping law of a soil | [`soil::Relaxation`] | 1 |

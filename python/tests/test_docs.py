@@ -281,17 +281,6 @@ def test_names_of_the_core_in_messages_have_pythons_words() -> None:
     assert len(named) > 5 and {name for name in named if name not in table} == set()
 
 
-def test_pages_have_every_name(tmp_path: Path) -> None:
-    pdoc = pytest.importorskip("pdoc")
-    pdoc.render.configure(docformat="google", show_source=False)
-    pdoc.pdoc("basemat", output_directory=tmp_path)
-    page = (tmp_path / "basemat.html").read_text("utf-8")
-    assert [name for name in bm.__all__ if f'id="{name}"' not in page] == []
-    assert 'id="Run.plot"' in page and 'href="#Run.contact"' in page
-    # No text is left as it stands in the source.
-    assert re.findall(r":(?:class|meth|attr|func|data):", page) == []
-
-
 def test_help_has_no_raw_roles() -> None:
     roles = re.compile(r":(?:class|meth|attr|func|data):`")
     assert [name for name, value in PUBLIC.items() if roles.search(inspect.getdoc(value) or "")] == []

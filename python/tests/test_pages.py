@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import basemat as bm
@@ -81,6 +82,10 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
         if page in ran:
             assert {own.name for own in ran[page][1].iterdir()} == {f"{page}.png"}
     assert len(ran["fragility"][0]["table"]) == 200 and ran["fragility"][0]["table"]["error"].isna().all()
+    assert len(ran["fragility"][0]["analysis"]) < 150
+    # Both methods have the same curve within its errors.
+    stripes, capacities = ran["fragility"][0]["stripes"], ran["fragility"][0]["capacities"]
+    assert abs(np.log(stripes.median / capacities.median)) < 2.0 * stripes.log_median_error
     yielding = ran["yielding"][0]
     assert f"reaches {1e-3 * yielding['linear_stress']:.0f} kPa" in (pages.DOCS / "gallery" / "yielding.md").read_text("utf-8")
     assert 35e3 < max(yielding["stress"]) < 40e3
@@ -114,17 +119,34 @@ def test_the_basement_has_the_numbers_of_the_example_in_rust(ran: dict[str, tupl
 
 
 def test_the_site_has_no_warnings(tmp_path: Path) -> None:
-    for module in ("mkdocs", "material", "pdoc"):
+    for module in ("mkdocs", "material", "mkdocstrings"):
         pytest.importorskip(module)
     # Warnings are errors in its settings.
     checked(["-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)])
     names = {own.relative_to(tmp_path).as_posix() for own in tmp_path.rglob("*.html")}
-    assert {"index.html", "tutorial.html", "gallery/cask.html", "api/basemat.html", "api/basemat/opensees.html"} <= names
+    assert {"index.html", "tutorial.html", "gallery/cask.html", "reference.html", "reference/basemat.opensees.html"} <= names
+    check_reference(tmp_path / "reference")
     for page in ("tutorial.html", "guide.html"):
         assert 'href="warnings.html"' in (tmp_path / page).read_text("utf-8")
     warnings = (tmp_path / "warnings.html").read_text("utf-8")
     assert warnings.count("<tr>") > 20 and "TimeScheme.midpoint()" in warnings and ">Midpoint<" not in warnings
     assert 'src="../images/cask.png"' in (tmp_path / "gallery" / "cask.html").read_text("utf-8")
+
+
+def check_reference(folder: Path) -> None:
+    """Each name has a page with its members, and with links to other pages."""
+    for name in bm.__all__:
+        value = getattr(bm, name)
+        page = folder / ("functions" if callable(value) and not isinstance(value, type) else "") / f"{name}.html"
+        text = page.read_text("utf-8")
+        assert "<header" in text and f'id="basemat.{name}"' in text, name
+    run = (folder / "Run.html").read_text("utf-8")
+    assert 'id="basemat.Run.plot"' in run and 'href="BasematWarning.html' in run
+    simulation = (folder / "Simulation.html").read_text("utf-8")
+    assert "fixed_base" in simulation.partition("</pre>")[0]
+    assert 'href="../reference.html"' in simulation and 'href="../index.html"' in simulation
+    # No text is left as it stands in the source.
+    assert re.findall(r":(?:class|meth|attr|func|data):", run + simulation) == []
 
 
 def pictures(page: str) -> set[str]:

@@ -1,10 +1,11 @@
-"""Hooks of MkDocs: the first page, links out of the pages' folder, and pages of all classes and functions."""
+"""Hooks of MkDocs: the first page, links out of the pages' folder, and a page for each class and function."""
 
 from __future__ import annotations
 
+import importlib
+import inspect
 import posixpath
 import re
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -12,24 +13,72 @@ from mkdocs.structure.files import File
 
 ROOT = Path(__file__).parents[2]
 SOURCE = "https://github.com/basemat/basemat/blob/main/"
-MODULES = ("basemat", "basemat.opensees", "basemat.containment")
+MODULES = ("basemat.opensees", "basemat.containment")
+SUBJECTS = {
+    "Structures": ("Structure", "Mesh", "GmshMesh", "GmshSpaceMesh", "Grid", "Layer", "Storey", "PlanStorey", "DeformedShape"),
+    "Soil and ground": ("Ground", "Soil", "SoilProfile", "SoilLayer", "Strip", "Plan", "Trench", "TrenchElements", "NearField"),
+    "Laws of the interface": ("InterfaceLaw", "Limits", "Joint", "ShallowFooting"),
+    "Springs and materials": ("Hysteresis", "Material", "BeamSection", "Iwan", "DruckerPrager"),
+    "Motions": ("FreeField", "Spectrum", "PlaneWave", "SoilColumn", "InclinedWave", "EquivalentLinear"),
+    "Simulations and results": ("Simulation", "Summary", "State", "Probe", "Load", "JointResults", "Interaction", "Fragility"),
+}
+"""Classes of each subject; classes that extend them belong to it."""
+STYLE = """/* Lines of code as wide as the window allows; longer ones break instead of scrolling. */
+.md-grid { max-width: 76rem; }
+.md-typeset pre > code { white-space: pre-wrap; overflow-wrap: anywhere; }
+"""
 
 
 def on_files(files: Any, config: Any) -> Any:
-    """Adds the README as the first page, and the pages that pdoc writes of the docstrings."""
+    """Adds the README as the first page, the warnings, and pages of all classes and functions to the site."""
     readme = (ROOT / "python" / "README.md").read_text("utf-8")
     pages = f"{SOURCE}docs/python/"
     files.append(File.generated(config, "index.md", content=readme.replace(pages, "")))
     files.append(File.generated(config, "warnings.md", content=warnings_of_runs()))
-    import pdoc
-
-    pdoc.render.configure(docformat="google", show_source=False)
-    with tempfile.TemporaryDirectory() as folder:
-        pdoc.pdoc(*MODULES, output_directory=Path(folder))
-        for page in Path(folder).rglob("*.*"):
-            name = page.relative_to(folder).as_posix()
-            files.append(File.generated(config, f"api/{name}", content=page.read_text("utf-8")))
+    files.append(File.generated(config, "site.css", content=STYLE))
+    pages_of_names = reference_pages()
+    files.append(File.generated(config, "reference.md", content=reference_index(pages_of_names)))
+    for group in pages_of_names.values():
+        for name, page in group.items():
+            content = f"::: {name}\n" if name in MODULES else f"::: basemat.{name}\n"
+            files.append(File.generated(config, page, content=content))
+    sections = [{title: [{name: page} for name, page in group.items()]} for title, group in pages_of_names.items()]
+    config.nav.append({"Reference": ["reference.md", *sections]})
     return files
+
+
+def reference_pages() -> dict[str, dict[str, str]]:
+    """Names of the package by subject, with their pages."""
+    import basemat
+
+    groups: dict[str, dict[str, str]] = {title: {} for title in (*SUBJECTS, "Other classes", "Functions", "Values", "Modules")}
+    heads = {title: tuple(getattr(basemat, name) for name in names) for title, names in SUBJECTS.items()}
+    for name in basemat.__all__:
+        item = getattr(basemat, name)
+        if inspect.isclass(item):
+            title = next((title for title, classes in heads.items() if issubclass(item, classes)), "Other classes")
+            groups[title][name] = f"reference/{name}.md"
+        elif callable(item):
+            # Some systems take `Fragility` and `fragility` for the same file.
+            groups["Functions"][name] = f"reference/functions/{name}.md"
+        else:
+            groups["Values"][name] = f"reference/{name}.md"
+    groups["Modules"] = {name: f"reference/{name}.md" for name in MODULES}
+    return groups
+
+
+def reference_index(pages_of_names: dict[str, dict[str, str]]) -> str:
+    """Page with a line for each name."""
+    import basemat
+
+    lines = ["# Reference"]
+    for title, group in pages_of_names.items():
+        lines += ["", f"## {title}", "", "| | |", "|---|---|"]
+        for name, page in group.items():
+            item = importlib.import_module(name) if name in MODULES else getattr(basemat, name)
+            summary = "" if title == "Values" else (inspect.getdoc(item) or "").partition("\n\n")[0]
+            lines.append(f"| [`{name}`]({page}) | {' '.join(summary.split()).replace('|', '&#124;')} |")
+    return "\n".join(lines) + "\n"
 
 
 def warnings_of_runs() -> str:
@@ -38,6 +87,7 @@ def warnings_of_runs() -> str:
     section = tutorial.partition("\n## Warnings\n")[2].partition("\nErrors say")[0]
     for name, python_name in {"Midpoint": "TimeScheme.midpoint()", "DissipativeMidpoint": "TimeScheme.dissipative_midpoint()"}.items():
         section = section.replace(f"`{name}`", f"`{python_name}`")
+    section = section.replace("](guide.md", f"]({SOURCE}docs/guide.md")
     return f"# Warnings\n{section}"
 
 

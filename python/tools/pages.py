@@ -24,7 +24,7 @@ def programs(page: Path) -> list[str]:
 
 def run(page: Path, folder: Path) -> dict[str, Any]:
     """Runs the programs of a page in a folder; their names."""
-    import matplotlib
+    import matplotlib.pyplot
 
     matplotlib.use("agg")
     # Protocols and dataclasses look for the module of a class.

@@ -28,6 +28,8 @@ SIMPLE = {
     "ElasticList": "Material | Sequence[Material]",
     "ElasticMaterial": "Material",
     "FarFieldSoil": "Soil",
+    "FiberLaw": "_FiberLaw",
+    "FiberSectionList": "FiberSection | Sequence[FiberSection]",
     "GroupPart": "_GmshPart",
     "LawLike": "Hysteresis | UserHysteresis",
     "Matrix": "_MatrixLike",

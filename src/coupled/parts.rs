@@ -224,6 +224,9 @@ fn free_field_at_start(
     motion: &dyn FreeField,
     elements: &Patch,
 ) -> Result<Vec<f64>> {
+    let has_same_elements = motion.elements().is_none_or(|places| places == &elements[..]);
+    let needed = "one that is defined at the elements of this ground: made for `Ground::elements`";
+    require_part("free field", has_same_elements, needed)?;
     let mut displacement = vec![0.0; elements.layout().len()];
     let mut impulse = displacement.clone();
     let is_defined =

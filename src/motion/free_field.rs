@@ -45,6 +45,13 @@ pub trait FreeField: Send {
         None
     }
 
+    /// Elements at whose centres alone the motion is defined. Default: `None`, anywhere.
+    ///
+    /// A run on a ground with other elements returns an error.
+    fn elements(&self) -> Option<&[ContactElement]> {
+        None
+    }
+
     /// Whether the motion has a component along y. Default: no.
     ///
     /// A ground in the plane ignores that component, with a warning.

@@ -105,10 +105,8 @@ struct DelayedMotion {
 impl DelayedMotion {
     /// Delayed motion of a record that ends at rest.
     fn new(record: &Record) -> Result<Self> {
-        let end_velocity = record.at(record.duration()).velocity;
-        let is_at_rest = end_velocity.abs() <= MAX_END_VELOCITY_RATIO * record.peaks().velocity;
         let needed = "at most 1 % of its peak for components out of phase (see Baseline)";
-        require("velocity at the end of the record", end_velocity, is_at_rest, needed)?;
+        check_rest_at_end(record, needed)?;
         Self::from_velocity(record.time_step(), record.velocities())
     }
 
@@ -148,14 +146,9 @@ impl DelayedMotion {
         let k = position as usize;
         let x = position - k as f64;
         // Cubic interpolation of W, with the values of W and the slopes V at both samples.
-        let w0 = self.displacements[k];
-        let v0 = self.velocities[k];
-        let v1 = self.velocities[k + 1];
-        let slope = (self.displacements[k + 1] - w0) / self.time_step;
-        let b = 3.0 * slope - 2.0 * v0 - v1;
-        let c = v0 + v1 - 2.0 * slope;
-        let displacement = w0 + self.time_step * x * (v0 + x * (b + x * c));
-        DelayedValues { displacement, velocity: v0 + x * (2.0 * b + 3.0 * x * c) }
+        let ends = [k, k + 1].map(|sample| [self.displacements[sample], self.velocities[sample]]);
+        let [displacement, velocity] = cubic_at(self.time_step, ends, x);
+        DelayedValues { displacement, velocity }
     }
 
     /// W and V at a time (s) far from the record, from its moments.
@@ -167,6 +160,25 @@ impl DelayedMotion {
             velocity: transform.velocity,
         }
     }
+}
+
+/// Returns an error unless a record ends at rest.
+pub(super) fn check_rest_at_end(record: &Record, needed: &'static str) -> Result<()> {
+    let end_velocity = record.at(record.duration()).velocity;
+    let is_at_rest = end_velocity.abs() <= MAX_END_VELOCITY_RATIO * record.peaks().velocity;
+    require("velocity at the end of the record", end_velocity, is_at_rest, needed).map(drop)
+}
+
+/// Displacement (m) and velocity (m/s) on the cubic between two samples of both.
+///
+/// `ends`: displacement and velocity at each sample. `fraction`: position between the samples, from 0 to 1.
+pub(super) fn cubic_at(time_step: f64, ends: [[f64; 2]; 2], fraction: f64) -> [f64; 2] {
+    let [[w0, v0], [w1, v1]] = ends;
+    let x = fraction;
+    let slope = (w1 - w0) / time_step;
+    let b = 3.0 * slope - 2.0 * v0 - v1;
+    let c = v0 + v1 - 2.0 * slope;
+    [w0 + time_step * x * (v0 + x * (b + x * c)), v0 + x * (2.0 * b + 3.0 * x * c)]
 }
 
 /// Hilbert transform of samples at one time.

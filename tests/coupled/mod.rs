@@ -18,6 +18,7 @@ mod fibre_frames;
 mod fixed_base;
 mod forms;
 mod forms_of_results;
+mod hinges;
 mod initial_motion;
 mod interaction;
 mod layered;

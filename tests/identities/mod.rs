@@ -35,4 +35,5 @@ mod view;
 mod views;
 mod writings;
 mod yielding_elements;
+mod yielding_hinges;
 mod yielding_soil;

@@ -142,6 +142,10 @@ impl fem::Element for UserElement {
     fn inelastic(&self) -> Option<&dyn InelasticForce> {
         self.0.inelastic()
     }
+
+    fn has_stiffness_damping(&self) -> bool {
+        self.0.has_stiffness_damping()
+    }
 }
 
 /// A material with the stresses of another one, and the remainder by its definition.

@@ -13,9 +13,9 @@ use super::compare::relative_difference;
 use super::tally::{IdentityTally, scenes};
 
 /// Largest relative difference, by rounding along a path.
-const ROUNDING_LIMIT: f64 = 1e-11;
+pub(super) const ROUNDING_LIMIT: f64 = 1e-11;
 /// Steps of a path.
-const PATH_STEPS: usize = 12;
+pub(super) const PATH_STEPS: usize = 12;
 
 /// Orthogonal map of the plane: a turn, after a mirror or not.
 #[derive(Debug, Clone, Copy)]

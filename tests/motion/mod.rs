@@ -9,6 +9,7 @@ mod filters;
 mod free_fields;
 mod fuzz;
 mod inclined_waves;
+mod incoherent;
 mod late_components;
 mod motion_formats;
 mod motion_reader;

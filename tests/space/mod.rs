@@ -9,6 +9,8 @@ mod elastic;
 mod equations;
 mod finite_elements;
 mod floor_spectra;
+mod hinges;
+mod incoherent_disc;
 mod interaction;
 mod landing;
 mod limits;

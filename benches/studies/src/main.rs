@@ -21,6 +21,7 @@ mod figure;
 mod fragility;
 mod full_plane;
 mod history;
+mod incoherence;
 mod key;
 mod layered_accuracy;
 mod layered_cost;
@@ -64,6 +65,7 @@ enum Study {
     ContactProblems(contact_problems::ContactProblemsOptions),
     HistoryCost(history::CostOptions),
     HistoryExponentials(history::ExponentialsOptions),
+    Incoherence(incoherence::IncoherenceOptions),
     LayeredAccuracy(layered_accuracy::LayeredAccuracyOptions),
     LayeredCost(layered_cost::LayeredCostOptions),
     Mats(mats::MatsOptions),
@@ -96,6 +98,7 @@ fn main() -> ExitCode {
         Study::ContactProblems(options) => contact_problems::run(&options),
         Study::HistoryCost(options) => history::cost(&options),
         Study::HistoryExponentials(options) => history::exponentials(&options),
+        Study::Incoherence(options) => incoherence::run(&options),
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
         Study::LayeredCost(options) => layered_cost::run(&options),
         Study::Mats(options) => mats::run(&options),

@@ -13,7 +13,8 @@ const MIN_LATTICE_ELEMENTS: usize = 36;
 
 /// Smallest ratio of all entries to nonzero entries for which a sparse copy is used.
 ///
-/// A product with a sparse entry costs about as much as products with four dense entries.
+/// A product with a sparse entry costs about as much as products with four dense entries, so that the sparse copy takes
+/// at most half the time.
 const MIN_ENTRIES_PER_NONZERO: usize = 8;
 
 /// Square matrix, stored as all entries row by row, or as a diagonal.

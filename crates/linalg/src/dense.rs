@@ -242,8 +242,14 @@ pub fn pivoted_cholesky(
         let root = residual_diagonal[pivot].sqrt();
         let mut column = vec![0.0; residual_diagonal.len()];
         write_column(pivot, &mut column);
-        for (i, value) in column.iter_mut().enumerate() {
-            let product: f64 = columns.iter().map(|other| other[i] * other[pivot]).sum();
+        let mut products = vec![0.0; column.len()];
+        for other in &columns {
+            let factor = other[pivot];
+            for (product, entry) in products.iter_mut().zip(other) {
+                *product += entry * factor;
+            }
+        }
+        for (value, product) in column.iter_mut().zip(&products) {
             *value = (*value - product) / root;
         }
         for (residual, value) in residual_diagonal.iter_mut().zip(&column) {

@@ -7,12 +7,17 @@ soil. ``python -m basemat`` says what there is; the README of the package has a 
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from . import _animation, _frames, _meshes, _pickling as _pickling, _plots, _report, _shapes
+from . import _animation, _exchange, _frames, _meshes, _pickling as _pickling, _plots, _report, _shapes, _shell_moments, _walls
 from ._beds import SpringDashpots as SpringDashpots
 from ._core import *
 from ._core import __version__ as __version__
 from ._errors import *
 from ._files import load as load, save as _save
+from ._fragility import Fragility as Fragility, fragility as fragility, plot_demands as plot_demands
+from ._intensities import (
+    incremental_dynamic_analysis as incremental_dynamic_analysis,
+    multiple_stripes as multiple_stripes,
+)
 from ._plots import plot_stress_strain as plot_stress_strain
 from ._protocols import *
 from ._sweep import merge as merge, sweep as sweep
@@ -30,12 +35,18 @@ for _class, _name, _method in (
     (Run, "plot_contact_plan", _plots.plot_contact_plan),
     (Run, "plot_moment_rotation", _plots.plot_moment_rotation),
     (Run, "plot_settlement_rotation", _plots.plot_settlement_rotation),
+    (Run, "plot_wall_pressures", _walls.plot_wall_pressures),
     (Run, "animate", _animation.animate),
     (Run, "report", _report.report),
     (Run, "save", _save),
+    (Run, "to_xarray", _exchange.to_xarray),
+    (DeformedShape, "to_pyvista", _exchange.shape_to_pyvista),
+    (Mesh, "to_pyvista", _exchange.mesh_to_pyvista),
     (JointResults, "to_frame", _frames.joint_frame),
     (JointResults, "contact_frame", _frames.joint_contact_frame),
     (JointResults, "envelope_frame", _frames.joint_envelope_frame),
+    (BeamSections, "to_frame", _frames.beam_sections_frame),
+    (BeamSections, "fiber_frame", _frames.fiber_frame),
     (Spectrum, "to_frame", _frames.spectrum_frame),
     (Spectrum, "plot", _plots.plot_spectrum),
     (SoilProfile, "plot", _plots.plot_profile),
@@ -44,6 +55,7 @@ for _class, _name, _method in (
     (Impedances, "plot", _plots.plot_impedances),
     (KinematicMotions, "to_frame", _frames.kinematic_frame),
     (DeformedShape, "plot", _shapes.plot_shape),
+    (FemModel, "plot_shell_moments", _shell_moments.plot_shell_moments),
     (Mesh, "plot_shells", _shapes.plot_shells),
     (Mesh, "plot_solids", _shapes.plot_solids),
 ):

@@ -51,7 +51,8 @@ def animate(
         title: text above the picture; none unless given.
 
     Returns:
-        A ``matplotlib.animation.FuncAnimation``, whose ``save("run.gif")`` writes a file.
+        A ``matplotlib.animation.FuncAnimation``, whose ``save("run.gif")`` or ``save("run.html")`` writes a file; videos such
+        as "run.mp4" need the program ffmpeg.
     """
     film = film_of(self, scale, structure, height, frames, title)
     return moving(film)

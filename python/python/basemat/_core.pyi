@@ -12,7 +12,9 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 from pandas import DataFrame
+from pyvista import UnstructuredGrid
 from typing_extensions import Self, TypeAlias, disjoint_base
+from xarray import Dataset
 
 from ._protocols import (
     Mode as Mode,
@@ -2000,7 +2002,8 @@ class Run(Summary):
             title: text above the picture; none unless given.
 
         Returns:
-            A ``matplotlib.animation.FuncAnimation``, whose ``save("run.gif")`` writes a file.
+            A ``matplotlib.animation.FuncAnimation``, whose ``save("run.gif")`` or ``save("run.html")`` writes a file; videos such
+            as "run.mp4" need the program ffmpeg.
         """
     def contact_frame(self) -> DataFrame:
         """Snapshots of the base as a tidy pandas frame: a row per frame and element.
@@ -2052,7 +2055,7 @@ class Run(Summary):
         Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
         with snapshots; unless given, axes of a new figure. For several runs in the same axes:
         ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
-        line style for each run. ``title`` stands above the picture; None for none.
+        line style for each run; contact modes are those of the first run. ``title`` stands above the picture; None for none.
         """
     def plot_contact_plan(
         self,
@@ -2112,6 +2115,20 @@ class Run(Summary):
         ``between`` (s; the whole run unless given), ``axes`` (of a new figure unless given), ``label``, ``color`` and ``title``
         (None for none).
         """
+    def plot_wall_pressures(
+        self,
+        interface: Any = None,
+        axes: Iterable[Axes] | None = None,
+        *,
+        title: str | None = None,
+    ) -> list[Axes]:
+        """Draws pressures at rest, lowest and highest pressures over the height of both walls; returns the list of two axes.
+
+        Pressures are means over the elements of a ground in a trench. ``interface``: the laws of the simulation,
+        ``simulation.interface``, whose active and passive pressures (`EarthPressure`) are drawn as dashed lines, the passive ones
+        where they are below 1.5 times the largest pressure; none unless given. ``axes``: two of matplotlib to draw into; unless
+        given, axes of a new figure. ``title`` stands above the picture; None for none.
+        """
     def report(
         self,
         path: str | os.PathLike[str],
@@ -2124,8 +2141,8 @@ class Run(Summary):
         """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
 
         The page has the ground motion, the model, warnings, peaks, limits of service and the text of the run; pictures of time
-        series, floor spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of
-        `Simulation.run`), of the contact, the deformed structure and both in motion. The model is a table of all parameters with
+        series, floor spectra of all acceleration probes, pressures on walls below the surface and, with snapshots (``contact_every`` and ``motion_every`` of
+        `Simulation.run`), of the contact, the deformed structure, moments of a `FemModel`'s shells and all in motion. The model is a table of all parameters with
         their units and a program that makes the run again, with its arrays as a file that the page holds. A page that cannot
         be written leaves the one before as it was.
 
@@ -2148,6 +2165,15 @@ class Run(Summary):
 
         Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
         motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
+        """
+    def to_xarray(self) -> Dataset:
+        """The run as an ``xarray.Dataset``, with the unit of each variable in ``attrs["units"]``; it needs xarray.
+
+        Time series are along "time" (s), energies are called "energy_…", envelopes "envelope_…" along "element". Snapshots of the
+        contact, "contact_…", are along "contact_time" and "element", with the names of the modes in ``attrs["modes"]``; those of the
+        structure, "displacement" and "velocity", are along "motion_time" and "dof". Coordinates "left", "right", "bottom" and
+        "top", in plan "front" and "back", are the ends of the elements (m). ``attrs["ground_motion"]`` has the motion in words.
+        ``to_netcdf`` writes a file.
         """
 
 @final
@@ -2230,6 +2256,19 @@ class DeformedShape:
             label: name of the state in the key, to which the scale is added; the scale alone unless given.
             color: colour of the moved structure; blue, then matplotlib's next, unless given.
             title: text above the picture; none unless given.
+        """
+    def to_pyvista(
+        self,
+        displacement: ArrayLike | None = None,
+        *,
+        scale: float | None = None,
+    ) -> UnstructuredGrid:
+        """The shape as a ``pyvista.UnstructuredGrid``, which ``plot()`` shows and one can turn; it needs PyVista.
+
+        ``displacement``: all n degrees of freedom, array of shape (n,), m and rad, as for `DeformedShape.plot`; the shape at rest
+        unless given. ``scale``: factor on the displacements of the points; unless given, a round one that makes the largest a
+        twentieth to a tenth of the structure's size. Point data "displacement" (m) is not scaled; field data "scale" has the
+        factor, and "units" the unit of each array as texts "name: unit".
         """
 
 @final
@@ -3669,6 +3708,28 @@ class FemModel(Structure):
         """The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; `Simulation.solid_points`
         returns those of a simulation.
         """
+    def plot_shell_moments(
+        self,
+        displacement: ArrayLike,
+        elements: Sequence[int] | None = None,
+        *,
+        view: Literal["plan", "front", "side", "space"] = "space",
+        axes: Axes | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws the principal bending moment of larger magnitude of each shell, mat and walls, in kN·m/m; returns the axes.
+
+        It is that of the mean moments over the corners of the shell; it is positive with tension on the side of −n, as
+        `ShellResultants.moments`.
+
+        Args:
+            displacement: all n degrees of freedom, array of shape (n,), m and rad: ``run.static_displacement`` plus a row of
+                ``run.motion["displacement"]``, which alone gives the moments without those of weight and loads.
+            elements: numbers of the shells; all of the model unless given.
+            view: "space" (by default), "plan", "front" or "side", as for `Mesh.plot_shells`.
+            axes: axes of matplotlib to draw into; unless given, axes of a new figure.
+            title: text above the picture; none unless given.
+        """
 
 @final
 class GmshMesh:
@@ -4165,18 +4226,21 @@ class Mesh:
         values: ArrayLike,
         *,
         quantity: str = "",
+        view: Literal["plan", "front", "side", "space"] = "plan",
         axes: Axes | None = None,
         title: str | None = None,
     ) -> Axes:
-        """Draws one value for each shell of a mat, seen from above, such as a bending moment; returns the axes.
+        """Draws one value for each shell of a mat, wall or building, such as a bending moment; returns the axes.
 
         Colours are in classes on both sides of zero. The mean of a moment over the corners of a shell comes from
         `FemModel.shell_resultants`.
 
         Args:
-            elements: numbers of the shells, which lie more or less flat.
+            elements: numbers of the shells.
             values: array of shape (elements,), in the unit of the quantity.
             quantity: name of the values with their unit for the key, such as "m_x, kN·m/m"; empty by default.
+            view: "plan" (by default) draws x and y of a mat; "front" x and height of a wall along x, "side" y and height of one
+                along y; "space" all shells from the front, the right and above, near ones over far ones.
             axes: axes of matplotlib to draw into; unless given, axes of a new figure.
             title: text above the picture; none unless given.
         """
@@ -4199,6 +4263,23 @@ class Mesh:
             quantity: name of the values with their unit for the key, such as "plastic shear strain, %"; empty by default.
             axes: axes of matplotlib to draw into; unless given, axes of a new figure.
             title: text above the picture; none unless given.
+        """
+    def to_pyvista(
+        self,
+        values: Mapping[str, ArrayLike] | None = None,
+        *,
+        elements: Sequence[int] | None = None,
+        units: Mapping[str, str] | None = None,
+    ) -> UnstructuredGrid:
+        """Elements of the mesh as a ``pyvista.UnstructuredGrid`` with values as cell data; it needs PyVista.
+
+        In the plane z is zero. Cell data "element" has the numbers of the elements.
+
+        Args:
+            values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless given.
+            elements: numbers of the elements in the grid; all with two nodes or more unless given.
+            units: unit of each of the values, stored in the field data "units" as texts "name: unit", in ASCII, such as
+                "moment: N m/m"; none unless given.
         """
 
 @final

@@ -19,16 +19,29 @@ COLORS = (
     "#fdae6b",
     "#e6550d",
     "#3182bd",
-    "#74c476",
-    "#31a354",
+    "#a1d99b",
+    "#41ab5d",
+    "#00441b",
+    "#fd8d3c",
     "#006d2c",
-    "#e6550d",
-    "#006d2c",
-    "#bcbddc",
-    "#9e9ac8",
-    "#756bb1",
+    "#c994c7",
+    "#807dba",
+    "#3f007d",
 )
 """Of the modes, in their order."""
+ENERGY_COLORS = {
+    "kinetic": "#1f77b4",
+    "strain": "#ff7f0e",
+    "hysteresis": "#d62728",
+    "damping": "#2ca02c",
+    "algorithmic": "#8c564b",
+    "midstep_remainder": "#17becf",
+    "soil": "#e377c2",
+    "contact": "#7f7f7f",
+    "interface": "#9467bd",
+    "static_contact": "#d4b000",
+}
+"""Of the energies, by their names."""
 OPEN = "#164878"
 """Of open elements in plan."""
 SOIL, SURFACE = "#eee5d6", "#7d623e"
@@ -50,7 +63,9 @@ def axes_for(axes: Axes | Iterable[Axes] | None, count: int, title: str | None =
     if axes is None:
         size = (8.0, 1.0 + 2.2 * count)
         options = {"sharex": True, "figsize": size, "layout": "constrained", **options}
-        axes = pyplot().subplots(count, **options)[1]
+        if "nrows" not in options:
+            options["nrows"] = count
+        axes = pyplot().subplots(ncols=count // options["nrows"], **options)[1]
     found: list[Axes] = list(np.ravel(axes))  # type: ignore[arg-type]
     if len(found) != count:
         raise InputError(f"axes are {len(found)}, but must be {count}")

@@ -1,7 +1,10 @@
-"""Films: figures in which a few artists move, drawn over an image of all the rest."""
+"""Films: figures in which a few artists move, drawn over an image of all the rest, and their files."""
 
 from __future__ import annotations
 
+import base64
+import io
+import json
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,9 +12,30 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ._errors import InputError
+from ._files import replace
+
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.artist import Artist
+
+_PLAYER = """
+<p><img id="film" alt="the run in motion" style="max-width: 100%"><br>
+<button id="play">pause</button> <input id="frame" type="range" min="0" value="0" style="width: 70%"></p>
+<script>
+const frames = FRAMES, film = document.getElementById("film"), play = document.getElementById("play");
+const slider = document.getElementById("frame"); slider.max = frames.length - 1;
+let timer = null;
+function show(k) { film.src = "data:image/png;base64," + frames[k]; slider.value = k; }
+function start() { play.textContent = "pause"; timer = setInterval(() => show((+slider.value + 1) % frames.length), INTERVAL); }
+function stop() { play.textContent = "play"; clearInterval(timer); timer = null; }
+play.onclick = () => timer ? stop() : start();
+slider.oninput = () => { stop(); show(+slider.value); };
+show(0); start();
+</script>
+"""
+_VIDEOS = (".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm")
+"""Files that matplotlib writes by the program ffmpeg."""
 
 
 class Film(NamedTuple):
@@ -89,6 +113,37 @@ def quantized(pixels: Any) -> Any:
     return Image.fromarray(pixels[..., :3]).quantize(64, method=Image.Quantize.FASTOCTREE)
 
 
+def player(film: Film, dpi: float | None = None, interval: float | None = None) -> str:
+    """Frames of a film as part of a page, with the lines that play them; ``interval``: of two frames, ms."""
+    frames = []
+    with film.baked(dpi) as pixels:
+        for number in range(film.frames):
+            film.draw(number)
+            file = io.BytesIO()
+            quantized(pixels()).save(file, format="png")
+            frames.append(base64.b64encode(file.getvalue()).decode("ascii"))
+    return _PLAYER.replace("FRAMES", json.dumps(frames)).replace("INTERVAL", f"{interval or film.interval:.0f}")
+
+
+def _page(film: Film, dpi: float | None, fps: float | None) -> bytes:
+    """A page for a browser that plays the film."""
+    heading = '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>basemat</title>'
+    body = player(film, dpi, None if fps is None else 1e3 / fps)
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{heading}</head><body>{body}</body></html>\n'.encode()
+
+
+def _require_ffmpeg(path: str) -> None:
+    """An error for a video where the program that writes it is missing."""
+    from matplotlib.animation import writers
+
+    if not writers.is_available("ffmpeg"):
+        stem, extension = os.path.splitext(path)
+        raise InputError(
+            f"{path}: a file of the kind {extension} needs the program ffmpeg, which is not installed. Install it (apt install "
+            f"ffmpeg, conda install ffmpeg), or write {stem}.gif or {stem}.html, which need no other program"
+        )
+
+
 def moving(film: Film) -> FuncAnimation:
     """An animation of matplotlib whose files are drawn as fast as its window."""
     from matplotlib.animation import FuncAnimation, PillowWriter
@@ -99,7 +154,14 @@ def moving(film: Film) -> FuncAnimation:
         def save(
             self, filename: Any, writer: Any = None, fps: Any = None, dpi: Any = None, *others: Any, **options: Any
         ) -> None:
-            with film.baked(None if dpi == "figure" else dpi) as frame:
+            path = os.fspath(filename)
+            picture_dpi = None if dpi == "figure" else dpi
+            if writer is None and path.lower().endswith((".html", ".htm")):
+                replace(path, _page(film, picture_dpi, fps))
+                return
+            if writer in (None, "ffmpeg") and path.lower().endswith(_VIDEOS):
+                _require_ffmpeg(path)
+            with film.baked(picture_dpi) as frame:
 
                 class Gif(PillowWriter):
                     """Frames without another drawing."""
@@ -108,7 +170,7 @@ def moving(film: Film) -> FuncAnimation:
                         writer: Any = self
                         writer._frames.append(quantized(frame()))
 
-                if str(os.fspath(filename)).lower().endswith(".gif") and writer in (None, "pillow"):
+                if path.lower().endswith(".gif") and writer in (None, "pillow"):
                     made: Any = Gif
                     writer = made(fps=fps or 1e3 / film.interval)
                 super().save(filename, writer, fps, dpi, *others, **options)

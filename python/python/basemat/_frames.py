@@ -10,6 +10,7 @@ import numpy as np
 from ._core import (
     _ELEMENT_UNITS,
     MODES,
+    BeamSections,
     EquivalentLinear,
     Impedances,
     JointResults,
@@ -210,3 +211,46 @@ def kinematic_frame(self: KinematicMotions) -> DataFrame:
     """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
     frame = _of(self, "frequency", "horizontal rotation vertical")
     return _with_units(frame, {"frequency": "Hz", "rotation": "1/m"})
+
+
+_BEAM_UNITS = {
+    name: unit
+    for unit, names in {
+        "m": "x y z length fiber_y fiber_z",
+        "m²": "area",
+        "1/m": "curvature curvature_about_y",
+        "rad/m": "twist_rate",
+        "N": "axial_force shear shear_along_z",
+        "N·m": "moment moment_about_y torque",
+        "Pa": "stress",
+    }.items()
+    for name in names.split()
+}
+
+
+def beam_sections_frame(self: BeamSections) -> DataFrame:
+    """The sections as a pandas frame: a row per section.
+
+    Columns: "x", "y", "z" (m), "length" (m), "axial_strain", "curvature" (1/m), "axial_force" (N), "moment" (N·m) and "shear"
+    (N); in space also "curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate" (rad/m) and "torque".
+    """
+    names = ["length", "axial_strain", "curvature", "axial_force", "moment", "shear"]
+    if self.position[:, 2].any() or self.twist_rate.any() or self.curvature_about_y.any():
+        names += ["curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate", "torque"]
+    columns = {name: getattr(self, name) for name in names}
+    table = {**dict(zip("xyz", self.position.T)), **columns}
+    return _with_units(pandas().DataFrame(table).rename_axis("section"), _BEAM_UNITS)
+
+
+def fiber_frame(self: BeamSections) -> DataFrame:
+    """The fibres of all sections as a tidy pandas frame: a row per section and fibre.
+
+    Columns: "section", "fiber" (numbers from 0), "fiber_y", "fiber_z" (m), "area" (m²), "strain" and "stress" (Pa).
+    """
+    sections, fibers = self.fiber_strain.shape if len(self.length) else (0, 0)
+    table = {"section": np.repeat(np.arange(sections), fibers), "fiber": np.tile(np.arange(fibers), sections)}
+    for axis, coordinates in zip("yz", self.fiber_position.reshape(-1, 2).T):
+        table[f"fiber_{axis}"] = np.tile(coordinates, sections)
+    table["area"] = np.tile(self.fiber_area, sections)
+    table["strain"], table["stress"] = self.fiber_strain.ravel(), self.fiber_stress.ravel()
+    return _with_units(pandas().DataFrame(table), _BEAM_UNITS)

@@ -91,8 +91,8 @@ class Elements:
         """Tags of the elements that have no tangent at rest, by their type and what makes them so."""
         found: dict[str, list[int]] = {}
         for tag in self._ops.getEleTags():
-            text = self._part("elements", tag).text if self._type(tag) not in _SOLIDS else ""
-            materials = [material for material in self._uses("material", text) if self._one_sided(material)]
+            text = self.part("elements", tag).text if self._type(tag) not in _SOLIDS else ""
+            materials = [material for material in self.uses("material", text) if self._one_sided(material)]
             reasons = [self._name("material", material) for material in materials]
             if reasons or "Contact" in self._type(tag):
                 found.setdefault(", ".join([self._type(tag), *dict.fromkeys(reasons)]), []).append(int(tag))
@@ -104,28 +104,34 @@ class Elements:
         for tag in self._ops.getEleTags():
             if "Shell" not in self._type(tag):
                 continue
-            [name] = self._uses("section", self._part("elements", tag).text) or [""]
-            printed = re.search(r'"(?:t|totalT)hickness": "?([^",}]+)', self._part("section", name).text)
+            [name] = self.uses("section", self.part("elements", tag).text) or [""]
+            printed = re.search(r'"(?:t|totalT)hickness": "?([^",}]+)', self.part("section", name).text)
             nodes = [int(node) for node in self._ops.eleNodes(tag)]
             found[int(tag)] = nodes, float(printed[1]) if printed else None
         return found
 
+    def transformations(self, tag: int) -> list[str]:
+        """Types of the geometric transformations of an element."""
+        names = self._uses("crdTransformation", self._part("elements", tag).text)
+        return [self._part("crdTransformation", name).type for name in names]
+
     def _type(self, tag: int) -> str:
         return str(self._ops.eleType(tag))
 
-    def _part(self, kind: str, name: object) -> Part:
+    def part(self, kind: str, name: object) -> Part:
+        """A part of a kind by its tag; an empty one where OpenSees prints none."""
         return self._parts.get((kind, str(name)), Part("", ""))
 
     def _name(self, kind: str, name: str) -> str:
         """Kind, tag and type as a text."""
-        found = self._part(kind, name).type
+        found = self.part(kind, name).type
         if not found and kind in ("material", "section"):
             command = "uniaxialMaterial" if kind == "material" else kind
             found = str(self._ops.classType(command, int(name)))
         return f"{kind} {name} {found}".rstrip() if kind != "crdTransformation" else found or f"geomTransf {name}"
 
     @staticmethod
-    def _uses(kind: str, text: str) -> list[str]:
+    def uses(kind: str, text: str) -> list[str]:
         """Tags of this kind in a text."""
         single = re.findall(rf'"{kind}": "?(\d+)"?', text, re.IGNORECASE)
         several = re.findall(rf'"{kind}s": \[([^\]]*)\]', text)
@@ -133,11 +139,11 @@ class Elements:
 
     def _reasons(self, tag: int) -> Iterator[str]:
         """Reasons why an element is nonlinear, as far as OpenSees prints them."""
-        text = self._part("elements", tag).text
+        text = self.part("elements", tag).text
         if '"Mratios"' in text:
             yield "P-Delta"
-        for name in self._uses("crdTransformation", text):
-            if self._part("crdTransformation", name).type not in _TRANSFORMATIONS:
+        for name in self.uses("crdTransformation", text):
+            if self.part("crdTransformation", name).type not in _TRANSFORMATIONS:
                 yield self._name("crdTransformation", name)
         if self._type(tag) in _SOLIDS:
             yield from self._solid(text)
@@ -148,8 +154,8 @@ class Elements:
 
     def _solid(self, text: str) -> Iterator[str]:
         """Materials of a text, in several directions, that are not linear."""
-        for name in self._uses("material", text):
-            part = self._part("ndMaterial", name)
+        for name in self.uses("material", text):
+            part = self.part("ndMaterial", name)
             if part.type in _SOLID_MATERIALS:
                 yield from self._solid(part.text)
             else:
@@ -157,14 +163,14 @@ class Elements:
 
     def _inside(self, text: str) -> Iterator[str]:
         """Materials and sections of a text that are not linear."""
-        for name in self._uses("material", text):
-            part = self._part("material", name)
+        for name in self.uses("material", text):
+            part = self.part("material", name)
             if part.type not in _MATERIALS or self._one_sided(name):
                 yield self._name("material", name)
             else:
                 yield from self._inside(part.text)
-        for name in self._uses("section", text):
-            part = self._part("section", name)
+        for name in self.uses("section", text):
+            part = self.part("section", name)
             if part.type in _SECTIONS | _LAYERED:
                 inside = list((self._solid if part.type in _LAYERED else self._inside)(part.text))
                 yield from [f"section {name} {part.type}", *inside] if inside else []
@@ -174,7 +180,7 @@ class Elements:
 
     def _one_sided(self, name: str) -> bool:
         """Whether a material, or one that it is made of, has no tangent at rest."""
-        part = self._part("material", name)
+        part = self.part("material", name)
         if part.type in _ONE_SIDED:
             return True
         if part.type == "ElasticMaterial":
@@ -183,4 +189,4 @@ class Elements:
         if part.type == "ViscousMaterial":
             power = re.search(r"Alpha: (\S+)", part.text)
             return power is None or float(power[1]) != 1.0
-        return any(self._one_sided(material) for material in self._uses("material", part.text))
+        return any(self._one_sided(material) for material in self.uses("material", part.text))

@@ -44,6 +44,8 @@ def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
         given = {attribute: getattr(value, attribute) for attribute in _signature(type(value)) if hasattr(value, attribute)}
         yield name, type(value).__name__, ""
         yield from _rows_of_arguments(name, given, inspect.getdoc(type(value)) or "", known)
+    elif hasattr(type(value), "_state_outside"):
+        yield name, repr(value), ""
     elif not inspect.isroutine(value) and hasattr(value, "__dict__"):
         # Of a class that the user wrote.
         yield name, type(value).__name__, ""

@@ -36,6 +36,7 @@ _RETURNING = (
     (_core.SoilProfile, "stress_at_rest"),
     (_core.Mesh, "with_stress_at_rest"),
     (_core.NearField, "mesh"),
+    *((_core.FiberSection, f"with_{shape}") for shape in ("fiber", "rectangle", "ring", "bars", "i_section", "torsional_stiffness")),
     (_core.GmshMesh, "mesh"),
     (_core.GmshSpaceMesh, "mesh"),
 )
@@ -102,7 +103,7 @@ def _kept(value: Any) -> Any:
 
 def _is_part(value: Any) -> bool:
     """Whether this is a function, a structure, a ground, a law or a material of the user's, whatever else it may be."""
-    methods = ("base", "conditions", "limits", "step_compliance", "stress")
+    methods = ("base", "conditions", "limits", "response", "step_compliance", "stress")
     return callable(value) or any(callable(getattr(value, method, None)) for method in methods)
 
 

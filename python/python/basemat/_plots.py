@@ -12,6 +12,7 @@ from ._core import MODES, Impedances, Run, SoilProfile, Spectrum
 from ._errors import InputError
 from ._figures import (
     COLORS,
+    ENERGY_COLORS,
     OPEN,
     axes_for,
     color_for,
@@ -48,7 +49,7 @@ def plot_run(
     Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
     with snapshots; unless given, axes of a new figure. For several runs in the same axes:
     ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
-    line style for each run. ``title`` stands above the picture; None for none.
+    line style for each run; contact modes are those of the first run. ``title`` stands above the picture; None for none.
     """
     has_modes = was_kept(self, "contact")
     panels = axes_for(axes, 3 if has_modes else 2, title)
@@ -60,18 +61,21 @@ def plot_run(
     label_axes(panels[0], None, f"base shear, k{self.units['base_shear']}")
     if self.in_plan or label is not None:
         key(panels[0])
-    if has_modes:
+    if has_modes and before == 0:
+        # Modes of a second run would hide those of the first.
         plot_modes(self, panels[1])
         panels[1].set_xlabel("")
+        if label is not None:
+            panels[1].set_title(label, fontsize="medium", loc="left")
     terms = {**self.energy_balances}
     time, total = terms.pop("time"), terms.pop("input")
     style = _STYLES[before % len(_STYLES)]
     panels[-1].plot(time, 1e-3 * total, style, color="black", label=named(label, "input"))
     for name in ("residual", "largest", "relative_input", "soil_error_bound"):
         terms.pop(name, None)
-    for number, (name, values) in enumerate(terms.items()):
+    for name, values in terms.items():
         if np.nanmax(np.abs(values), initial=0.0) > 1e-3 * np.nanmax(np.abs(total), initial=0.0):
-            line = {"color": f"C{number % 10}", "linewidth": 0.8}
+            line = {"color": ENERGY_COLORS[name], "linewidth": 0.8}
             panels[-1].plot(time, 1e-3 * values, style, label=named(label, name.replace("_", " ")), **line)
     label_axes(panels[-1], "time, s", f"energy, k{self.units['input']}")
     key(panels[-1])

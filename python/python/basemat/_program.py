@@ -172,6 +172,9 @@ class Program:
         """An object of a class that the user wrote: its class and its attributes; or a name that is said to be missing."""
         kind = type(value)
         words = f"the {kind.__name__} of the argument {self._subject}"
+        if hasattr(kind, "_state_outside"):
+            self.missing.append(kind._state_outside)
+            return self._subject
         if inspect.isroutine(value) or isinstance(value, type) or not hasattr(value, "__dict__"):
             function = getattr(value, "__name__", kind.__name__)
             self.missing.append(f"the function {function} of the argument {self._subject}")

@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-__all__ = ["Mode", "UserGround", "UserHysteresis", "UserLaw", "UserMaterial", "UserPlanLaw", "UserStructure"]
+__all__ = [
+    "Mode",
+    "UserGround",
+    "UserHysteresis",
+    "UserLaw",
+    "UserMaterial",
+    "UserPlanLaw",
+    "UserStructure",
+    "UserUniaxialMaterial",
+]
 
 if TYPE_CHECKING:
     import numpy as np
@@ -213,4 +222,31 @@ class UserMaterial(Protocol):
         """Derivatives of the stresses (rows) by the strains (columns): array of shape (4, 4), Pa."""
 
     def energy(self, strain: NDArray[np.float64], variables: NDArray[np.float64]) -> Sequence[float]:
+        """Stored energy, and energy dissipated since the start, J/m³."""
+
+
+class UserUniaxialMaterial(Protocol):
+    """A law of fibres written in Python: for a `FiberSection`.
+
+    Strains and stresses are along the bar, tension positive. The law stores nothing itself: the element stores ``variables``, an
+    array of shape (n,) with the internal variables of a fibre at the end of the last step. Methods belong to the straight path
+    from the strain of that step to ``strain``, and may be called for any strain. Arrays are copies.
+
+    If it has them, these count too: ``variable_count`` (n; 0 unless given, an int), ``initialize()`` (variables of a fibre without
+    strain; otherwise zeros) and ``commit(strain, variables)`` (variables after a step that ended with ``strain``). ``modulus`` and
+    ``initialize()`` are read once, when a section gets the fibre.
+
+    What they raise comes out of the run; the simulation stays at the last accepted step. Only ``commit`` is called after a
+    step is accepted: its exception ends the run after the step. Other numbers of values, and numbers that are not finite, are
+    errors that name the method. `fiber_stress_path` tries a law without a mesh.
+    """
+
+    @property
+    def modulus(self) -> float:
+        """Modulus of small strains, Pa."""
+
+    def response(self, strain: float, variables: NDArray[np.float64]) -> Sequence[float]:
+        """Stress, and its derivative with respect to the strain, Pa."""
+
+    def energy(self, strain: float, variables: NDArray[np.float64]) -> Sequence[float]:
         """Stored energy, and energy dissipated since the start, J/m³."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import inspect
 import io
-import json
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
@@ -16,12 +15,14 @@ import numpy as np
 
 from . import _core
 from ._animation import film_of
-from ._core import DeformedShape, Interaction, Record, Run, Simulation, Summary
+from ._core import DeformedShape, FemModel, Interaction, Record, Run, Simulation, Summary
 from ._errors import InputError
 from ._figures import axes_for, label_axes, pyplot, was_kept
 from ._files import replace
-from ._film import Film, quantized
+from ._film import player
 from ._report_model import model_of, table
+from ._shell_moments import plot_shell_moments, shells_of
+from ._walls import plot_wall_pressures, walls_of
 
 _STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
@@ -32,21 +33,6 @@ img { max-width: 100% } pre { line-height: 1.2; overflow-x: auto } .warning { co
 .wide { overflow-x: auto } .words td, p { overflow-wrap: anywhere }
 .words th { text-align: left } .words td:nth-child(3) { white-space: nowrap }
 @media (max-width: 40rem) { body { margin: 1rem auto; padding: 0 .7rem } td, th { padding: .15rem .4rem } }
-"""
-_PLAYER = """
-<p><img id="film" alt="the run in motion"><br>
-<button id="play">pause</button> <input id="frame" type="range" min="0" value="0" style="width: 70%"></p>
-<script>
-const frames = FRAMES, film = document.getElementById("film"), play = document.getElementById("play");
-const slider = document.getElementById("frame"); slider.max = frames.length - 1;
-let timer = null;
-function show(k) { film.src = "data:image/png;base64," + frames[k]; slider.value = k; }
-function start() { play.textContent = "pause"; timer = setInterval(() => show((+slider.value + 1) % frames.length), INTERVAL); }
-function stop() { play.textContent = "play"; clearInterval(timer); timer = null; }
-play.onclick = () => timer ? stop() : start();
-slider.oninput = () => { stop(); show(+slider.value); };
-show(0); start();
-</script>
 """
 _LEFT_OUT = {"time", "sliding_safety", "overturning_safety", "overturning_safety_across"}
 """Time series that are left out of the table of peaks."""
@@ -66,8 +52,8 @@ def report(
     """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
 
     The page has the ground motion, the model, warnings, peaks, limits of service and the text of the run; pictures of time
-    series, floor spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of
-    `Simulation.run`), of the contact, the deformed structure and both in motion. The model is a table of all parameters with
+    series, floor spectra of all acceleration probes, pressures on walls below the surface and, with snapshots (``contact_every`` and ``motion_every`` of
+    `Simulation.run`), of the contact, the deformed structure, moments of a `FemModel`'s shells and all in motion. The model is a table of all parameters with
     their units and a program that makes the run again, with its arrays as a file that the page holds. A page that cannot
     be written leaves the one before as it was.
 
@@ -93,7 +79,7 @@ def report(
         *(f'<p class="warning">{escape(text)}</p>' for text in self.warnings),
         _peaks(self, interaction),
         *_service(self),
-        *_pictures(self, shape),
+        *_pictures(self, simulation, shape),
         "<h2>All results</h2>",
         f"<pre>{escape(str(self))}</pre>",
         f"<p>Computed by basemat {_core.__version__}.</p>",
@@ -213,7 +199,7 @@ def _largest(run: Run, name: str) -> _core.Peak | None:
     return found if np.isfinite(found.value) and found.value != 0.0 else None
 
 
-def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
+def _pictures(run: Run, simulation: Simulation | None, shape: DeformedShape | None) -> Iterator[str]:
     """Pictures of all that the run recorded."""
     try:
         axes = run.plot()
@@ -235,25 +221,23 @@ def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
     if has_contact and run.in_plan:
         yield "<h2>The base when most of it is open</h2>"
         yield _picture(run.plot_contact_plan().figure, "contact in plan")
+    if len(walls_of(run)[0]):
+        yield "<h2>Earth pressures on the walls</h2>"
+        interface = None if simulation is None else simulation.interface
+        yield _picture(plot_wall_pressures(run, interface)[0].figure, "pressures on the walls")
     if shape is not None and has_motion:
         yield "<h2>Largest deformation</h2>"
         moved = [float(np.abs(shape.displacements(displacement)).max()) for displacement in run.motion["displacement"]]
         frame = int(np.argmax(moved))
         text = f"{run.motion['time'][frame]:.2f} s"
         yield _picture(shape.plot(run.motion["displacement"][frame], label=text).figure, "deformed structure")
+        structure = None if simulation is None else simulation.structure
+        if isinstance(structure, FemModel) and shells_of(structure):
+            yield f"<h2>Bending moments of the shells at {text}</h2>"
+            state = run.static_displacement + run.motion["displacement"][frame]
+            yield _picture(plot_shell_moments(structure, state).figure, "moments of the shells")
     if has_contact:
         yield "<h2>In motion</h2>"
-        yield _film(film_of(run, None, shape if has_motion else None, None, 120, None))
-
-
-def _film(film: Film) -> str:
-    """Frames of an animation with a few lines that play them."""
-    frames = []
-    with film.baked() as pixels:
-        for number in range(film.frames):
-            film.draw(number)
-            file = io.BytesIO()
-            quantized(pixels()).save(file, format="png")
-            frames.append(base64.b64encode(file.getvalue()).decode("ascii"))
-    pyplot().close(film.figure)
-    return _PLAYER.replace("FRAMES", json.dumps(frames)).replace("INTERVAL", f"{film.interval:.0f}")
+        film = film_of(run, None, shape if has_motion else None, None, 120, None)
+        yield player(film)
+        pyplot().close(film.figure)

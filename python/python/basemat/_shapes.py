@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -22,6 +22,12 @@ _SCALES: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
 """Scales of the first state in axes."""
 _JOINT_WIDTH = 2.5
 """Width of the sides of joints over that of other lines."""
+_VIEWS = {
+    "plan": ([0, 1], "y, m", "stands upright: it has no area in plan, but in the view 'front', 'side' or 'space'"),
+    "front": ([0, 2], "height, m", "has no area in the view 'front': it lies flat or along y"),
+    "side": ([1, 2], "height, m", "has no area in the view 'side': it lies flat or along x"),
+}
+"""Coordinates in each view of shells, the text of its second axis, and what is wrong with a shell that is a line there."""
 OUTLINE, BAR = "#969696", "#464646"
 """Colours of elements without a value."""
 
@@ -145,33 +151,50 @@ def plot_shells(
     values: ArrayLike,
     *,
     quantity: str = "",
+    view: Literal["plan", "front", "side", "space"] = "plan",
     axes: Axes | None = None,
     title: str | None = None,
 ) -> Axes:
-    """Draws one value for each shell of a mat, seen from above, such as a bending moment; returns the axes.
+    """Draws one value for each shell of a mat, wall or building, such as a bending moment; returns the axes.
 
     Colours are in classes on both sides of zero. The mean of a moment over the corners of a shell comes from
     `FemModel.shell_resultants`.
 
     Args:
-        elements: numbers of the shells, which lie more or less flat.
+        elements: numbers of the shells.
         values: array of shape (elements,), in the unit of the quantity.
         quantity: name of the values with their unit for the key, such as "m_x, kN·m/m"; empty by default.
+        view: "plan" (by default) draws x and y of a mat; "front" x and height of a wall along x, "side" y and height of one
+            along y; "space" all shells from the front, the right and above, near ones over far ones.
         axes: axes of matplotlib to draw into; unless given, axes of a new figure.
         title: text above the picture; none unless given.
     """
     numbers, nodes, connected = checked_values(self, elements, values, "shell"), self.nodes, self.elements
-    corners = []
+    if view not in (*_VIEWS, "space"):
+        raise InputError(f"view is '{view}', but must be 'plan', 'front', 'side' or 'space'")
+    corners, nearness = [], []
     for element in elements:
         place = nodes[connected[element]]
         if nodes.shape[1] != 3 or len(place) not in (3, 4):
             raise InputError(f"element {element} is no shell of a mesh in space")
-        x, y = place[:, :2].T
+        nearness.append(float(np.mean(place @ [1.0, -1.0, 1.0])))
+        if view == "space":
+            corners.append(seen(place, True))
+            continue
+        directions, _, seen_edgewise = _VIEWS[view]
+        x, y = place[:, directions].T
         if abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) < 1e-6 * np.ptp(place, axis=0).max() ** 2:
-            raise InputError(f"element {element} stands upright: it has no area in plan")
-        corners.append(place[:, :2])
+            raise InputError(f"element {element} {seen_edgewise}")
+        corners.append(place[:, directions])
     [panel] = axes_for(axes, 1, title, figsize=(6.5, 5.0))
+    if view == "space":
+        order = np.argsort(nearness, kind="stable")
+        draw_values(panel, [corners[int(k)] for k in order], numbers[order], quantity, 7.0)
+        panel.set_axis_off()
+        return panel
     draw_values(panel, corners, numbers, quantity, 7.0)
+    panel.set_ylabel(_VIEWS[view][1])
+    panel.set_xlabel("y, m" if view == "side" else "x, m")
     return panel
 
 

@@ -97,6 +97,37 @@ def sweep(
     Raises an `Error` with the text of the first case's error if all cases failed. It and every other exception that ends a
     sweep, Ctrl-C included, have the rows so far as their attribute ``table``.
     """
+    table, read = swept(make, grid, (steps, duration, results), jobs, executor, progress, shard, file)
+    if read:
+        text = f"{read} of {len(table)} cases were read from {os.fspath(file or '')} and not run again"
+        warnings.warn(f"{text}: delete the file after a change of the model", BasematWarning, stacklevel=2)
+    stored = "" if file is None else f"; delete {os.fspath(file)}, which has their rows, to run them again"
+    raise_if_all_failed(table, stored)
+    return table
+
+
+def raise_if_all_failed(table: DataFrame, advice: str) -> None:
+    """Raises an `Error` with the first case's error and the ``table`` if no case of it has results."""
+    if len(table) and table["error"].notna().all():
+        error = Error(f"all {len(table)} cases failed, the first of them with {table['error'].iloc[0]}{advice}")
+        error.table = table  # type: ignore[attr-defined]
+        raise error
+
+
+def swept(
+    make: Callable[..., Any],
+    grid: Any,
+    options: tuple[Any, ...],
+    jobs: int | None,
+    executor: Any,
+    progress: bool | Callable[[int, int], Any],
+    shard: tuple[int, int] | None,
+    file: str | os.PathLike[str] | None,
+) -> tuple[DataFrame, int]:
+    """Frame of a sweep, and the number of its rows that were read from the file; all cases may have failed.
+
+    ``options``: steps, duration and results of `sweep`. An exception that ends the sweep has the rows so far.
+    """
     pandas()
     given = parameters_of(grid)
     cases = cases_of(grid, given)
@@ -117,11 +148,9 @@ def sweep(
             stack.enter_context(_case_file.alone(file))
             stored = _core._CaseFile(file, given, shard)
             found.update(_case_file.outcomes_of(stored.rows()))
-        if found:
-            text = f"{len(found)} of {len(numbers)} cases were read from {os.fspath(file or '')} and not run again"
-            warnings.warn(f"{text}: delete the file after a change of the model", BasematWarning, stacklevel=2)
+        read = len(found)
         missing = [number for number in numbers if number not in found]
-        tell = _teller(progress, len(numbers))
+        tell = teller(progress, len(numbers))
         taken = {*parameters, *_OWN}
 
         def ended(place: int, outcome: Outcome) -> None:
@@ -132,17 +161,13 @@ def sweep(
             tell(len(found))
 
         try:
-            _run([cases[number] for number in missing], make, (steps, duration, results), jobs, executor, ended)
+            _run([cases[number] for number in missing], make, options, jobs, executor, ended)
             if stored is not None:
                 found = _case_file.outcomes_of(stored.finish())
-            errors = [found[number][2] for number in numbers]
-            if errors and None not in errors:
-                kept = "" if file is None else f"; delete {os.fspath(file)}, which has their rows, to run them again"
-                raise Error(f"all {len(errors)} cases failed, the first of them with {errors[0]}{kept}")
         except BaseException as error:
             error.table = _frame(cases, parameters, found, numbers)  # type: ignore[attr-defined]
             raise
-    return _frame(cases, parameters, found, numbers)
+    return _frame(cases, parameters, found, numbers), read
 
 
 def _run(
@@ -199,7 +224,8 @@ def _shard(numbers: range, shard: tuple[int, int] | None) -> range:
     return numbers[index::of]
 
 
-def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[[int], Any]:
+def teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[[int], Any]:
+    """Function of the number of cases done, for the ``progress`` of a sweep of ``count`` cases."""
     if callable(progress):
         return lambda done: progress(done, count)
     if progress:

@@ -1,7 +1,7 @@
-"""Linear structures of OpenSeesPy on basemat's grounds.
+"""Structures of OpenSeesPy on basemat's grounds.
 
-A model in the plane or in space gives its matrices at its initial tangent; its base is free of supports, as the
-ground holds it up.
+A model in the plane or in space gives its matrices at its initial tangent, and its beams of fibres, which yield in a run; its
+base is free of supports, as the ground holds it up.
 """
 
 from __future__ import annotations
@@ -12,10 +12,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from . import BaseFaces, BasematWarning, BaseNode, DeformedShape, DofCombination, InputError, MatrixModel
+from . import BaseFaces, BasematWarning, BaseNode, DeformedShape, DofCombination, InputError, MatrixModel, WithElements
 from ._opensees_base import Up, faces_of, line_of, masses, moves
+from ._opensees_fibers import LAWS, FiberBeams, rows_of, without_fibers
 from ._opensees_linear import Elements
 from ._opensees_matrices import largest_entries, matrices
+from ._opensees_nonlinear import NonlinearModel as NonlinearModel
 from ._opensees_rows import Rows
 from ._opensees_shape import base_nodes_of, shape_of
 from ._opensees_ties import Ties
@@ -31,12 +33,21 @@ class OpenSeesModel:
     in frames and in errors, too. A degree of freedom that a tie or a fix of OpenSees takes away has no such
     name; `row` gives the sum that a tied one follows. Matrices of more than 2400 degrees of freedom are sparse
     (``scipy.sparse``) where SciPy is installed.
+
+    With beams of fibres that yield, ``stiffness`` is the matrix of all other elements. The model passes them to a simulation.
     """
 
     def __init__(
-        self, model: MatrixModel, rows: Rows, shape: DeformedShape, sparse: tuple[Any, Any, Any] | None
+        self,
+        model: MatrixModel,
+        rows: Rows,
+        shape: DeformedShape,
+        sparse: tuple[Any, Any, Any] | None,
+        fibers: tuple[WithElements, dict[int, int]] | None = None,
     ) -> None:
         self._rows, self._shape, self._model = rows, shape, model
+        # A simulation takes this in place of the object.
+        self.__basemat_structure__, self._fiber_beams = fibers or (None, {})
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
         self.base = model.base
@@ -60,6 +71,11 @@ class OpenSeesModel:
         return self._shape
 
     @property
+    def fiber_beams(self) -> dict[int, int]:
+        """Numbers of the beams of fibres that yield, for `Simulation.beam_sections`, by the tags of their elements."""
+        return dict(self._fiber_beams)
+
+    @property
     def nodes(self) -> list[int]:
         """Tags of the nodes."""
         return list(self._rows.places)
@@ -75,8 +91,9 @@ def structure(
     below: float | None = None,
     up: Up = "z",
     tangent: Literal["initial", "present"] = "initial",
+    fibers: Literal["yielding", "linear"] = "yielding",
 ) -> OpenSeesModel:
-    """The linear structure that the current model of OpenSees is: its stiffness is the initial tangent.
+    """The structure that the current model of OpenSees is: the initial tangent, with beams of fibres that yield.
 
     Args:
         ops: the module ``openseespy.opensees``, with a model of ``-ndm 2 -ndf 3`` or, in space, ``-ndm 3 -ndf 6``
@@ -101,8 +118,13 @@ def structure(
         up: axis of the model in space that points up, "z" or "y". The ground's and the motion's x, y and z are the
             model's x, y and z, or with "y" its x, −z and y. Weight acts downwards. In the plane y points up.
         tangent: "initial" takes the stiffness of the elements before any load: yield, gaps, P-Delta and
-            other large displacements do not happen in a run. "present" takes the stiffness at the state
-            that analyses have left, such as the P-Delta of a gravity analysis.
+            other large displacements do not happen in a run, but for beams of fibres. "present" takes the stiffness
+            at the state that analyses have left, such as the P-Delta of a gravity analysis; no fibres yield then.
+        fibers: "yielding" takes ``dispBeamColumn`` and ``forceBeamColumn`` with their fibres, which
+            yield in a run: with a Linear transformation, one Fiber section, Lobatto or Legendre integration of 2 to 5
+            points, and fibres of Elastic, Steel01 (without isotropic hardening), Steel02 (without initial stress) and
+            Concrete01. Others stay linear, with a `BasematWarning` that names element, material and reason. Fibres must be
+            without stress. "linear" takes the tangent of all.
 
     Returns:
         The structure at rest, without the loads of OpenSees and without its ``modalDamping``; a
@@ -121,8 +143,27 @@ def structure(
     To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
     than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
     """
+    return _structure(ops, base_nodes, width, outline, faces, below, up, tangent, fibers, warn_of_nonlinear=True)
+
+
+def _structure(
+    ops: Any,
+    base_nodes: Sequence[int] | None,
+    width: float | None,
+    outline: Sequence[Any] | None,
+    faces: Sequence[int | Sequence[int]] | None,
+    below: float | None,
+    up: Up,
+    tangent: Literal["initial", "present"],
+    fibers: Literal["yielding", "linear"],
+    *,
+    warn_of_nonlinear: bool,
+) -> OpenSeesModel:
+    """The structure with masses, damping and stiffness of the model; warnings are for the caller's caller."""
     if tangent not in ("initial", "present"):
         raise InputError(f"tangent is '{tangent}', but must be 'initial' or 'present'")
+    if fibers not in ("yielding", "linear"):
+        raise InputError(f"fibers is '{fibers}', but must be 'yielding' or 'linear'")
     directions = _directions(ops)
     mass, damping, present, initial, penalty, places = matrices(ops)
     elements = Elements(ops)
@@ -143,12 +184,15 @@ def structure(
         # At rest, the present tangent is the initial one. OpenSees 3.7.1 gives another initial stiffness of ShellDKGT
         # and ShellNLDKGT, which resists rigid rotations.
         initial = present
-    if found := elements.not_linear():
+    with_fibers = FiberBeams(ops, elements) if fibers == "yielding" and tangent == "initial" else None
+    yielding = {beam.tag for beam in with_fibers.beams} if with_fibers else set()
+    rest = {kind: [tag for tag in tags if tag not in yielding] for kind, tags in elements.not_linear().items()}
+    if warn_of_nonlinear and (found := {kind: tags for kind, tags in rest.items() if tags}):
         warnings.warn(
             f"the model of OpenSees is not linear: {_named(found)}. Their {tangent} tangent is taken, and stays in "
-            "the run",
+            f"the run{_refused(with_fibers.refused) if with_fibers else ''}",
             BasematWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     ties = Ties(ops, places, directions, penalty)
     if ties.chains:
@@ -157,9 +201,10 @@ def structure(
             f"ties to nodes that follow others: {chains}. They hold here, but not in OpenSees by its constraint handler "
             "Transformation: tie these nodes to the last of the chain",
             BasematWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     stiffness = initial if tangent == "initial" else present
+    linear_stiffness = stiffness
     rows = Rows({tag: tuple(ops.nodeCoord(tag)) for tag in places}, places, ties)
     base: list[BaseNode] | BaseFaces
     if directions[-1] == "rotation":
@@ -173,17 +218,54 @@ def structure(
     held = moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0)
     # A node off its plane is why the structure does not rotate freely.
     if text := ties.off_plane(rows.at) or held:
-        warnings.warn(text, BasematWarning, stacklevel=2)
+        warnings.warn(text, BasematWarning, stacklevel=3)
     if uneven := masses(rows, mass, up):
-        warnings.warn(uneven, BasematWarning, stacklevel=2)
+        warnings.warn(uneven, BasematWarning, stacklevel=3)
+    mesh, fiber_nodes, fiber_beams = with_fibers.mesh(rows.at) if with_fibers and yielding else (None, [], {})
+    if mesh is not None:
+        linear_stiffness = without_fibers(stiffness, mesh, fiber_nodes, places)
     names = {place: f"{tag} {name}" for tag, numbers in places.items() for place, name in zip(numbers, directions)}
     options: dict[str, Any] = {"dof_names": [names[int(place)] for place in ties.kept]}
-    kept = [_clean(ties.sums.T @ _symmetric(matrix, names) @ ties.sums) for matrix in (mass, stiffness, damping)]
+    kept = [_clean(ties.sums.T @ _symmetric(matrix, names) @ ties.sums) for matrix in (mass, linear_stiffness, damping)]
     if abs(damping).max() > 1e-12 * abs(stiffness).max():
         options["damping"] = kept[2]
     model = MatrixModel(kept[0], kept[1], base, **options)
     shape = shape_of(ops, rows, base_nodes_of(ops, base_nodes, faces), up)
-    return OpenSeesModel(model, rows, shape, None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2]))
+    inelastic = (WithElements(model, mesh, rows_of(rows, fiber_nodes)), fiber_beams) if mesh is not None else None
+    sparse = None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2])
+    return OpenSeesModel(model, rows, shape, sparse, inelastic)
+
+
+def nonlinear_structure(
+    ops: Any,
+    base_nodes: Sequence[int] | None = None,
+    *,
+    width: float | None = None,
+    outline: Sequence[Any] | None = None,
+    faces: Sequence[int | Sequence[int]] | None = None,
+    below: float | None = None,
+    up: Up = "z",
+) -> NonlinearModel:
+    """The structure that the current model of OpenSees is, with elements that yield in a run.
+
+    Beams of fibres whose laws basemat has yield in `structure`, too, without OpenSees in the run. Forces and tangents are those of OpenSees at trial displacements; the end of a step commits them. So one simulation
+    moves the model: build it again for the next one. Elements are ``elasticBeamColumn``, ``dispBeamColumn`` (with
+    sections of fibres), ``zeroLength``, ``Truss``, ``corotTruss`` and ``ShellMITC4``, with the transformations Linear and
+    PDelta, in the plane Corotational, too; others raise an `InputError` that names them. Dashpots act by the damping
+    matrix of `structure`; Rayleigh damping is constant, by the initial stiffness. OpenSees writes no more messages
+    afterwards, as each trial would write one.
+
+    Args:
+        ops: the module ``openseespy.opensees`` with its model at rest, as for `structure`: 2400 degrees of freedom at most.
+        base_nodes: tags of the nodes on the ground; None for ``faces``.
+        width: length of a rigid base in the plane, m; None for several nodes.
+        outline: corners of a rigid base in space; None in the plane and for ``faces``.
+        faces: a flexible base in space; None for a rigid one.
+        below: distance of the ground's surface below the base, m; as in `structure` unless given.
+        up: axis of the model in space that points up, "z" or "y".
+    """
+    model = _structure(ops, base_nodes, width, outline, faces, below, up, "initial", "linear", warn_of_nonlinear=False)
+    return NonlinearModel(ops, model)
 
 
 def _directions(ops: Any) -> tuple[str, ...]:
@@ -211,6 +293,15 @@ def _named(found: dict[str, list[int]], most: int = 20) -> str:
         more = f" and {len(tags) - most} more" if len(tags) > most else ""
         parts.append(f"element{'s' * (len(tags) > 1)} {', '.join(map(str, tags[:most]))}{more} ({reason})")
     return ", ".join(parts)
+
+
+def _refused(reasons: dict[int, str], most: int = 20) -> str:
+    """Why beams of fibres stay linear."""
+    if not reasons:
+        return ""
+    listed = [f"element {tag} for its {reason}" for tag, reason in list(reasons.items())[:most]]
+    more = f" and {len(reasons) - most} more" if len(reasons) > most else ""
+    return f". Fibres yield with a Linear transformation and {LAWS}; not in {', '.join(listed)}{more}"
 
 
 def _symmetric(matrix: Any, names: dict[int, str]) -> Any:

@@ -70,7 +70,7 @@ impl FileOptions<'_> {
             ));
         }
         let unit =
-            self.unit.ok_or_else(|| input_error("a file of columns has no unit: give `unit`"))?;
+            self.unit.ok_or_else(|| input_error("a file of columns (the default format) has no unit: give `unit`, or the `format` of the file"))?;
         let format = ColumnFormat {
             header_lines: self.header_lines.unwrap_or(0),
             samples: self.samples,

@@ -14,7 +14,7 @@ use crate::list_arguments::{ListOf, type_error};
 use crate::row::RowLike;
 use crate::structure::{
     PyFemModel, PyReducedModel, PyShearBuilding, PyStoreyBuilding, PyStructureGroup,
-    PyWithModalDamping, PyWithSprings, PyWithWalls, structure_recipe,
+    PyWithElements, PyWithModalDamping, PyWithSprings, PyWithWalls, structure_recipe,
 };
 
 /// Points and outlines of a ``structure`` for pictures and for ParaView.
@@ -82,6 +82,9 @@ pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<
     }
     if let Ok(with_springs) = object.cast::<PyWithSprings>() {
         return shape(with_springs.get().0.bind(py), height);
+    }
+    if let Ok(with_elements) = object.cast::<PyWithElements>() {
+        return shape(with_elements.get().0.bind(py), height);
     }
     if let Ok(with_damping) = object.cast::<PyWithModalDamping>() {
         return shape(with_damping.get().structure.bind(py), height);

@@ -1,10 +1,11 @@
-//! States of solids during a simulation.
+//! States of solids and of beams of fibres during a simulation.
 
 use std::any::Any;
 
 use basemat::Simulation;
+use basemat::fem::{BeamSectionState, SolidPoint};
 use basemat::structure::{
-    FemModel, Structure, StructureGroup, WithModalDamping, WithSprings, WithWalls,
+    FemModel, Structure, StructureGroup, WithElements, WithModalDamping, WithSprings, WithWalls,
 };
 use pyo3::prelude::*;
 
@@ -12,12 +13,43 @@ use super::PySimulation;
 use crate::array::{Array, Count};
 use crate::error::{OrRaise, input_error};
 use crate::names::choice;
-use crate::structure::PySolidPoints;
+use crate::structure::{PyBeamSections, PySolidPoints};
 
-/// The model of a simulation whose structure, or a ``member`` of its group, is a `FemModel`.
+/// A structure whose elements may yield.
+#[derive(Clone, Copy)]
+enum InelasticModel<'a> {
+    Fem(&'a FemModel),
+    Elements(&'a WithElements),
+}
+
+impl InelasticModel<'_> {
+    fn solid_points(self, element: usize) -> basemat::Result<Vec<SolidPoint>> {
+        match self {
+            Self::Fem(model) => model.solid_points(element),
+            Self::Elements(model) => model.solid_points(element),
+        }
+    }
+
+    fn beam_sections(self, element: usize) -> basemat::Result<Vec<BeamSectionState>> {
+        match self {
+            Self::Fem(model) => model.beam_sections(element),
+            Self::Elements(model) => model.beam_sections(element),
+        }
+    }
+
+    /// Numbers of the elements that yield.
+    fn elements(self) -> Vec<usize> {
+        match self {
+            Self::Fem(model) => model.inelastic_elements().collect(),
+            Self::Elements(model) => (0..model.mesh().elements().len()).collect(),
+        }
+    }
+}
+
+/// The model of a simulation whose structure, or a ``member`` of its group, is a `FemModel` or `WithElements`.
 ///
 /// Springs, modal damping or walls may be around the group and around its members.
-fn inelastic_model(simulation: &Simulation, member: Option<Count>) -> PyResult<&FemModel> {
+fn inelastic_model(simulation: &Simulation, member: Option<Count>) -> PyResult<InelasticModel<'_>> {
     let mut structure: &dyn Any = simulation.structure();
     let mut remaining_member = member.map(|member| member.0);
     loop {
@@ -38,7 +70,10 @@ fn inelastic_model(simulation: &Simulation, member: Option<Count>) -> PyResult<&
     if remaining_member.is_some() {
         return Err(input_error("member is for a StructureGroup, but the simulation has none"));
     }
-    structure.downcast_ref().ok_or_else(|| {
+    if let Some(model) = structure.downcast_ref() {
+        return Ok(InelasticModel::Fem(model));
+    }
+    structure.downcast_ref().map(InelasticModel::Elements).ok_or_else(|| {
         input_error(
             "the structure of the simulation must be a FemModel with materials that yield, alone or with springs, modal \
              damping or walls",
@@ -66,13 +101,25 @@ type ElementValue = fn(&PySolidPoints) -> f64;
 #[pymethods]
 impl PySimulation {
     /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
-    /// stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
-    /// one inside `WithSprings`, `WithModalDamping` or `WithWalls`, or the structure ``member`` (0: the first; none unless
+    /// stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel` or
+    /// `WithElements`, also one inside `WithSprings`, `WithModalDamping` or `WithWalls`, or the structure ``member`` (0: the first; none unless
     /// given) of a `StructureGroup`. While `run` calls ``observe``, this method raises an `Error`: use a loop over `steps`
     /// instead.
     #[pyo3(signature = (element, *, member=None))]
     fn solid_points(&self, element: Count, member: Option<Count>) -> PyResult<PySolidPoints> {
-        PySolidPoints::of_element(inelastic_model(&*self.lock()?, member)?, element.0)
+        let simulation = self.lock()?;
+        let model = inelastic_model(&simulation, member)?;
+        PySolidPoints::of_element(element.0, |index| model.solid_points(index))
+    }
+
+    /// The `BeamSections` of a beam of fibres with the number ``element`` at the end of the last accepted step: curvatures,
+    /// axial forces, moments, and strains and stresses of all fibres. Structure and ``member`` (none unless given) are as for
+    /// `solid_points`.
+    #[pyo3(signature = (element, *, member=None))]
+    fn beam_sections(&self, element: Count, member: Option<Count>) -> PyResult<PyBeamSections> {
+        let simulation = self.lock()?;
+        let model = inelastic_model(&simulation, member)?;
+        PyBeamSections::of_element(element.0, |index| model.beam_sections(index))
     }
 
     /// One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
@@ -90,11 +137,16 @@ impl PySimulation {
         let element_value = choice("quantity", quantity, &choices)?;
         let simulation = self.lock()?;
         let model = inelastic_model(&simulation, member)?;
-        let elements: Vec<usize> = model.inelastic_elements().collect();
-        let values = elements
-            .iter()
-            .map(|&element| Ok(element_value(&PySolidPoints::of_element(model, element)?)))
-            .collect::<PyResult<Array>>()?;
-        Ok((elements, values))
+        let mut elements = Vec::new();
+        let mut values = Vec::new();
+        for element in model.elements() {
+            let points = PySolidPoints::of_element(element, |index| model.solid_points(index))?;
+            // Beams have no points.
+            if !points.is_empty() {
+                elements.push(element);
+                values.push(element_value(&points));
+            }
+        }
+        Ok((elements, values.into()))
     }
 }

@@ -307,6 +307,21 @@ impl PyMesh {
         self.0.elements().map(Element::nodes).collect()
     }
 
+    /// Stiffness matrix of an ``element`` (its number) at small displacements: array of shape (n, n) for its n degrees of
+    /// freedom, node by node in the directions that it has; N/m, N and N·m.
+    fn element_stiffness(&self, element: Count) -> PyResult<Rows> {
+        let element_count = self.0.elements().len();
+        let found = self.0.elements().nth(element.0).ok_or_else(|| {
+            let number = element.0;
+            input_error(format!("there is no element {number} among {element_count} of the mesh"))
+        })?;
+        let order = found.order();
+        let mut matrix = vec![0.0; order * order];
+        let coordinates: Vec<_> = found.nodes().iter().map(|&node| self.0.nodes()[node]).collect();
+        found.stiffness(&coordinates, &mut matrix);
+        Ok(Rows(matrix.chunks_exact(order).map(<[f64]>::to_vec).collect()))
+    }
+
     /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
     /// the mesh. ``z`` is 0 by default.
     #[pyo3(signature = (x, y, z=0.0))]

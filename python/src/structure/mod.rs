@@ -1,12 +1,15 @@
 //! Structures.
 
 mod beam_ends;
+mod beam_sections;
 mod block;
 mod building;
 mod composed;
 mod connectivity;
 mod dof_combination;
 mod fem;
+mod fiber_material;
+mod fiber_section;
 mod gmsh_space;
 mod grid;
 mod hysteresis;
@@ -21,14 +24,18 @@ mod solid_material;
 mod solid_points;
 mod stress_at_rest;
 mod superclass;
+mod with_elements;
 
 pub(crate) use beam_ends::{PyBeamEndRows, PyBeamRows};
+pub(crate) use beam_sections::PyBeamSections;
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping, PyWithWalls,
 };
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
+pub(crate) use fiber_material::{PyBilinearSteel, PyConcrete, PyMenegottoPinto, fiber_stress_path};
+pub(crate) use fiber_section::PyFiberSection;
 pub(crate) use gmsh_space::PyGmshSpaceMesh;
 pub(crate) use grid::PyGrid;
 pub(crate) use hysteresis::{
@@ -44,3 +51,4 @@ pub(crate) use solid_material::{PyDruckerPrager, PyIwan, stress_path};
 pub(crate) use solid_points::PySolidPoints;
 pub(crate) use stress_at_rest::PyStressAtRest;
 pub(crate) use superclass::{PyStructure, new_structure, structure_recipe};
+pub(crate) use with_elements::PyWithElements;

@@ -1,7 +1,6 @@
 //! States of solids at integration points.
 
 use basemat::fem::SolidPoint;
-use basemat::structure::FemModel;
 use pyo3::prelude::*;
 
 use super::PyFemModel;
@@ -30,9 +29,12 @@ fn rows<const N: usize>(values: &[[f64; N]]) -> Rows {
 }
 
 impl PySolidPoints {
-    /// States of an element of a model at the end of the last step; raises exceptions of a material written in Python.
-    pub(crate) fn of_element(model: &FemModel, element: usize) -> PyResult<Self> {
-        let points = raise_user_exceptions(|| model.solid_points(element).or_raise())?;
+    /// States that `read` returns for an element; raises exceptions of a material written in Python.
+    pub(crate) fn of_element(
+        element: usize,
+        read: impl FnOnce(usize) -> basemat::Result<Vec<SolidPoint>>,
+    ) -> PyResult<Self> {
+        let points = raise_user_exceptions(|| read(element).or_raise())?;
         Ok(Self {
             element,
             positions: points.iter().map(|point| point.position).collect(),
@@ -42,6 +44,11 @@ impl PySolidPoints {
             plastic_strains: values(&points, |point| point.state.plastic_strain),
             mobilised_strengths: values(&points, |point| point.state.mobilised_strength),
         })
+    }
+
+    /// Whether the element has no points.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.areas.is_empty()
     }
 
     /// Plastic shear strain, mean over the area of the element.
@@ -126,7 +133,7 @@ impl PySolidPoints {
 
 #[pymethods]
 impl PyFemModel {
-    /// Numbers of the elements whose material yields or is a `UserMaterial`: list, ascending.
+    /// Numbers of the elements whose material yields or is a `UserMaterial`, beams of fibres included: list, ascending.
     #[getter]
     fn inelastic_elements(&self) -> Vec<usize> {
         self.0.inelastic_elements().collect()
@@ -135,6 +142,6 @@ impl PyFemModel {
     /// The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; `Simulation.solid_points`
     /// returns those of a simulation.
     fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
-        PySolidPoints::of_element(&self.0, element.0)
+        PySolidPoints::of_element(element.0, |index| self.0.solid_points(index))
     }
 }

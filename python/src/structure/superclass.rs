@@ -43,9 +43,21 @@ impl PyStructure {
     }
 }
 
+/// Attribute of Python's objects of the package that contain a `Structure`.
+const INNER_STRUCTURE: &str = "__basemat_structure__";
+
+/// The structure of this package that an object is or contains; `None` for one written in Python.
+fn inner_structure<'py>(object: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyStructure>>> {
+    if let Ok(structure) = object.cast::<PyStructure>() {
+        return Ok(Some(structure.clone()));
+    }
+    let inner = object.getattr_opt(INNER_STRUCTURE)?;
+    Ok(inner.and_then(|inner| inner.cast_into::<PyStructure>().ok()))
+}
+
 /// The recipe of a structure of this package, or of one written in Python.
 pub(crate) fn structure_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure>> {
-    if let Ok(structure) = object.cast::<PyStructure>() {
+    if let Some(structure) = inner_structure(object)? {
         return Ok(structure.get().make.clone());
     }
     reject_class(object)?;
@@ -73,7 +85,7 @@ pub(crate) fn new_structure<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Structure>, Bound<'py, PyAny>)> {
     reject_class(object)?;
-    if object.cast::<PyStructure>().is_err() && has_base(object)? {
+    if inner_structure(object)?.is_none() && has_base(object)? {
         let structure = UserStructure::new(object)?;
         let copy = structure.object(object.py());
         return Ok((Box::new(structure), copy));

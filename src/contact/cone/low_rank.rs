@@ -16,7 +16,8 @@ use crate::linalg::pivoted_cholesky;
 
 /// Largest number of modes of a structure on a lattice of elements.
 ///
-/// With more modes, the solution uses all entries of W.
+/// A rigid body in space has six: these are the modes of four bodies. With more modes, the solution uses all entries
+/// of W.
 pub(super) const MAX_COMPLIANCE_MODES: usize = 24;
 
 /// W = D + L Lᵀ, and the modal amplitudes of the current forces.

@@ -131,6 +131,7 @@ fn boxed_motions_forward_all_methods() {
         assert!(part.at_faces(&[], 3.0, &mut displacement, &mut impulse));
         assert_eq!([displacement, impulse], [[3.0], [MARKER_VALUE]]);
         assert_eq!(part.soils(), Some(&[MARKER_VALUE][..]));
+        assert_eq!(part.elements(), Some(&[][..]));
         assert!(part.moves_across() && part.records().is_empty());
         assert_eq!(part.velocity(3.0, 1.0), [MARKER_VALUE, 3.0]);
     }
@@ -194,7 +195,7 @@ fn boxed_elements_forward_all_methods() {
         part.damping(&[], &mut matrix);
         assert_eq!(matrix, [10.0 * MARKER_VALUE]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
-        assert!(part.inelastic().is_none());
+        assert!(part.inelastic().is_none() && !part.has_stiffness_damping());
         let stress = StressAtRest::new(9.81, 1900.0, 0.5).unwrap();
         assert!(part.with_stress_at_rest(&stress).is_some() && part.is_at_rest());
         assert_eq!(part.compression(), Some(MARKER_VALUE));

@@ -33,6 +33,11 @@ impl FreeField for RecordingPart {
         true
     }
 
+    fn elements(&self) -> Option<&[ContactElement]> {
+        self.0.add("elements");
+        Some(&[])
+    }
+
     fn soils(&self) -> Option<&[f64]> {
         self.0.add("soils");
         Some(&[MARKER_VALUE])
@@ -102,6 +107,11 @@ impl Element for RecordingPart {
     fn inelastic(&self) -> Option<&dyn InelasticForce> {
         self.0.add("inelastic");
         None
+    }
+
+    fn has_stiffness_damping(&self) -> bool {
+        self.0.add("has_stiffness_damping");
+        false
     }
 
     fn with_stress_at_rest(&self, _: &StressAtRest) -> Option<Box<dyn Element>> {

@@ -4,9 +4,10 @@
 
 use std::collections::BTreeSet;
 
+use basemat::fem::{BeamQuadrature, BilinearSteel, FiberBeam, FiberSection, Mesh};
 use basemat::structure::{
-    Base, BaseNode, CraigBampton, InternalEnergy, ModalDamping, NonlinearForce, Structure,
-    StructureDescription, StructureGroup, Triplets, WithSprings,
+    Base, BaseNode, CraigBampton, DofCombination, InternalEnergy, ModalDamping, NonlinearForce,
+    Structure, StructureDescription, StructureGroup, Triplets, WithElements, WithSprings,
 };
 use basemat::{Error, Result};
 
@@ -172,8 +173,8 @@ fn diagonal_entry(dof: usize, fill: impl FnOnce(&mut Triplets) -> Result<()>) ->
     entries.filter(|(i, j, _)| (*i, *j) == (dof, dof)).map(|(_, _, value)| value).sum()
 }
 
-/// Calls all methods; the damping matrix must have the entry `damping` on its diagonal.
-fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
+/// Calls the methods of a linear structure; the damping matrix must have the entry `damping` on its diagonal.
+fn call_linear_methods(structure: &dyn Structure, dof: usize, damping: f64) {
     assert_eq!((structure.dofs(), structure.base()), (4, two_lines()));
     assert_eq!(diagonal_entry(dof, |matrix| structure.mass(matrix)), MARKER_VALUE);
     assert_eq!(diagonal_entry(dof, |matrix| structure.stiffness(matrix)), 2.0 * MARKER_VALUE);
@@ -191,12 +192,18 @@ fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
     let mut load = [0.0; 4];
     structure.load(0.25, &mut load).unwrap();
     assert_eq!(load, [0.25, 0.0, 0.0, 0.0]);
+}
+
+/// Calls all methods; the damping matrix must have the entry `damping` on its diagonal.
+fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
+    call_linear_methods(&structure, dof, damping);
     let Some(force) = structure.nonlinear() else {
         assert!(structure.nonlinear_mut().is_none());
         return;
     };
-    force.force(&[0.5; 4], &mut load).unwrap();
-    assert_eq!(load, [0.75, 0.0, 0.0, 0.0]);
+    let mut nonlinear_force = [0.0; 4];
+    force.force(&[0.5; 4], &mut nonlinear_force).unwrap();
+    assert_eq!(nonlinear_force, [0.5, 0.0, 0.0, 0.0]);
     let tangent_entry = diagonal_entry(dof, |matrix| force.tangent(&[0.0; 4], matrix));
     assert_eq!(tangent_entry, 4.0 * MARKER_VALUE);
     let energy = InternalEnergy { stored: 0.5, dissipated: MARKER_VALUE };
@@ -269,4 +276,25 @@ fn reduced_structures_forward_all_methods() {
     let reduced = CraigBampton::new(2).reduce(full).unwrap();
     call_methods(reduced, 0, 3.0 * MARKER_VALUE);
     assert_eq!(log.take(), linear_methods());
+}
+
+/// Elements on a linear structure add a nonlinear force, and keep its other properties.
+#[test]
+fn structures_with_elements_forward_all_methods() {
+    let steel = BilinearSteel::new(355.0e6, 210.0e9, 0.01).unwrap();
+    let section = FiberSection::new().with_rectangle([[-0.1, -0.1], [0.1, 0.1]], [4, 1], steel);
+    let mut mesh = Mesh::new();
+    let ends = [0.0, 3.0].map(|y| mesh.add_node(0.0, y).unwrap());
+    let beam = FiberBeam::new(ends, &section.unwrap(), BeamQuadrature::Lobatto(3), 0.0).unwrap();
+    mesh.add(beam).unwrap();
+    let log = CallLog::default();
+    let linear = RecordingStructure { log: log.clone(), is_linear: true };
+    let no_motion = |_, _| Ok(DofCombination::default());
+    let with_elements = WithElements::new(linear, mesh, no_motion).unwrap();
+    call_linear_methods(&with_elements, 0, 3.0 * MARKER_VALUE);
+    // The elements alone are nonlinear, and change.
+    let mut methods = linear_methods();
+    methods.remove("nonlinear_mut");
+    assert_eq!(log.take(), methods);
+    assert!(with_elements.nonlinear().is_some());
 }

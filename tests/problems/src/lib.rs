@@ -25,6 +25,7 @@ pub mod fiber_tables;
 pub mod flexible_scenes;
 pub mod headline;
 pub mod impedance;
+pub mod incoherent_disc;
 pub mod laws_with_memory;
 pub mod passivity;
 pub mod patch;

@@ -15,6 +15,7 @@ mod line_loads;
 mod merging;
 mod meshes;
 mod modal_damping;
+mod opensees_fibers;
 
 mod p_delta;
 mod p_delta_in_space;

@@ -8,3 +8,4 @@ mod reduction;
 mod semi_definite;
 mod supports;
 mod triplets;
+mod yielding_elements;

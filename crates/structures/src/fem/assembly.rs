@@ -14,6 +14,8 @@ pub(crate) enum MatrixKind {
     Stiffness,
     /// Stiffness of the elements without internal variables.
     LinearStiffness,
+    /// Stiffness of the elements that count in stiffness-proportional damping.
+    DampedStiffness,
     GeometricStiffness,
     Mass(MassKind),
     /// Damping of the elements, without Rayleigh damping.
@@ -43,7 +45,8 @@ pub(crate) fn assemble(
         element_matrix.resize(element.order().pow(2), 0.0);
         match matrix_kind {
             MatrixKind::LinearStiffness if element.inelastic().is_some() => continue,
-            MatrixKind::Stiffness | MatrixKind::LinearStiffness => {
+            MatrixKind::DampedStiffness if !element.has_stiffness_damping() => continue,
+            MatrixKind::Stiffness | MatrixKind::LinearStiffness | MatrixKind::DampedStiffness => {
                 element.stiffness(&coordinates, &mut element_matrix);
             }
             MatrixKind::GeometricStiffness => {

@@ -85,10 +85,18 @@ pub trait Element: Any + Send + Sync {
     ///
     /// Default: `None`, for a linear element.
     ///
-    /// [`stiffness`](Element::stiffness) is then the stiffness of small displacements. Rayleigh damping and the static
-    /// forces of P–Δ use it, but the force of the element in a run is the [`InelasticForce`] alone.
+    /// [`stiffness`](Element::stiffness) is then the stiffness of small displacements. The static forces of P–Δ use it,
+    /// and Rayleigh damping if [`has_stiffness_damping`](Element::has_stiffness_damping), but the force of the element in a
+    /// run is the [`InelasticForce`] alone.
     fn inelastic(&self) -> Option<&dyn InelasticForce> {
         None
+    }
+
+    /// Whether the stiffness counts in stiffness-proportional damping. Default: yes.
+    ///
+    /// A stiff element whose force has a limit returns `false`: its viscous force would have none.
+    fn has_stiffness_damping(&self) -> bool {
+        true
     }
 
     /// Copy of this element as soil that begins at rest, with these stresses and without weight.

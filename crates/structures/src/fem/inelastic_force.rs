@@ -1,5 +1,6 @@
 //! Forces of elements with internal variables.
 
+use super::hinge_state::HingeState;
 use super::internal_energy::InternalEnergy;
 use super::solid::SolidState;
 use crate::error::Result;
@@ -81,6 +82,13 @@ pub trait InelasticForce: Send + Sync {
         variables: &[f64],
     ) -> Result<f64>;
 
+    /// Rows of the deformations that can yield: weights of the element's degrees of freedom. Default: none.
+    ///
+    /// A model returns an error if its links and ties do not let one of them change. Such an element would be rigid there.
+    fn yielding_deformations(&self, _coordinates: &[[f64; 3]]) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
     /// Overwrites `variables` by those after a step that ended with `displacement`.
     fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]);
 
@@ -109,6 +117,19 @@ pub trait InelasticForce: Send + Sync {
     ) -> Result<Vec<BeamSectionState>> {
         Ok(Vec::new())
     }
+
+    /// State of a hinge, for results. Default: `None`, for other elements.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn hinge(
+        &self,
+        _coordinates: &[[f64; 3]],
+        _displacement: &[f64],
+        _variables: &[f64],
+    ) -> Result<Option<HingeState>> {
+        Ok(None)
+    }
 }
 
 /// Method that returns states in an element from coordinates, displacement and internal variables.
@@ -133,6 +154,17 @@ pub(crate) fn read_sections(
     variables: &[f64],
 ) -> Result<Vec<BeamSectionState>> {
     force.sections(coordinates, displacement, variables)
+}
+
+/// [`InelasticForce::hinge`] as a [`ReadStates`], with one state or none.
+pub(crate) fn read_hinge(
+    force: &dyn InelasticForce,
+    coordinates: &[[f64; 3]],
+    displacement: &[f64],
+    variables: &[f64],
+) -> Result<Vec<HingeState>> {
+    let state = force.hinge(coordinates, displacement, variables)?;
+    Ok(Vec::from_iter(state))
 }
 
 /// State of a section of a beam of fibres.

@@ -16,6 +16,8 @@ mod grid;
 #[cfg(test)]
 pub(crate) mod hardening;
 mod hex8;
+mod hinge;
+mod hinge_state;
 mod inelastic_force;
 pub(crate) mod internal_energy;
 mod layer;
@@ -50,8 +52,10 @@ pub use fiber::{
 };
 pub use grid::Grid;
 pub use hex8::Hex8;
+pub use hinge::{AxialMomentSurface, BilinearMoment, Hinge, InteractionHinge, SpaceHinge};
+pub use hinge_state::HingeState;
 pub use inelastic_force::{BeamSectionState, FiberState, InelasticForce, SolidPoint};
-pub(crate) use inelastic_force::{ReadStates, read_points, read_sections};
+pub(crate) use inelastic_force::{ReadStates, read_hinge, read_points, read_sections};
 pub use layer::Layer;
 pub use lumped_mass::LumpedMass;
 pub use material::Material;

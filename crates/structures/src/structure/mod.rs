@@ -57,7 +57,7 @@ pub use models::WithWalls;
 pub use models::{
     BeamEndRows, BeamRows, FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock,
     RigidBody, Section, ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding,
-    StructureGroup,
+    StructureGroup, WithElements,
 };
 pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{MassAndStiffness, mass_and_stiffness};

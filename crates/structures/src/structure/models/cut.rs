@@ -64,7 +64,7 @@ impl<'a> SectionCut<'a> {
             matrix_above(MatrixKind::GeometricStiffness, 1.0),
         ];
         let damping = vec![
-            matrix_above(MatrixKind::Stiffness, model.damping.stiffness()),
+            matrix_above(MatrixKind::DampedStiffness, model.damping.stiffness()),
             matrix_above(MatrixKind::Damping, 1.0),
         ];
         let mass = vec![matrix_above(MatrixKind::Mass(model.mass_kind), 1.0)];

@@ -2,7 +2,10 @@
 
 use super::inelastic_elements::InelasticElements;
 use crate::error::{Error, Result, in_bounds, same_length};
-use crate::fem::{BeamSectionState, Element, ReadStates, SolidPoint, read_points, read_sections};
+use crate::fem::{
+    BeamSectionState, Element, HingeState, ReadStates, SolidPoint, read_hinge, read_points,
+    read_sections,
+};
 use crate::structure::{FemModel, Structure};
 
 impl FemModel {
@@ -99,6 +102,18 @@ impl FemModel {
     /// As for [`solid_points`](FemModel::solid_points).
     pub fn beam_sections(&self, element: usize) -> Result<Vec<BeamSectionState>> {
         self.element_states(element, read_sections)
+    }
+
+    /// Deformation, forces and plastic deformation of a [`Hinge`](crate::fem::Hinge) or another kind of hinge.
+    ///
+    /// They belong to the end of the last step, as [`solid_points`](FemModel::solid_points).
+    ///
+    /// # Errors
+    /// As for [`solid_points`](FemModel::solid_points); [`Error::Part`] also for an element that is no hinge.
+    pub fn hinge_state(&self, element: usize) -> Result<HingeState> {
+        let states = self.element_states(element, read_hinge)?;
+        let not_a_hinge = || Error::part(format!("element {element}"), "it is no hinge");
+        states.first().copied().ok_or_else(not_a_hinge)
     }
 
     /// States in an element at the end of the last step.

@@ -220,8 +220,8 @@ impl FemModel {
 
     /// Replaces the Rayleigh damping, which adds to the elements' own damping.
     ///
-    /// The geometric stiffness of P–Δ does not contribute to it. Elements with internal variables contribute their
-    /// stiffness of small displacements.
+    /// The geometric stiffness of P–Δ does not contribute to it, nor do hinges. Other elements with internal variables
+    /// contribute their stiffness of small displacements.
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
@@ -382,7 +382,7 @@ impl Structure for FemModel {
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         let mut weighted_kinds = vec![
             (MatrixKind::Mass(self.mass_kind), self.damping.mass()),
-            (MatrixKind::Stiffness, self.damping.stiffness()),
+            (MatrixKind::DampedStiffness, self.damping.stiffness()),
             (MatrixKind::Damping, 1.0),
         ];
         weighted_kinds.retain(|(_, factor)| *factor > 0.0);

@@ -1,82 +1,15 @@
 //! Nonlinear force of a model's elements with internal variables.
 
+mod element;
+
 use std::cmp::Ordering;
-use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use element::InelasticElement;
+
 use crate::error::{CheckpointError, Result, all_finite, same_length};
-use crate::fem::{Direction, Element, InelasticForce, Mesh, ReadStates, SolidState, read_points};
+use crate::fem::{Direction, InelasticForce, Mesh, ReadStates, SolidState, read_points};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Triplets};
-
-/// An element with internal variables, and its degrees of freedom in the model.
-#[derive(Clone)]
-struct InelasticElement {
-    /// Index in the mesh.
-    index: usize,
-    element: Arc<dyn Element>,
-    coordinates: Vec<[f64; 3]>,
-    /// Terms (degree of freedom, weight) of the element's degrees of freedom, one after the other.
-    terms: Vec<(usize, f64)>,
-    /// Range of the terms of each of the element's degrees of freedom.
-    rows: Vec<Range<usize>>,
-    /// Degrees of freedom of the model that equal those of the element; `None` if one is a sum.
-    dofs: Option<Vec<usize>>,
-    /// Range of the element's internal variables.
-    variables: Range<usize>,
-}
-
-impl InelasticElement {
-    /// Overwrites `element_displacement` by the displacements of the element's degrees of freedom.
-    fn gather(&self, displacement: &[f64], element_displacement: &mut [f64]) {
-        if let Some(dofs) = &self.dofs {
-            let values = element_displacement.iter_mut().zip(dofs);
-            return values.for_each(|(value, dof)| *value = displacement[*dof]);
-        }
-        for (value, row) in element_displacement.iter_mut().zip(&self.rows) {
-            let terms = self.terms[row.clone()].iter();
-            *value = terms.map(|&(dof, weight)| weight * displacement[dof]).sum();
-        }
-    }
-
-    /// Degrees of freedom of the model that equal those of the element; `None` if one is a sum.
-    fn single_dofs(&self) -> Option<Vec<usize>> {
-        let single_dof = |row: &Range<usize>| match self.terms[row.clone()] {
-            [(dof, 1.0)] => Some(dof),
-            _ => None,
-        };
-        self.rows.iter().map(single_dof).collect()
-    }
-
-    /// Adds forces on the element's degrees of freedom to those on the model's.
-    fn scatter(&self, element_force: &[f64], force: &mut [f64]) {
-        for (element_value, row) in element_force.iter().zip(&self.rows) {
-            for &(dof, weight) in &self.terms[row.clone()] {
-                force[dof] += weight * element_value;
-            }
-        }
-    }
-
-    /// Adds a matrix of the element, with all its zeros, to that of the model.
-    fn scatter_matrix(&self, element_matrix: &[f64], matrix: &mut Triplets) {
-        if let Some(dofs) = &self.dofs {
-            return matrix.add_block(dofs, element_matrix);
-        }
-        for (values, row) in element_matrix.chunks_exact(self.rows.len()).zip(&self.rows) {
-            for (value, column) in values.iter().zip(&self.rows) {
-                for &(i, row_weight) in &self.terms[row.clone()] {
-                    for &(j, column_weight) in &self.terms[column.clone()] {
-                        matrix.add(i, j, row_weight * column_weight * value);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Text that names the element in errors.
-    fn name(&self) -> String {
-        format!("element {} on nodes {:?}", self.index, self.element.nodes())
-    }
-}
 
 /// State of the point of an element that is nearest to failure, and the element's name.
 struct NamedState {
@@ -185,6 +118,7 @@ impl InelasticElements {
                 .initialize(&inelastic.coordinates, element_variables)
                 .and_then(|()| all_finite("internal variables", element_variables))
                 .map_err(|fault| fault.within(inelastic.name()))?;
+            inelastic.check_links(force)?;
             max_order = max_order.max(inelastic.rows.len());
             elements.push(inelastic);
         }

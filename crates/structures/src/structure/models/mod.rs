@@ -29,6 +29,7 @@ mod soil_at_rest;
 mod storey_building;
 mod storey_laws;
 mod storey_section;
+mod with_elements;
 #[cfg(feature = "embedded")]
 mod with_walls;
 
@@ -43,5 +44,6 @@ pub use shear_building::{ShearBuilding, Storey};
 pub use shell_rows::ShellRows;
 pub use storey_building::{PlanStorey, StoreyBuilding};
 pub use storey_laws::IsolationLevel;
+pub use with_elements::WithElements;
 #[cfg(feature = "embedded")]
 pub use with_walls::WithWalls;

@@ -1,6 +1,7 @@
 //! Models with elements that yield: force, tangent, energies and stored states.
 
 mod composition;
+mod hinges;
 
 use crate::error::Error;
 use crate::fem::hardening::{Hardening, HiddenElastic};

@@ -1,0 +1,147 @@
+//! Ground motion that differs from point to point: a disc of the literature, a containment, and the cost.
+//!
+//! ```text
+//! cargo study incoherence --docs docs
+//! ```
+
+mod containment;
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use basemat::bem::plan::Plan;
+use basemat::motion::{AbrahamsonCoherence, Coherence, Incoherence, LucoWong, Triaxial};
+use basemat::prelude::*;
+use basemat_problems::incoherent_disc::{
+    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
+};
+use cpu_time::ThreadTime;
+
+use crate::AnyError;
+use crate::document::{peak_memory, splice};
+
+/// Ground motion that differs from point to point: a disc of the literature, a containment, and the cost.
+#[derive(Debug, clap::Args)]
+pub(crate) struct IncoherenceOptions {
+    /// Few cells, seeds and steps, as a test.
+    #[arg(long)]
+    short: bool,
+    /// Cells along the diameter of the disc.
+    #[arg(long, default_value_t = 16)]
+    cells: usize,
+    /// Seeds of the disc.
+    #[arg(long, default_value_t = 200)]
+    disc_seeds: u64,
+    /// Seeds of the containment.
+    #[arg(long, default_value_t = 20)]
+    seeds: u64,
+    /// Folder for the files.
+    #[arg(long, default_value = "target/study/incoherence")]
+    out: PathBuf,
+    /// Folder of the documentation; with it the tables go to benches/studies/tables, and the picture to its images/.
+    #[arg(long, conflicts_with = "short")]
+    docs: Option<PathBuf>,
+}
+
+/// Runs the study.
+pub(crate) fn run(options: &IncoherenceOptions) -> Result<(), AnyError> {
+    std::fs::create_dir_all(&options.out)?;
+    let cost = cost(options.short)?;
+    println!("{cost}");
+    let disc = disc(options)?;
+    println!("{disc}");
+    let seeds = if options.short { 2 } else { options.seeds };
+    let (containment, figure) = containment::compare(seeds, options.short)?;
+    println!("{containment}");
+    figure.draw(&options.out.join("incoherence.svg"))?;
+    if let Some(docs) = &options.docs {
+        for (name, text) in [("disc", &disc), ("containment", &containment), ("cost", &cost)] {
+            splice("incoherence.md", &format!("incoherence {name}"), text)?;
+        }
+        figure.draw(&docs.join("images/incoherence.svg"))?;
+    }
+    println!("files in {}", options.out.display());
+    Ok(())
+}
+
+/// Mean squares of the motion of a rigid disc without mass, beside the published ones.
+fn disc(options: &IncoherenceOptions) -> Result<String, AnyError> {
+    let cells = if options.short { 6 } else { options.cells };
+    let seed_count = if options.short { 4 } else { options.disc_seeds };
+    let disc = Disc::new(cells)?;
+    let mut text = "| motion | a₀ | Luco and Mita (1987) | w* Γ w | difference, % | mean over seeds | its standard error |\n|---|---|---|---|---|---|---|\n".to_owned();
+    for ((component, published), name) in DISC_COMPONENTS
+        .into_iter()
+        .zip(PUBLISHED_MEAN_SQUARES)
+        .zip(["horizontal", "vertical"])
+    {
+        let weights = disc.weights(component)?;
+        let sampled = sampled_mean_squares(&disc, component, &weights, seed_count)?;
+        for (k, frequency) in DISC_FREQUENCIES.into_iter().enumerate() {
+            let direct = disc.mean_square(&weights[k], frequency)?;
+            let [mean, standard_error] = sampled[k];
+            writeln!(
+                text,
+                "| {name} | {frequency} | {:.3} | {direct:.4} | {:+.2} | {mean:.4} | {standard_error:.4} |",
+                published[k],
+                100.0 * (direct / published[k] - 1.0),
+            )?;
+        }
+    }
+    Ok(text)
+}
+
+/// Samples of the record whose motions are timed, and their interval, s.
+const COST_SAMPLES: usize = 4096;
+const COST_INTERVAL: f64 = 0.01;
+/// Side of the mat, m, and cells along it.
+const COST_SIDE: f64 = 40.0;
+const COST_CELLS: usize = 20;
+
+/// Processor time and memory of motions in three components.
+fn cost(short: bool) -> Result<String, AnyError> {
+    let cells = if short { 6 } else { COST_CELLS };
+    let half_side = 0.5 * COST_SIDE;
+    let plan = Plan::rectangle(-half_side..half_side, -half_side..half_side, cells)?;
+    let elements = plan.elements();
+    // White noise between quiet times, with motion up to half the sampling frequency.
+    let mut noise = 1_u32;
+    let mut samples = vec![0.0; COST_SAMPLES];
+    for sample in &mut samples[500..COST_SAMPLES - 500] {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        *sample = f64::from(noise >> 8) / f64::from(1 << 23) - 1.0;
+    }
+    let baseline = basemat::motion::Baseline::RestToRest { degree: 4 };
+    let record = Record::new(COST_INTERVAL, samples)?.high_pass(0.2, 4)?.with_baseline(baseline)?;
+    let records =
+        Triaxial { x: Some(record.clone()), y: Some(record.clone()), up: Some(record.clone()) };
+    let mut text = format!(
+        "{} cells of {COST_SIDE} m × {COST_SIDE} m, {COST_SAMPLES} samples, three components\n\n| coherence | processor time, s | peak memory of the process, MB | smallest eigenvalue |\n|---|---|---|---|\n",
+        elements.len()
+    );
+    let luco_wong = LucoWong::new(0.25, 300.0)?;
+    time_motion("Luco and Wong, α = 0.25, 300 m/s", luco_wong, &records, &elements, &mut text)?;
+    let rock = AbrahamsonCoherence::HardRockHorizontal;
+    time_motion("Abrahamson, hard rock, clipped", rock, &records, &elements, &mut text)?;
+    Ok(text)
+}
+
+/// Adds the row of a coherence to the table of costs.
+fn time_motion(
+    name: &str,
+    coherence: impl Coherence + 'static,
+    records: &Triaxial,
+    elements: &[basemat::bem::ContactElement],
+    text: &mut String,
+) -> Result<(), AnyError> {
+    let start = ThreadTime::now();
+    let motion = Incoherence::new(coherence).clipped().motion(records, elements)?;
+    let seconds = start.elapsed().as_secs_f64();
+    writeln!(
+        text,
+        "| {name} | {seconds:.1} | {:.0} | {:.2} |",
+        peak_memory().unwrap_or(f64::NAN),
+        motion.min_eigenvalue()
+    )?;
+    Ok(())
+}

@@ -1,0 +1,137 @@
+//! GOAL: beams of fibres on a structure by matrices act as in a finite-element model.
+//! SCENE: a column of fibres on a mat that may lift off, with a rigid arm to its mass; shaken.
+//! REFERENCE: the same column as a `FemModel`.
+
+use basemat::bem::SpringGround;
+use basemat::coupled::Probe;
+use basemat::fem::{
+    Beam, BeamFormulation, BeamQuadrature, BilinearSteel, Concrete, Direction, FiberBeam,
+    FiberSection, LumpedMass, Mesh,
+};
+use basemat::interface::Coulomb;
+use basemat::motion::el_centro_1940;
+use basemat::structure::{
+    Bilinear, FemModel, MatrixModel, Structure, Triplets, WithElements, WithSprings,
+};
+use basemat::{Error, Result, Simulation};
+
+/// Mass per length of the column, kg/m².
+const COLUMN_MASS: f64 = 800.0;
+
+fn section() -> Result<FiberSection> {
+    let steel = BilinearSteel::new(420.0e6, 200.0e9, 0.01)?;
+    let concrete = Concrete::new(30.0e6, 0.002, 6.0e6, 0.006)?;
+    FiberSection::new()
+        .with_rectangle([[-0.3, -0.5], [0.3, 0.5]], [12, 1], concrete)?
+        .with_bars([[-0.25, -0.4], [-0.25, 0.4]], 3, 800.0e-6, steel)?
+        .with_bars([[0.25, -0.4], [0.25, 0.4]], 3, 800.0e-6, steel)
+}
+
+/// The column with or without a mass of its fibres, and the node of its top.
+fn model(formulation: BeamFormulation, has_column: bool) -> Result<(FemModel, usize)> {
+    let mut mesh = Mesh::new();
+    let [left, foot, right] =
+        [mesh.add_node(-2.0, 0.0)?, mesh.add_node(0.0, 0.0)?, mesh.add_node(2.0, 0.0)?];
+    for ends in [[left, foot], [foot, right]] {
+        mesh.add(Beam::new(ends, 30.0e9, 1.0, 0.1, 2500.0)?)?;
+    }
+    let middle = mesh.add_node(0.0, 3.0)?;
+    let top = mesh.add_node(0.0, 6.0)?;
+    let arm = mesh.add_node(1.0, 6.0)?;
+    for node in [middle, top] {
+        mesh.add(LumpedMass::new(node, 1.0e3)?.with_rotary_inertia(10.0)?)?;
+    }
+    mesh.add(LumpedMass::new(arm, 50.0e3)?)?;
+    if has_column {
+        for ends in [[foot, middle], [middle, top]] {
+            let beam = FiberBeam::new(ends, &section()?, BeamQuadrature::Lobatto(4), COLUMN_MASS)?;
+            mesh.add(beam.with_formulation(formulation))?;
+        }
+    }
+    Ok((FemModel::on_base(mesh)?.with_rigid_link(top, &[arm])?, arm))
+}
+
+/// Matrices of the linear elements, with the column of fibres on them.
+fn on_matrices(formulation: BeamFormulation) -> Result<WithElements> {
+    let (whole, _) = model(formulation, true)?;
+    let (linear, _) = model(formulation, false)?;
+    assert_eq!(whole.dofs(), linear.dofs());
+    let mut mass = Triplets::new(linear.dofs());
+    linear.mass(&mut mass)?;
+    let mut stiffness = Triplets::new(linear.dofs());
+    linear.stiffness(&mut stiffness)?;
+    let matrices = MatrixModel::new(mass, stiffness, whole.base())?;
+    let mut mesh = Mesh::new();
+    let mut nodes = Vec::new();
+    for [x, y, _] in whole.mesh().nodes() {
+        nodes.push(mesh.add_node(*x, *y)?);
+    }
+    for ends in [[1, 3], [3, 4]] {
+        let ends = ends.map(|node: usize| nodes[node]);
+        let beam = FiberBeam::new(ends, &section()?, BeamQuadrature::Lobatto(4), COLUMN_MASS)?;
+        mesh.add(beam.with_formulation(formulation))?;
+    }
+    WithElements::new(matrices, mesh, |node, direction| whole.row(node, direction))
+}
+
+fn shaken(structure: impl Structure + 'static) -> Result<Simulation> {
+    let (reference, top) = model(BeamFormulation::default(), true)?;
+    Simulation::builder(0.005)
+        .ground(SpringGround::under(&reference, 8, 60.0e6, 60.0e6)?)
+        .structure(structure)
+        .interface(Coulomb::new(0.6)?)
+        .motion(el_centro_1940().scaled(1.5)?)
+        .probe(Probe::displacement("top", reference.row(top, Direction::X)?))
+        .build()
+}
+
+#[test]
+fn fibres_on_matrices_move_as_in_a_finite_element_model() -> Result<()> {
+    for formulation in [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased] {
+        let mut whole = shaken(model(formulation, true)?.0)?;
+        let mut parts = shaken(on_matrices(formulation)?)?;
+        let mut max_top = 0.0_f64;
+        let mut max_difference = 0.0_f64;
+        for _ in 0..600 {
+            let expected = whole.step()?.probes[0];
+            let found = parts.step()?.probes[0];
+            max_top = max_top.max(expected.abs());
+            max_difference = max_difference.max((found - expected).abs());
+        }
+        assert!(max_difference < 1e-9 * max_top, "{formulation:?}: {max_difference} of {max_top}");
+        assert!(parts.run(1, |_| {})?.energy_error < 1e-9);
+        let whole_structure: &dyn std::any::Any = whole.structure();
+        let fem_model: &FemModel = whole_structure.downcast_ref().unwrap();
+        let parts_structure: &dyn std::any::Any = parts.structure();
+        let with_elements: &WithElements = parts_structure.downcast_ref().unwrap();
+        let moment = with_elements.beam_sections(0)?[0].moment;
+        assert!(moment.abs() > 1e3 && with_elements.solid_points(0)?.is_empty());
+        let first_column = fem_model.inelastic_elements().next().unwrap();
+        assert_eq!(fem_model.beam_sections(first_column)?.len(), 4);
+    }
+    Ok(())
+}
+
+#[test]
+fn elements_that_do_not_belong_on_a_structure_are_refused() -> Result<()> {
+    let (linear, _) = model(BeamFormulation::default(), false)?;
+    let row = |node, direction| linear.row(node, direction);
+    let empty = WithElements::new(linear.clone(), Mesh::new(), row);
+    assert!(matches!(empty, Err(Error::Size { .. })), "{empty:?}");
+    let mut mesh = Mesh::new();
+    let ends = [mesh.add_node(0.0, 0.0)?, mesh.add_node(0.0, 3.0)?];
+    let fibres = FiberBeam::new(ends, &section()?, BeamQuadrature::Lobatto(3), 0.0)?;
+    let mut with_beam = mesh.clone();
+    with_beam.add(Beam::new(ends, 30.0e9, 1.0, 0.1, 0.0)?)?;
+    let refused = WithElements::new(linear.clone(), with_beam, row).unwrap_err().to_string();
+    assert!(refused.contains("element 0") && refused.contains("linear"), "{refused}");
+    mesh.add(fibres)?;
+    let outside = WithElements::new(linear.clone(), mesh.clone(), |_, _| Ok(999.into()));
+    assert!(matches!(outside, Err(Error::Index { .. })), "{outside:?}");
+    let infinite = WithElements::new(linear.clone(), mesh.clone(), |_, _| Ok((0, f64::NAN).into()));
+    assert!(infinite.unwrap_err().to_string().contains("weight"));
+    let sprung = WithSprings::new(linear.clone()).spring(0, Bilinear::new(1e6, 1e4, 0.1)?)?;
+    let refused = WithElements::new(sprung, mesh, row).unwrap_err().to_string();
+    assert!(refused.contains("springs may be around"), "{refused}");
+    Ok(())
+}
