@@ -5,11 +5,14 @@
 use basemat::bem::SpringGround;
 use basemat::coupled::{Probe, SimulationBuilder};
 use basemat::fem::{
-    BeamFormulation, BeamSection, Concrete, Direction, FiberSection, Material, MenegottoPinto,
+    BeamFormulation, BeamSection, BilinearSteel, Concrete, Direction, FiberSection, Material,
+    MenegottoPinto,
 };
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Mode};
 use basemat::{Result, Simulation};
 use basemat_problems::fiber_tables::{FiberTable, TableColumns, turned};
+use basemat_problems::heavy;
+use basemat_problems::random::Random;
 
 const ALL_FORMULATIONS: [BeamFormulation; 2] =
     [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased];
@@ -52,9 +55,8 @@ fn shaken(table: &FiberTable, builder: SimulationBuilder, steps: usize) -> Resul
     let mut open_steps = 0;
     let mut sliding_steps = 0;
     let run = simulation.run(steps, |state| {
-        let [x, y, z, rotation] = [0, 1, 2, 3].map(|k| state.probes[k]);
-        let [x, y] = turned(-table.angle, [x, y]);
-        motion.push([x, y, z, rotation]);
+        let horizontal = turned(-table.angle, [state.probes[0], state.probes[1]]);
+        motion.push([horizontal[0], horizontal[1], state.probes[2], state.probes[3]]);
         open_steps += usize::from(state.modes.contains(&Mode::Open));
         sliding_steps += usize::from(state.modes.contains(&Mode::Slip));
     })?;
@@ -147,14 +149,15 @@ fn a_table_turned_about_the_vertical_is_the_same() {
     for formulation in ALL_FORMULATIONS {
         let table = FiberTable::of_steel(formulation).unwrap();
         let angle = std::f64::consts::FRAC_PI_6;
-        let [expected, computed] = [0.0, angle].map(|angle| {
+        let runs = [0.0, angle].map(|angle| {
             let table = FiberTable { angle, ..table.clone() };
             let builder = scene(&table, 2.0, Bonded).unwrap().on_fixed_base();
             shaken(&table, builder, 400).unwrap()
         });
-        let error = difference(&expected.motion, &computed.motion);
-        println!("{formulation:?}: {error:.1e}, hysteresis {:.2}", computed.hysteresis);
-        assert!(computed.hysteresis > 0.1, "{}", computed.hysteresis);
+        let error = difference(&runs[0].motion, &runs[1].motion);
+        let hysteresis = runs[1].hysteresis;
+        println!("{formulation:?}: {error:.1e}, hysteresis {hysteresis:.2}");
+        assert!(hysteresis > 0.1, "{hysteresis}");
         assert!(error < 1e-8, "{formulation:?}: {error:e}");
     }
 }
@@ -163,13 +166,75 @@ fn a_table_turned_about_the_vertical_is_the_same() {
 #[test]
 fn a_quarter_turn_on_uplifting_ground_changes_nothing() {
     let table = FiberTable::of_steel(BeamFormulation::ForceBased).unwrap();
-    let [expected, computed] = [0.0, std::f64::consts::FRAC_PI_2].map(|angle| {
+    let runs = [0.0, std::f64::consts::FRAC_PI_2].map(|angle| {
         let table = FiberTable { angle, ..table.clone() };
         let law = Coulomb::new(0.6).unwrap();
         shaken(&table, scene(&table, 1.5, law).unwrap(), 300).unwrap()
     });
-    let error = difference(&expected.motion, &computed.motion);
-    println!("{error:.1e}, open in {} steps", computed.open_steps);
-    assert!(computed.open_steps > 10, "{}", computed.open_steps);
+    let error = difference(&runs[0].motion, &runs[1].motion);
+    let open_steps = runs[1].open_steps;
+    println!("{error:.1e}, open in {open_steps} steps");
+    assert!(open_steps > 10, "{open_steps}");
     assert!(error < 1e-6, "{error:e}");
+}
+
+/// Columns of steel or reinforced concrete, of random sizes and divisions.
+fn random_table(random: &mut Random) -> Result<FiberTable> {
+    let is_steel = random.chance(0.5);
+    let size = if is_steel { 0.5 } else { 1.0 };
+    let half_depth = size * random.within(0.05, 0.15);
+    let half_width = size * random.within(0.05, 0.15);
+    let counts = [random.pick(&[4, 7, 10]), random.pick(&[4, 5, 8])];
+    let corners = [[-half_depth, -half_width], [half_depth, half_width]];
+    let section = if is_steel {
+        let steel = BilinearSteel::new(random.within(200e6, 400e6), 210.0e9, 0.01)?;
+        FiberSection::new().with_rectangle(corners, counts, steel)?
+    } else {
+        let concrete = Concrete::new(30.0e6, 0.002, random.within(6.0e6, 20.0e6), 0.01)?;
+        let bars = MenegottoPinto::new(500.0e6, 200.0e9, 0.01)?;
+        let y = 0.8 * half_depth;
+        let z = 0.8 * half_width;
+        FiberSection::new()
+            .with_rectangle(corners, counts, concrete)?
+            .with_bars([[-y, -z], [-y, z]], 3, 3e-4, bars)?
+            .with_bars([[y, -z], [y, z]], 3, 3e-4, bars)?
+    };
+    let section = section.with_torsional_stiffness(random.log_within(2e5, 2e7))?;
+    let formulation =
+        random.pick(&[BeamFormulation::DisplacementBased, BeamFormulation::ForceBased]);
+    let parts = random.pick(&[&[1.0][..], &[0.3, 0.7], &[0.1, 0.4, 0.4, 0.1]]).to_vec();
+    let columns = TableColumns::Fibers { section, formulation };
+    Ok(FiberTable { columns, parts, angle: random.within(0.0, 1.5) })
+}
+
+/// Random tables that yield, lift off and slide close the energy, or fail with an error of their step.
+#[test]
+fn random_tables_close_the_energy() {
+    let mut random = Random(66);
+    let count = if heavy() { 100 } else { 8 };
+    let mut yielding_count = 0;
+    let mut failures = Vec::new();
+    for number in 0..count {
+        let table = random_table(&mut random).unwrap();
+        let factor = random.log_within(0.5, 2.5);
+        let friction = random.pick(&[0.3, 0.6, f64::INFINITY]);
+        let builder = match scene(&table, factor, Coulomb::new(friction).unwrap()) {
+            Ok(builder) => builder,
+            // A weak table buckles under its weight.
+            Err(error) => {
+                failures.push(format!("{number}: {error}"));
+                continue;
+            }
+        };
+        match shaken(&table, builder, 250) {
+            Ok(run) => {
+                assert!(run.energy_error < 1e-9, "{number}: {:e}", run.energy_error);
+                assert!(run.hysteresis > -1e-12, "{number}: {}", run.hysteresis);
+                yielding_count += usize::from(run.hysteresis > 0.01);
+            }
+            Err(error) => failures.push(format!("{number}: {error}")),
+        }
+    }
+    println!("{count} tables, {yielding_count} yield; {failures:#?}");
+    assert!(10 * failures.len() <= 2 * count && 2 * yielding_count > count, "{failures:#?}");
 }

@@ -76,7 +76,6 @@ impl FiberPortal {
     /// The model, and the node at the top of its right column.
     fn model(&self) -> Result<(FemModel, usize)> {
         let mut mesh = if self.in_space { Mesh::in_space() } else { Mesh::new() };
-        let [half_length, half_width] = MAT_SIDES.map(|side| 0.5 * side);
         let corners: &[[f64; 2]] = if self.in_space {
             &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
         } else {
@@ -84,7 +83,7 @@ impl FiberPortal {
         };
         let mut contact_nodes = Vec::new();
         for [x, y] in corners {
-            let node = self.node(&mut mesh, x * half_length, y * half_width, 0.0)?;
+            let node = self.node(&mut mesh, 0.5 * x * MAT_SIDES[0], 0.5 * y * MAT_SIDES[1], 0.0)?;
             self.add_mass(&mut mesh, node, 8.0e3 / corners.len() as f64)?;
             contact_nodes.push(node);
         }
