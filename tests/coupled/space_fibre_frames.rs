@@ -5,14 +5,11 @@
 use basemat::bem::SpringGround;
 use basemat::coupled::{Probe, SimulationBuilder};
 use basemat::fem::{
-    BeamFormulation, BeamSection, BilinearSteel, Concrete, Direction, FiberSection, Material,
-    MenegottoPinto,
+    BeamFormulation, BeamSection, Concrete, Direction, FiberSection, Material, MenegottoPinto,
 };
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Mode};
 use basemat::{Result, Simulation};
 use basemat_problems::fiber_tables::{FiberTable, TableColumns, turned};
-use basemat_problems::heavy;
-use basemat_problems::random::Random;
 
 const ALL_FORMULATIONS: [BeamFormulation; 2] =
     [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased];
@@ -176,65 +173,4 @@ fn a_quarter_turn_on_uplifting_ground_changes_nothing() {
     println!("{error:.1e}, open in {open_steps} steps");
     assert!(open_steps > 10, "{open_steps}");
     assert!(error < 1e-6, "{error:e}");
-}
-
-/// Columns of steel or reinforced concrete, of random sizes and divisions.
-fn random_table(random: &mut Random) -> Result<FiberTable> {
-    let is_steel = random.chance(0.5);
-    let size = if is_steel { 0.5 } else { 1.0 };
-    let half_depth = size * random.within(0.05, 0.15);
-    let half_width = size * random.within(0.05, 0.15);
-    let counts = [random.pick(&[4, 7, 10]), random.pick(&[4, 5, 8])];
-    let corners = [[-half_depth, -half_width], [half_depth, half_width]];
-    let section = if is_steel {
-        let steel = BilinearSteel::new(random.within(200e6, 400e6), 210.0e9, 0.01)?;
-        FiberSection::new().with_rectangle(corners, counts, steel)?
-    } else {
-        let concrete = Concrete::new(30.0e6, 0.002, random.within(6.0e6, 20.0e6), 0.01)?;
-        let bars = MenegottoPinto::new(500.0e6, 200.0e9, 0.01)?;
-        let y = 0.8 * half_depth;
-        let z = 0.8 * half_width;
-        FiberSection::new()
-            .with_rectangle(corners, counts, concrete)?
-            .with_bars([[-y, -z], [-y, z]], 3, 3e-4, bars)?
-            .with_bars([[y, -z], [y, z]], 3, 3e-4, bars)?
-    };
-    let section = section.with_torsional_stiffness(random.log_within(2e5, 2e7))?;
-    let formulation =
-        random.pick(&[BeamFormulation::DisplacementBased, BeamFormulation::ForceBased]);
-    let parts = random.pick(&[&[1.0][..], &[0.3, 0.7], &[0.1, 0.4, 0.4, 0.1]]).to_vec();
-    let columns = TableColumns::Fibers { section, formulation };
-    Ok(FiberTable { columns, parts, angle: random.within(0.0, 1.5) })
-}
-
-/// Random tables that yield, lift off and slide close the energy, or fail with an error of their step.
-#[test]
-fn random_tables_close_the_energy() {
-    let mut random = Random(66);
-    let count = if heavy() { 100 } else { 8 };
-    let mut yielding_count = 0;
-    let mut failures = Vec::new();
-    for number in 0..count {
-        let table = random_table(&mut random).unwrap();
-        let factor = random.log_within(0.5, 2.5);
-        let friction = random.pick(&[0.3, 0.6, f64::INFINITY]);
-        let builder = match scene(&table, factor, Coulomb::new(friction).unwrap()) {
-            Ok(builder) => builder,
-            // A weak table buckles under its weight.
-            Err(error) => {
-                failures.push(format!("{number}: {error}"));
-                continue;
-            }
-        };
-        match shaken(&table, builder, 250) {
-            Ok(run) => {
-                assert!(run.energy_error < 1e-9, "{number}: {:e}", run.energy_error);
-                assert!(run.hysteresis > -1e-12, "{number}: {}", run.hysteresis);
-                yielding_count += usize::from(run.hysteresis > 0.01);
-            }
-            Err(error) => failures.push(format!("{number}: {error}")),
-        }
-    }
-    println!("{count} tables, {yielding_count} yield; {failures:#?}");
-    assert!(10 * failures.len() <= 2 * count && 2 * yielding_count > count, "{failures:#?}");
 }
