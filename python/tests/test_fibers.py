@@ -84,10 +84,10 @@ def model_of(column: Callable[[bm.Mesh, list[list[int]]], object], **options: An
     return bm.FemModel(mesh_of(column), [0, 1, 2], **options)
 
 
-def shaken(model: Any, friction: float = 0.6) -> bm.Simulation:
+def shaken(model: Any, motion: bm.Record = MOTION) -> bm.Simulation:
     ground = bm.SpringGround.under(model, 8, 60e6, 60e6)
     drift = bm.Probe.displacement("top", model_of(fibers()).row(4, "x"))
-    return bm.Simulation(0.005, model, ground, bm.Coulomb(friction), motion=MOTION, probes=[drift])
+    return bm.Simulation(0.005, model, ground, bm.Coulomb(0.6), motion=motion, probes=[drift])
 
 
 def test_laws_have_the_stresses_of_opensees() -> None:
@@ -108,6 +108,10 @@ def test_sections_have_their_fibres() -> None:
     whole = section()
     assert whole.fiber_count == 12 + 6
     assert whole.axial_stiffness == pytest.approx(0.6 * 2 * 28e6 / 0.0021 + 6 * 800e-6 * 200e9, rel=1e-12)
+    positions = np.stack([(np.arange(12) + 0.5) * 0.05 - 0.3, np.zeros(12)], axis=1)
+    cut = bm.FiberSection().with_fibers(positions, 0.05, CONCRETE).with_fibers([[0.1, 0.2], [0.1, -0.2]], [1e-3, 2e-3], STEEL)
+    assert cut.fiber_count == 14
+    assert cut.axial_stiffness == pytest.approx(0.6 * 2 * 28e6 / 0.0021 + 3e-3 * 200e9, rel=1e-12)
     ring = bm.FiberSection().with_ring([0.0, 0.0], [0.0, 0.5], [4, 16], ELASTIC)
     assert ring.fiber_count == 64
     assert ring.axial_stiffness == pytest.approx(30e9 * np.pi * 0.25, rel=1e-12)
@@ -133,7 +137,7 @@ def test_states_of_sections_of_a_run(formulation: str) -> None:
     model = model_of(fibers(formulation=formulation))
     assert model.inelastic_elements == [4, 5]
     simulation = shaken(model)
-    run = simulation.run(500)
+    run = simulation.run(600)
     assert run.energy_error < 1e-9 and run.uplifted_fraction.value > 0.0
     sections = simulation.beam_sections(4)
     assert sections.element == 4 and repr(sections) == "BeamSections(element 4, 5 sections of 18 fibres)"
@@ -146,7 +150,7 @@ def test_states_of_sections_of_a_run(formulation: str) -> None:
     np.testing.assert_allclose(sections.fiber_strain, strains, atol=1e-15)
     np.testing.assert_allclose(sections.axial_force, sections.fiber_stress @ area, rtol=1e-6)
     np.testing.assert_allclose(sections.moment, -sections.fiber_stress @ (area * y), rtol=1e-6, atol=1.0)
-    assert np.all(sections.axial_force < 0.0) and np.abs(sections.fiber_strain).max() > 1e-3
+    assert sections.axial_force @ sections.length < 0.0 and np.abs(sections.fiber_strain).max() > 1e-3
     for name in ("curvature", "fiber_stress"):
         assert same_bits(getattr(pickle.loads(pickle.dumps(sections)), name), getattr(sections, name))
     assert model.beam_sections(4).moment.tolist() == [0.0] * 5
@@ -174,12 +178,18 @@ def test_frames_of_sections() -> None:
 
 
 def test_laws_of_ones_own_are_those_of_the_package() -> None:
-    expected = shaken(model_of(fibers())).run(300)
-    simulation = shaken(model_of(fibers(section(steel=Steel()))))
-    found = simulation.run(300)
+    expected = shaken(model_of(fibers(bars(STEEL)))).run(600)
+    simulation = shaken(model_of(fibers(bars(Steel()))))
+    found = simulation.run(600)
     np.testing.assert_allclose(found["top"], expected["top"], atol=1e-9 * np.abs(expected["top"]).max())
     assert found.energy_error < 1e-9
     assert np.abs(simulation.beam_sections(4).fiber_strain[:, 12:]).max() > 2.1e-3
+
+
+def bars(steel: Any) -> bm.FiberSection:
+    """A section with two fibres of steel only."""
+    concrete = bm.FiberSection().with_rectangle([[-0.3, -0.5], [0.3, 0.5]], [12, 1], CONCRETE)
+    return concrete.with_bars([[-0.25, 0.0], [0.25, 0.0]], 2, 2400e-6, steel)
 
 
 class Failing(Steel):
@@ -190,11 +200,11 @@ class Failing(Steel):
 
     def __getattribute__(self, name: str) -> Any:
         found = super().__getattribute__(name)
-        if name != super().__getattribute__("__dict__").get("method"):
+        if name != super().__getattribute__("__dict__")["method"]:
             return found
 
         def fail(strain: float, variables: np.ndarray) -> Any:
-            if abs(strain) < 1e-3:
+            if abs(strain) < 3e-4:
                 return found(strain, variables)
             if self.returned is None:
                 raise ArithmeticError(name)
@@ -205,12 +215,12 @@ class Failing(Steel):
 
 @pytest.mark.parametrize("method", ["response", "energy", "commit"])
 def test_exceptions_of_a_law_come_out_of_the_run(method: str) -> None:
-    simulation = shaken(model_of(fibers(section(steel=Failing(method)))))
+    simulation = shaken(model_of(fibers(bars(Failing(method)), points=2)))
     with pytest.raises(ArithmeticError, match=method):
         simulation.run(800)
     assert 0 < simulation.state.step < 800
     for returned in ([0.0, 1.0, 2.0], [0.0, np.nan]):
-        simulation = shaken(model_of(fibers(section(steel=Failing(method, returned)))))
+        simulation = shaken(model_of(fibers(bars(Failing(method, returned)), points=2)))
         with pytest.raises(bm.InputError, match=f"{method} of the law of a fibre returned"):
             simulation.run(800)
 
@@ -220,11 +230,13 @@ def test_models_pickle() -> None:
         model = model_of(fibers(made, formulation="force_based", points=4))
         again = pickle.loads(pickle.dumps(model))
         assert same_bits(shaken(again).run(60)["top"], shaken(model).run(60)["top"])
-    simulation = shaken(model_of(fibers()))
+    # The known record needs no file of arrays.
+    simulation = shaken(model_of(fibers()), bm.el_centro_1940())
     names: dict[str, Any] = {}
     exec(Program(simulation).text("arrays.npz"), names)
     assert same_bits(names["simulation"].run(60)["top"], simulation.run(60)["top"])
-    assert repr(section()).startswith("FiberSection.with_bars(")
+    assert repr(section()).startswith("FiberSection().with_rectangle([[-0.3, -0.5], [0.3, 0.5]], [12, 1], Concrete(")
+    assert repr(section()).count(".with_bars(") == 2
     assert repr(STEEL) == "BilinearSteel(420000000.0, 200000000000.0, 0.015)"
 
 
@@ -259,7 +271,7 @@ def in_space(torsion: float | None = 1e8) -> bm.FiberSection:
 def test_a_column_in_space(formulation: str) -> None:
     mesh = bm.Mesh.in_space([[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0], [0, 0, 0], [0, 0, 3], [0, 0, 6]])
     numbers = mesh.add_space_fiber_beams([[4, 5], [5, 6]], in_space(), 600.0, [1.0, 0.2, 0.0], formulation=formulation)  # type: ignore[arg-type]
-    for node, mass in ((0, 1e3), (4, 40e3), (5, 2e3), (6, 40e3)):
+    for node, mass in ((0, 1e3), (1, 1e3), (2, 1e3), (3, 1e3), (4, 40e3), (5, 2e3), (6, 40e3)):
         mesh.add_mass(node, mass, rotary_inertia=[0.2 * mass] * 3)
     model = bm.FemModel(mesh, [[0, 1, 2, 3]], rigid_links=[(4, [0, 1, 2, 3])])
     model = pickle.loads(pickle.dumps(model))
@@ -302,6 +314,7 @@ REFUSED: list[tuple[str, Callable[[], object]]] = [
     ("ultimate stress of the concrete", lambda: bm.Concrete(30e6, 0.002, 31e6, 0.006)),
     ("fibres of a section", lambda: LINE.add_fiber_beams(NODES, bm.FiberSection(), 0.0)),
     ("area of a fibre", lambda: bm.FiberSection().with_fiber([0.0, 0.0], 0.0, STEEL)),
+    ("areas has 2 entries, but must have one, or 3", lambda: bm.FiberSection().with_fibers(np.zeros((3, 2)), [0.1, 0.1], STEEL)),
     ("corners has 1 rows, but must have 2", lambda: bm.FiberSection().with_rectangle([[0.0, 1.0]], [1, 1], STEEL)),
     ("fibres along a side", lambda: bm.FiberSection().with_rectangle([[0.0, 0.0], [1.0, 1.0]], [1, 0], STEEL)),
     ("sectors of fibres", lambda: bm.FiberSection().with_ring([0.0, 0.0], [0.0, 1.0], [1, 2], STEEL)),

@@ -24,6 +24,7 @@ from ._protocols import (
     UserMaterial,
     UserPlanLaw,
     UserStructure,
+    UserUniaxialMaterial,
 )
 
 __version__: str
@@ -118,6 +119,7 @@ _GmshPart: TypeAlias = Union[
     "Material", tuple["Material", float], tuple["Material", "BeamSection", Sequence[float]], None
 ]
 _Solid: TypeAlias = Union["Material", "Iwan", "DruckerPrager", UserMaterial]
+_FiberLaw: TypeAlias = Union["Concrete", "BilinearSteel", "MenegottoPinto", "Material", UserUniaxialMaterial]
 _ShellAxes: TypeAlias = Union[ArrayLike, Callable[[float, float, float], ArrayLike]]
 _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
@@ -2533,10 +2535,15 @@ class Simulation:
         """The argument ``joints``: list of `Joint`."""
     def solid_points(self, element: int, *, member: int | None = None) -> SolidPoints:
         """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
-        stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also
-        one inside `WithSprings`, `WithModalDamping` or `WithWalls`, or the structure ``member`` (0: the first; none unless
+        stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel` or
+        `WithElements`, also one inside `WithSprings`, `WithModalDamping` or `WithWalls`, or the structure ``member`` (0: the first; none unless
         given) of a `StructureGroup`. While `run` calls ``observe``, this method raises an `Error`: use a loop over `steps`
         instead.
+        """
+    def beam_sections(self, element: int, *, member: int | None = None) -> BeamSections:
+        """The `BeamSections` of a beam of fibres with the number ``element`` at the end of the last accepted step: curvatures,
+        axial forces, moments, and strains and stresses of all fibres. Structure and ``member`` (none unless given) are as for
+        `solid_points`.
         """
     def solid_values(
         self,
@@ -3198,6 +3205,77 @@ class BeamEndRows:
         with tension at positive z, and at negative y.
         """
 
+@final
+class BeamSections:
+    """States of the n sections along a beam of fibres, each with f fibres.
+
+    `Simulation.beam_sections` and `FemModel.beam_sections` return them. They include the static state. In the plane forces
+    are per metre of thickness. `to_frame` and `fiber_frame` are tables.
+    """
+
+    @property
+    def element(self) -> int:
+        """Number of the element."""
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """Positions x, y and z on the undeformed line between the nodes: array of shape (n, 3), m."""
+    @property
+    def length(self) -> NDArray[np.float64]:
+        """Part of the length of the beam for which each section stands: array of shape (n,), m."""
+    @property
+    def axial_strain(self) -> NDArray[np.float64]:
+        """Strain of the line between the nodes, elongation positive: array of shape (n,), numbers without unit."""
+    @property
+    def curvature(self) -> NDArray[np.float64]:
+        """Curvature about z, positive where it stretches the fibres at negative y: array of shape (n,), 1/m."""
+    @property
+    def axial_force(self) -> NDArray[np.float64]:
+        """Axial force, tension positive: array of shape (n,), N."""
+    @property
+    def moment(self) -> NDArray[np.float64]:
+        """Bending moment about z, positive with the curvature: array of shape (n,), N m."""
+    @property
+    def shear(self) -> NDArray[np.float64]:
+        """Shear force along y: array of shape (n,), N."""
+    @property
+    def curvature_about_y(self) -> NDArray[np.float64]:
+        """Curvature about y, positive where it stretches the fibres at positive z: array of shape (n,), 1/m; zero in the plane."""
+    @property
+    def moment_about_y(self) -> NDArray[np.float64]:
+        """Bending moment about y, positive with the curvature about y: array of shape (n,), N m; zero in the plane."""
+    @property
+    def shear_along_z(self) -> NDArray[np.float64]:
+        """Shear force along z: array of shape (n,), N; zero in the plane."""
+    @property
+    def twist_rate(self) -> NDArray[np.float64]:
+        """Change of the rotation about the axis of the beam along it: array of shape (n,), rad/m; zero in the plane."""
+    @property
+    def torque(self) -> NDArray[np.float64]:
+        """Torque, positive with the twist rate: array of shape (n,), N m; zero in the plane."""
+    @property
+    def fiber_position(self) -> NDArray[np.float64]:
+        """Coordinates y and z of the fibres in their section: array of shape (f, 2), m."""
+    @property
+    def fiber_area(self) -> NDArray[np.float64]:
+        """Area of each fibre, the factor of its stress in the resultants: array of shape (f,), m²."""
+    @property
+    def fiber_strain(self) -> NDArray[np.float64]:
+        """Strains of the fibres, tension positive: array of shape (n, f), numbers without unit."""
+    @property
+    def fiber_stress(self) -> NDArray[np.float64]:
+        """Stresses of the fibres, tension positive: array of shape (n, f), Pa."""
+    def fiber_frame(self) -> DataFrame:
+        """The fibres of all sections as a tidy pandas frame: a row per section and fibre.
+
+        Columns: "section", "fiber" (numbers from 0), "fiber_y", "fiber_z" (m), "area" (m²), "strain" and "stress" (Pa).
+        """
+    def to_frame(self) -> DataFrame:
+        """The sections as a pandas frame: a row per section.
+
+        Columns: "x", "y", "z" (m), "length" (m), "axial_strain", "curvature" (1/m), "axial_force" (N), "moment" (N·m) and "shear"
+        (N); in space also "curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate" (rad/m) and "torque".
+        """
+
 @disjoint_base
 class Structure:
     """A structure with n degrees of freedom, which only the ground supports.
@@ -3627,6 +3705,10 @@ class FemModel(Structure):
 
     def beam_rows(self, element: int) -> BeamRows:
         """The `BeamRows` of the beam with the number ``element``: forces and moments at its ends, in its own axes."""
+    def beam_sections(self, element: int) -> BeamSections:
+        """The `BeamSections` of a beam of fibres with the number ``element`` in the undeformed model;
+        `Simulation.beam_sections` returns those of a simulation.
+        """
     def __new__(
         cls,
         mesh: Mesh,
@@ -3703,7 +3785,7 @@ class FemModel(Structure):
         """
     @property
     def inelastic_elements(self) -> list[int]:
-        """Numbers of the elements whose material yields or is a `UserMaterial`: list, ascending."""
+        """Numbers of the elements whose material yields or is a `UserMaterial`, beams of fibres included: list, ascending."""
     def solid_points(self, element: int) -> SolidPoints:
         """The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; `Simulation.solid_points`
         returns those of a simulation.
@@ -3763,6 +3845,111 @@ class GmshMesh:
         """Numbers of the nodes of the group ``name`` of lines, a list for each piece: for the ``contact`` of a
         `FemModel`.
         """
+
+@final
+class Concrete:
+    """Concrete without tension, a law of fibres.
+
+    In compression the stress follows a parabola to the ``strength`` f_c (Pa) at the strain ``strength_strain``, then a straight
+    line to ``ultimate_stress`` (Pa) at ``ultimate_strain``, and is constant beyond. All four are positive. Unloading and
+    reloading follow one straight line to a residual strain (Kent and Park 1971; Scott, Park and Priestley 1982). It is OpenSees'
+    ``Concrete01``. Where concrete softens, results depend on the lengths of the elements.
+    """
+
+    def __new__(
+        cls,
+        strength: float,
+        strength_strain: float,
+        ultimate_stress: float,
+        ultimate_strain: float,
+    ) -> Self: ...
+
+@final
+class BilinearSteel:
+    """Steel with two straight branches and kinematic hardening, a law of fibres.
+
+    ``yield_stress`` and ``modulus``: Pa; ``hardening_ratio``: ratio of the hardening modulus to it, from 0 to below 1. It is
+    OpenSees' ``Steel01`` without isotropic hardening.
+    """
+
+    def __new__(cls, yield_stress: float, modulus: float, hardening_ratio: float) -> Self: ...
+
+@final
+class MenegottoPinto:
+    """Steel with curved branches and the Bauschinger effect, a law of fibres (Menegotto and Pinto 1973).
+
+    ``yield_stress`` and ``modulus``: Pa; ``hardening_ratio``: from 0 to below 1. ``transition``: exponent R₀ of the branches
+    and c₁ and c₂, by which it falls with the plastic strain of the last half cycle (three numbers; 15, 0.925 and 0.15 by
+    default). ``isotropic_hardening``: a₁ and a₂ for compression, a₃ and a₄ for tension (four numbers; none unless given), which
+    shift the asymptotes by a₁ f_y (Δε/(2 a₂ ε_y))^0.8 with the range Δε of strains at reversals. It is OpenSees' ``Steel02``
+    without initial stress.
+    """
+
+    def __new__(
+        cls,
+        yield_stress: float,
+        modulus: float,
+        hardening_ratio: float,
+        *,
+        transition: Sequence[float] | None = None,
+        isotropic_hardening: Sequence[float] | None = None,
+    ) -> Self: ...
+
+@final
+class FiberSection:
+    """Cross-section of fibres, each with an area and a law: for `Mesh.add_fiber_beams` and `Mesh.add_space_fiber_beams`.
+
+    It starts without fibres, and each method returns a section with more of them. Positions are y and z in the axes of the
+    beam (m), from the line between its nodes; y points to the left of a beam seen from its first node to the second, and a
+    positive curvature stretches the fibres at negative y. Beams in the plane take no notice of z, and their areas are per
+    metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material` or a
+    `UserUniaxialMaterial`.
+    """
+
+    def __new__(cls) -> Self: ...
+    def with_fiber(self, position: Sequence[float], area: float, material: _FiberLaw) -> FiberSection:
+        """Adds a fibre of a ``material`` at a ``position`` (y and z, m) with an ``area`` (m²)."""
+    def with_fibers(self, positions: ArrayLike, areas: ArrayLike, material: _FiberLaw) -> FiberSection:
+        """Adds fibres of a ``material`` at ``positions`` (array of shape (n, 2) of y and z, m) with ``areas`` (m²; one number or an
+        array of one per fibre).
+        """
+    def with_rectangle(self, corners: ArrayLike, counts: Sequence[int], material: _FiberLaw) -> FiberSection:
+        """Adds a rectangle of a ``material`` between two ``corners`` (array of shape (2, 2) of y and z, m), cut into ``counts``
+        fibres along y and along z (two numbers).
+        """
+    def with_ring(
+        self,
+        center: Sequence[float],
+        radii: Sequence[float],
+        counts: Sequence[int],
+        material: _FiberLaw,
+    ) -> FiberSection:
+        """Adds a ring of a ``material`` about ``center`` (y and z, m) between two ``radii`` (inside, 0 for a disc, and outside;
+        m), cut into ``counts`` rings and sectors (two numbers).
+        """
+    def with_bars(self, ends: ArrayLike, count: int, bar_area: float, material: _FiberLaw) -> FiberSection:
+        """Adds ``count`` bars of a ``material`` and of ``bar_area`` (m²) on a straight line between two ``ends`` (array of shape
+        (2, 2) of y and z, m), ends included; a single bar in the middle. Bars do not replace the concrete around them.
+        """
+    def with_i_section(
+        self,
+        sizes: Sequence[float],
+        thicknesses: Sequence[float],
+        counts: Sequence[int],
+        material: _FiberLaw,
+    ) -> FiberSection:
+        """Adds an I-section of a ``material`` about the middle of its height, bent about its strong axis: ``sizes`` are its depth
+        over all and its flange width, ``thicknesses`` those of web and flanges (two numbers each, m). Each flange has
+        ``counts[0]`` layers of fibres along y, the web ``counts[1]``.
+        """
+    def with_torsional_stiffness(self, stiffness: float) -> FiberSection:
+        """Replaces the elastic torsional ``stiffness`` G J (N m²), which beams in space need."""
+    @property
+    def fiber_count(self) -> int:
+        """Number of fibres."""
+    @property
+    def axial_stiffness(self) -> float:
+        """Axial stiffness Σ E A of small strains, N."""
 
 @final
 class GmshSpaceMesh:
@@ -4021,6 +4208,46 @@ class Mesh:
     "rotation_y" and "rotation_z", rotations follow the right-hand rule.
     """
 
+    def add_fiber_beams(
+        self,
+        nodes: ArrayLike,
+        section: FiberSection | Sequence[FiberSection],
+        mass_per_length: ArrayLike,
+        *,
+        points: int = 5,
+        quadrature: Literal["lobatto", "legendre"] = "lobatto",
+        formulation: Literal["displacement_based", "force_based"] = "displacement_based",
+        compression: ArrayLike | None = None,
+    ) -> list[int]:
+        """Adds beams of fibres in the plane on ``nodes`` (array of shape (beams, 2)): ``section``, a `FiberSection` or a list of
+        one per beam, and ``mass_per_length`` (kg/m per metre of thickness; one number or an array of one per beam).
+
+        Sections lie at ``points`` points, 2 to 5, of the ``quadrature`` "lobatto" (with points at both ends) or "legendre".
+        ``formulation``: "displacement_based" (curvature is linear along a beam: divide members where they yield) or
+        "force_based" (equilibrium is exact: one beam is a member). ``compression`` (N per metre; one number or an array of one
+        per beam): axial force of P–Δ, none unless given. Sections stay plane, and shear does not deform them.
+        `Simulation.beam_sections` returns curvatures, moments and stresses.
+        """
+    def add_space_fiber_beams(
+        self,
+        nodes: ArrayLike,
+        section: FiberSection | Sequence[FiberSection],
+        mass_per_length: ArrayLike,
+        orientation: ArrayLike,
+        *,
+        points: int = 5,
+        quadrature: Literal["lobatto", "legendre"] = "lobatto",
+        formulation: Literal["displacement_based", "force_based"] = "displacement_based",
+        compression: ArrayLike | None = None,
+    ) -> list[int]:
+        """Adds beams of fibres in space on ``nodes`` (array of shape (beams, 2)): ``section``, a `FiberSection` with a torsional
+        stiffness or a list of one per beam, ``mass_per_length`` (kg/m; one number or an array of one per beam) and
+        ``orientation`` (x, y and z of a vector, or an array of shape (beams, 3)), whose part perpendicular to the beam is the y
+        axis of the section.
+
+        ``points``, ``quadrature``, ``formulation`` and ``compression`` (N; none unless given) are as for `Mesh.add_fiber_beams`.
+        Axial force and both moments act on the fibres together; torsion is elastic.
+        """
     def add_grid(self, points: ArrayLike) -> Grid:
         """Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its `Grid`."""
     def revolve(self, axis: Sequence[float], meridian: ArrayLike, sectors: int) -> Grid:
@@ -4151,6 +4378,10 @@ class Mesh:
     @property
     def elements(self) -> list[list[int]]:
         """Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists."""
+    def element_stiffness(self, element: int) -> NDArray[np.float64]:
+        """Stiffness matrix of an ``element`` (its number) at small displacements: array of shape (n, n) for its n degrees of
+        freedom, node by node in the directions that it has; N/m, N and N·m.
+        """
     def node_at(self, x: float, y: float, z: float = 0.0) -> int:
         """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
         the mesh. ``z`` is 0 by default.
@@ -4276,7 +4507,8 @@ class Mesh:
         In the plane z is zero. Cell data "element" has the numbers of the elements.
 
         Args:
-            values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless given.
+            values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless
+                given.
             elements: numbers of the elements in the grid; all with two nodes or more unless given.
             units: unit of each of the values, stored in the field data "units" as texts "name: unit", in ASCII, such as
                 "moment: N m/m"; none unless given.
@@ -4470,6 +4702,19 @@ class StressAtRest:
         """Stresses at ``positions``: array of shape (n, 4) of xx, yy, zz and xy, Pa. Tension is positive, and zero above the
         surface. ``positions``: array of shape (n, 2), x and y, m.
         """
+
+@final
+class WithElements(Structure):
+    """A linear ``structure`` with the elements of a ``mesh`` that yield, such as beams of fibres.
+
+    The structure may be a `MatrixModel` of another program. ``rows``: a list for each node of the mesh, of the rows of its
+    displacements in the directions of the mesh ("x", "y" and "rotation" in the plane; six in space) as sums of degrees of
+    freedom of the structure. The elements add their forces and masses; their stiffness must not be in the matrix of the
+    structure, and Rayleigh damping by their stiffness is not added. `Simulation.beam_sections` and `Simulation.solid_points`
+    return their states, by their numbers in the mesh. `WithSprings` may be around it, not inside.
+    """
+
+    def __new__(cls, structure: _Structure, mesh: Mesh, rows: Sequence[Sequence[_RowLike]]) -> Self: ...
 
 @final
 class Condition:
@@ -4805,6 +5050,13 @@ def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
     Args:
         rotation: rotations, array of shape (m,), rad.
         moment: moments in any unit, array of shape (m,).
+    """
+
+def fiber_stress_path(material: _FiberLaw, strains: ArrayLike) -> NDArray[np.float64]:
+    """Stresses at the ``strains`` of a path through a law of fibres, which starts without strain: array of shape (n,), Pa.
+
+    ``material``: a `Concrete`, `BilinearSteel`, `MenegottoPinto`, `Material` or `UserUniaxialMaterial`. ``strains``: array of
+    shape (n,), tension positive; every state is committed.
     """
 
 def stress_path(

@@ -248,7 +248,7 @@ def fiber_frame(self: BeamSections) -> DataFrame:
     Columns: "section", "fiber" (numbers from 0), "fiber_y", "fiber_z" (m), "area" (m²), "strain" and "stress" (Pa).
     """
     sections, fibers = self.fiber_strain.shape if len(self.length) else (0, 0)
-    table = {"section": np.repeat(np.arange(sections), fibers), "fiber": np.tile(np.arange(fibers), sections)}
+    table: dict[str, Any] = {"section": np.repeat(np.arange(sections), fibers), "fiber": np.tile(np.arange(fibers), sections)}
     for axis, coordinates in zip("yz", self.fiber_position.reshape(-1, 2).T):
         table[f"fiber_{axis}"] = np.tile(coordinates, sections)
     table["area"] = np.tile(self.fiber_area, sections)

@@ -24,7 +24,7 @@ _QUADRATURES = {"Lobatto": "lobatto", "Legendre": "legendre"}
 #: Largest difference of stiffnesses that counts as rounding, relative to the largest entry.
 _ROUNDING = 1e-9
 #: Part of the stiffness of fibres below which the rest of an entry is rounding of the whole.
-_CANCELLED = 1e-12
+_CANCELLED = 1e-11
 
 LAWS = "Elastic, Steel01 without isotropic hardening, Steel02 without initial stress, and Concrete01"
 
@@ -131,17 +131,18 @@ class FiberBeams:
     def _section(self, tag: int, section: int) -> FiberSection:
         """Section of an element; positions are from the centroid of the areas, as in OpenSees."""
         fibers = np.array(self._ops.eleResponse(tag, "section", 1, "fiberData2")).reshape(-1, 6)
+        y, z, area, material = fibers[:, :4].T
+        laws = {name: self._law(tag, section, int(name)) for name in dict.fromkeys(material.tolist())}
         if fibers[:, 4:].any():
             raise InputError(
                 f"analyses have left stresses in the fibres of element {tag}: call ops.reset() before, as a run begins with "
                 "the unloaded structure, or give fibers='linear'"
             )
-        y, z, area, material = fibers[:, :4].T
         y, z = y - area @ y / area.sum(), z - area @ z / area.sum()
-        laws = {name: self._law(tag, section, int(name)) for name in dict.fromkeys(material.tolist())}
         found = FiberSection()
-        for fiber in zip(y, z, area, material):
-            found = found.with_fiber([fiber[0], fiber[1]], fiber[2], laws[fiber[3]])
+        # Neighbours of one material at once.
+        for group in np.split(np.arange(len(y)), np.flatnonzero(np.diff(material)) + 1):
+            found = found.with_fibers(np.stack([y[group], z[group]], axis=1), area[group], laws[material[group[0]]])
         return found
 
     def _law(self, tag: int, section: int, material: int) -> Any:
@@ -253,7 +254,10 @@ def without_fibers(stiffness: Any, mesh: Mesh, tags: list[int], places: dict[int
     row, column = np.divmod(pairs, stiffness.shape[0])
     position = position.ravel()
     fibers = np.bincount(position, terms[:, 2])
-    scale = np.bincount(position, np.abs(terms[:, 2]))
+    # Forces of a stiff direction leave rounding in entries of softer ones.
+    diagonal = np.zeros(stiffness.shape[0])
+    diagonal[row[row == column]] = fibers[row == column]
+    scale = np.sqrt(diagonal[row] * diagonal[column])
     whole = np.asarray(stiffness[row, column], dtype=float).ravel()
     rest = np.where(np.abs(whole - fibers) <= _CANCELLED * scale, 0.0, whole - fibers)
     if isinstance(stiffness, np.ndarray):

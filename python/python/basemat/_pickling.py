@@ -36,7 +36,7 @@ _RETURNING = (
     (_core.SoilProfile, "stress_at_rest"),
     (_core.Mesh, "with_stress_at_rest"),
     (_core.NearField, "mesh"),
-    *((_core.FiberSection, f"with_{shape}") for shape in ("fiber", "rectangle", "ring", "bars", "i_section", "torsional_stiffness")),
+    *((_core.FiberSection, f"with_{shape}") for shape in ("fiber", "fibers", "rectangle", "ring", "bars", "i_section", "torsional_stiffness")),
     (_core.GmshMesh, "mesh"),
     (_core.GmshSpaceMesh, "mesh"),
 )
@@ -156,7 +156,9 @@ def _repr(self: Any) -> str:
         return _values(self)
     is_named = isinstance(made.owner, type) or inspect.isfunction(made.owner)
     owner = made.owner if is_named else type(self)
-    name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
+    # A section shows all of its fibres.
+    before = repr(made.owner) if isinstance(made.owner, _core.FiberSection) else owner.__name__
+    name = owner.__name__ if made.name is None else f"{before}.{made.name}"
     keywords = [f"{name}={_short(value)}" for name, value in made.keywords.items()]
     call = f"{name}({', '.join([*map(_short, made.arguments), *keywords])})"
     # A count that was asked for may have been raised.

@@ -47,7 +47,8 @@ class OpenSeesModel:
     ) -> None:
         self._rows, self._shape, self._model = rows, shape, model
         # A simulation takes this in place of the object.
-        self.__basemat_structure__, self._fiber_beams = fibers or (None, {})
+        self.__basemat_structure__: WithElements | None = fibers[0] if fibers else None
+        self._fiber_beams: dict[int, int] = fibers[1] if fibers else {}
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
         self.base = model.base
@@ -124,7 +125,7 @@ def structure(
             yield in a run: with a Linear transformation, one Fiber section, Lobatto or Legendre integration of 2 to 5
             points, and fibres of Elastic, Steel01 (without isotropic hardening), Steel02 (without initial stress) and
             Concrete01. Others stay linear, with a `BasematWarning` that names element, material and reason. Fibres must be
-            without stress. "linear" takes the tangent of all.
+            without stress. Rayleigh damping is constant, by their initial stiffness. "linear" takes the tangent of all.
 
     Returns:
         The structure at rest, without the loads of OpenSees and without its ``modalDamping``; a
@@ -248,8 +249,9 @@ def nonlinear_structure(
 ) -> NonlinearModel:
     """The structure that the current model of OpenSees is, with elements that yield in a run.
 
-    Beams of fibres whose laws basemat has yield in `structure`, too, without OpenSees in the run. Forces and tangents are those of OpenSees at trial displacements; the end of a step commits them. So one simulation
-    moves the model: build it again for the next one. Elements are ``elasticBeamColumn``, ``dispBeamColumn`` (with
+    Beams of fibres whose laws basemat has yield in `structure`, too, without OpenSees in the run. Forces and tangents are
+    those of OpenSees at trial displacements; the end of a step commits them. So one simulation moves the model: build it
+    again for the next one. Elements are ``elasticBeamColumn``, ``dispBeamColumn`` (with
     sections of fibres), ``zeroLength``, ``Truss``, ``corotTruss`` and ``ShellMITC4``, with the transformations Linear and
     PDelta, in the plane Corotational, too; others raise an `InputError` that names them. Dashpots act by the damping
     matrix of `structure`; Rayleigh damping is constant, by the initial stiffness. OpenSees writes no more messages

@@ -158,7 +158,7 @@ impl PyBeamSections {
         Rows(self.fiber_positions.iter().map(|position| position.to_vec()).collect())
     }
 
-    /// Areas of the fibres: array of shape (f,), m².
+    /// Area of each fibre, the factor of its stress in the resultants: array of shape (f,), m².
     #[getter]
     fn fiber_area(&self) -> Array {
         self.fiber_areas.as_slice().into()

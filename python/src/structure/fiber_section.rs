@@ -1,5 +1,7 @@
 //! Cross-sections of fibres, and beams of them.
 
+use std::sync::Arc;
+
 use basemat::fem::{BeamFormulation, BeamQuadrature, FiberBeam, FiberSection, SpaceFiberBeam};
 use pyo3::prelude::*;
 
@@ -43,6 +45,23 @@ impl PyFiberSection {
     /// Adds a fibre of a ``material`` at a ``position`` (y and z, m) with an ``area`` (m²).
     fn with_fiber(&self, position: [f64; 2], area: f64, material: FiberLaw) -> PyResult<Self> {
         self.0.clone().with_fiber(position, area, material.0).or_raise().map(Self)
+    }
+
+    /// Adds fibres of a ``material`` at ``positions`` (array of shape (n, 2) of y and z, m) with ``areas`` (m²; one number or an
+    /// array of one per fibre).
+    fn with_fibers(
+        &self,
+        positions: Pairs,
+        areas: PerElement,
+        material: FiberLaw,
+    ) -> PyResult<Self> {
+        let fiber_count = positions.0.len();
+        let mut section = self.0.clone();
+        for (index, &position) in positions.0.iter().enumerate() {
+            let area = areas.at("areas", index, fiber_count)?;
+            section = section.with_fiber(position, area, Arc::clone(&material.0)).or_raise()?;
+        }
+        Ok(Self(section))
     }
 
     /// Adds a rectangle of a ``material`` between two ``corners`` (array of shape (2, 2) of y and z, m), cut into ``counts``
