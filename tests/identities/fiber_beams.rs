@@ -88,7 +88,8 @@ impl RandomSection {
 
     /// The section with all z times a factor, of 1 or −1.
     fn fibers(self, z_factor: f64) -> Result<FiberSection> {
-        let [y, z] = self.offset;
+        let y = self.offset[0];
+        let z = self.offset[1];
         let half_depth = 0.5 * self.depth;
         let half_width = 0.5 * self.width;
         let place = |a: f64, b: f64| [y + a * half_depth, z_factor * (z + b * half_width)];
@@ -189,7 +190,8 @@ fn beams_of_fibres_in_a_plane_of_space() {
             })
             .collect();
         // The y axis of the plane's beam is to its left.
-        let [run, rise] = [0, 1].map(|k| ends[1][k] - ends[0][k]);
+        let run = ends[1][0] - ends[0][0];
+        let rise = ends[1][1] - ends[0][1];
         let skewness = random.within(-1.0, 1.0);
         let orientation = along(&axes, [-rise + skewness * run, run + skewness * rise, 0.0]);
         let in_plane = section.plane_beam().and_then(|beam| follow(&beam, &plane_points, &path));
@@ -262,8 +264,7 @@ fn beams_of_fibres_turn_with_their_nodes() {
             Ok(results)
         });
         let order = if is_reversed { "from the other end" } else { "from the first end" };
-        let [material, formulation] = section.words();
-        tally.scene(&[material, formulation, order]);
+        tally.scene(&[&section.words()[..], &[order]].concat());
         let place = format!("{number}: {order}, {section:?}");
         compare(&mut tally, &place, [expected, computed], section.limit());
     }

@@ -66,8 +66,8 @@ impl FiberTable {
     }
 
     fn add_column(&self, mesh: &mut Mesh, ends: [usize; 2]) -> Result<()> {
-        let [x, y] = turned(self.angle, [COLUMN_ORIENTATION.cos(), COLUMN_ORIENTATION.sin()]);
-        let orientation = [x, y, 0.1];
+        let y_axis = turned(self.angle, [COLUMN_ORIENTATION.cos(), COLUMN_ORIENTATION.sin()]);
+        let orientation = [y_axis[0], y_axis[1], 0.1];
         match &self.columns {
             TableColumns::Linear { material, section } => {
                 mesh.add(SpaceBeam::new(ends, *material, *section, orientation)?)
@@ -86,8 +86,8 @@ impl FiberTable {
     pub fn model(&self) -> Result<TableModel> {
         let mut mesh = Mesh::in_space();
         let place = |x: f64, y: f64, z: f64| {
-            let [x, y] = turned(self.angle, [x, y]);
-            [x, y, z]
+            let point = turned(self.angle, [x, y]);
+            [point[0], point[1], z]
         };
         let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let leader = mesh.add_node_at([0.0, 0.0, 0.4])?;
@@ -129,10 +129,10 @@ impl FiberTable {
 
     /// El Centro along both axes of the table.
     pub fn motion(&self, factor: f64) -> Result<Triaxial> {
-        let [x, y] = turned(self.angle, SHAKING_FACTORS);
+        let factors = turned(self.angle, SHAKING_FACTORS);
         Ok(Triaxial {
-            x: Some(el_centro_1940().scaled(factor * x)?),
-            y: Some(el_centro_1940().scaled(factor * y)?),
+            x: Some(el_centro_1940().scaled(factor * factors[0])?),
+            y: Some(el_centro_1940().scaled(factor * factors[1])?),
             up: None,
         })
     }

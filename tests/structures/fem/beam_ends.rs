@@ -3,9 +3,12 @@
 //! REFERENCE: statics by vectors, Kleinlogel's portal, the beam-column's closed form, the assembled stiffness, cuts.
 
 use basemat::Error;
-use basemat::fem::{Beam, BeamSection, Direction, Material, Mesh, SpaceBeam, Spring};
+use basemat::fem::{
+    Beam, BeamFormulation, BeamSection, Direction, Material, Mesh, SpaceBeam, Spring,
+};
 use basemat::structure::{BeamRows, FemModel, SectionRows, Structure};
 use basemat_problems::dense::{multiply, noise, solve_with_prescribed, stiffness};
+use basemat_problems::fiber_tables::FiberTable;
 
 const YOUNG_MODULUS: f64 = 30.0e9;
 
@@ -355,4 +358,16 @@ fn other_elements_are_refused() {
     let spring = model.mesh().elements().len() - 1;
     assert!(matches!(model.beam_rows(spring), Err(Error::Part { .. } | Error::Item { .. })));
     assert!(matches!(model.beam_rows(99), Err(Error::Index { .. })));
+}
+
+/// Forces of beams of fibres are no rows; the error names the method that returns them.
+#[test]
+fn beams_of_fibres_have_sections_in_place_of_rows() {
+    let model = FiberTable::of_steel(BeamFormulation::ForceBased).unwrap().model().unwrap().model;
+    let column = model.inelastic_elements().next().unwrap();
+    let text = model.beam_rows(column).unwrap_err().to_string();
+    assert!(text.contains("beam_sections"), "{text}");
+    let sections = model.beam_sections(column).unwrap();
+    assert_eq!(sections.len(), 5);
+    assert!(sections.iter().all(|section| section.fibers.len() == 48 && section.moment == 0.0));
 }

@@ -84,13 +84,19 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a beam.
+    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a linear beam.
     pub fn beam_rows(&self, element: usize) -> Result<BeamRows> {
         in_bounds("element", element, self.mesh.elements().len())?;
-        let not_a_beam = || Error::part(format!("element {element}"), "it is not a beam");
-        let beam = self.mesh.elements().nth(element).ok_or_else(not_a_beam)?;
+        let not_a_beam = |reason| Error::part(format!("element {element}"), reason);
+        let beam =
+            self.mesh.elements().nth(element).ok_or_else(|| not_a_beam("it is not a beam"))?;
         let points = self.mesh.coordinates(beam.nodes());
-        let frame = end_frame(beam, &points).ok_or_else(not_a_beam)?;
+        let reason = if beam.inelastic().is_some() {
+            "its forces are not proportional to displacements: beam_sections returns those of beams of fibres"
+        } else {
+            "it is not a beam"
+        };
+        let frame = end_frame(beam, &points).ok_or_else(|| not_a_beam(reason))?;
         let dof_count = beam.order();
         let mut stiffness = vec![0.0; dof_count * dof_count];
         beam.stiffness(&points, &mut stiffness);
