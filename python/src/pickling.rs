@@ -19,7 +19,7 @@ use crate::results::{
 use crate::row::PyDofCombination;
 use crate::simulation::{PyFaceForces, PyFoundation};
 use crate::soil::PySoil;
-use crate::structure::{PyBeamSections, PySolidPoints};
+use crate::structure::{PyBeamSections, PyHingeState, PySolidPoints};
 use crate::user::{PyCondition, PyLimits, PyTolerance};
 
 /// The function that restores an object, the name of its class, and its bytes.
@@ -68,4 +68,5 @@ pickled_classes! {
     PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
     PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode PyFaceForces PyKinematicMotions
     PySoil PyBaseNode PyBaseFaces PyDofCombination PyCondition PyLimits PyTolerance PySolidPoints PyBeamSections
+    PyHingeState
 }

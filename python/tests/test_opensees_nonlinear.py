@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from test_report_model import program_of
 
 import basemat as bm
 from basemat import opensees
@@ -20,6 +21,8 @@ try:
 except (ImportError, RuntimeError):
     # Not there, or without the system's BLAS.
     pytest.skip("no OpenSees", allow_module_level=True)
+
+import test_opensees_fibers as fibers  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::basemat.BasematWarning")
 WIDTH, ELEMENTS, NORMAL, STEP, STEPS = 4.0, 8, 60e6, 0.005, 1200
@@ -203,6 +206,23 @@ def test_a_page_says_that_the_model_is_in_opensees(tmp_path: Path) -> None:
     page = (tmp_path / "run.html").read_text("utf-8")
     assert "The program needs the model of OpenSees, which basemat.opensees.nonlinear_structure takes" in page
     assert "<td>NonlinearModel(4 nodes, 12 degrees of freedom)</td>" in page and "<h2>Largest deformation</h2>" in page
+
+
+def test_the_program_of_a_page_has_the_beams_of_fibres(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those that yield in basemat, whose matrices are not in the stiffness of the model."""
+    pytest.importorskip("matplotlib").use("agg")
+    fibers.column("dispBeamColumn", "Steel01")
+    model = opensees.structure(ops, [1], width=WIDTH)
+    ground = bm.SpringGround.under(model, ELEMENTS, NORMAL, NORMAL)
+    simulation = bm.Simulation(STEP, model, ground, bm.Coulomb(0.5), motion=bm.el_centro_1940().scaled(3.0))
+    run = simulation.run(600, warn=False)
+    assert model.fiber_beams and (run.energy_fractions or {})["hysteresis"] > 0.01
+    run.report(tmp_path / "run.html", simulation)
+    text = program_of((tmp_path / "run.html").read_text("utf-8"), tmp_path)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    exec(text, names)
+    np.testing.assert_array_equal(names["run"]["base_shear"], run["base_shear"])
 
 
 OUTLINE = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]

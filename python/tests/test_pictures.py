@@ -68,7 +68,7 @@ def basement() -> bm.Simulation:
 
 def test_wall_pressures_have_their_envelopes_and_limits(tmp_path: Path, rocking) -> None:
     simulation = basement()
-    run = simulation.run(300, contact_every=10, motion_every=10, warn=False)
+    run = simulation.run(300, contact_every=75, motion_every=75, warn=False)
     left, right = run.plot_wall_pressures(simulation.interface, title="basement")
     assert left.get_title(loc="left") == "basement" and right.get_title(loc="left") == "right wall"
     for panel, elements in ((left, [2, 1, 0]), (right, [7, 8, 9])):

@@ -45,15 +45,12 @@ fn pulse() -> Record {
 /// Mean of the coherence over pairs of points of a fine grid in both cells.
 fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement) -> f64 {
     let points = |element: &ContactElement| {
-        let count = 24;
         let mut points = vec![];
-        for i in 0..count {
-            for j in 0..count {
-                let fraction = |k: usize| (k as f64 + 0.5) / f64::from(count as u32);
-                points.push([
-                    element.left() + element.length() * fraction(i),
-                    element.depth()[0] + element.sides()[1] * fraction(j),
-                ]);
+        for i in 0..24 {
+            for j in 0..24 {
+                let x = element.left() + element.length() * (f64::from(i) + 0.5) / 24.0;
+                let y = element.depth()[0] + element.sides()[1] * (f64::from(j) + 0.5) / 24.0;
+                points.push([x, y]);
             }
         }
         points
@@ -71,12 +68,12 @@ fn fine_mean(frequency: f64, receiver: &ContactElement, source: &ContactElement)
     sum / (receivers.len() * sources.len()) as f64
 }
 
-/// Means over cells by two Gauss points along each side, where waves are resolved.
+/// Means over cells by two Gauss points along each side: the error is (bl)⁴/180 with b = ωα/c and the side l = 40 m.
 #[test]
 fn mean_coherence_is_that_of_fine_grids() {
     let cells = cells();
     let coherence = LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap();
-    for (frequency, tolerance) in [(0.0, 1e-14), (1.0, 1e-5), (2.0, 2e-4), (4.0, 3e-3)] {
+    for (frequency, tolerance) in [(0.0, 1e-14), (1.0, 6e-5), (2.0, 6e-4), (4.0, 8e-3)] {
         let matrix = mean_coherence(&coherence, frequency, &cells).unwrap();
         for (i, receiver) in cells.iter().enumerate() {
             for (j, source) in cells.iter().enumerate() {
@@ -104,7 +101,7 @@ fn coefficient(frequency: f64, mut sample: impl FnMut(f64) -> f64) -> Complex {
     for k in 0..1600 {
         let time = 0.01 * f64::from(k);
         let phase = Complex::polar(1.0, -std::f64::consts::TAU * frequency * time);
-        sum = sum + phase.scale(sample(time));
+        sum += phase.scale(sample(time));
     }
     sum
 }
@@ -143,12 +140,12 @@ fn sample_coherence_is_the_coherence() {
                     .iter()
                     .map(|sample| sample[i] * Complex::new(sample[j].re, -sample[j].im))
                     .collect();
-                assert_mean(&products, fine_mean(frequency, receiver, source), 4e-3);
+                assert_mean(&products, fine_mean(frequency, receiver, source), 1e-2);
             }
             // The record at the reference point has its phase.
             let point = ContactElement::in_plan([reference[0]; 2], [reference[1]; 2]);
             let relative: Vec<Complex> = samples.iter().map(|sample| sample[i]).collect();
-            assert_mean(&relative, fine_mean(frequency, receiver, &point), 4e-3);
+            assert_mean(&relative, fine_mean(frequency, receiver, &point), 1e-2);
         }
     }
 }
@@ -275,10 +272,11 @@ fn undefined_motions_are_refused() {
     assert!(fine.clone().with_bandwidth(0.0).is_err());
     let slow = fine.clone().with_bandwidth(1e-4).unwrap();
     assert!(fault(&slow, quiet_record(), &cells).contains("bandwidth"));
-    assert!(fault(&fine, el_centro_1940(), &cells).contains("velocity at the end"));
+    let moving = Record::new(0.01, vec![1.0; 500]).unwrap();
+    assert!(fault(&fine, moving, &cells).contains("velocity at the end"));
     let sudden = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
     let text = fault(&fine, sudden, &cells);
-    assert!(text.contains("at t = 0") && text.contains("quiet time"), "{text}");
+    assert!(text.contains("before t = 0") && text.contains("quiet time"), "{text}");
     assert!(fault(&fine, quiet_record(), &[cells[0], cells[0]]).contains("overlap"));
     let beyond_one = Incoherence::new(CoherenceFn::of_separation(|_, _| 1.5));
     let text = fault(&beyond_one, quiet_record(), &cells);

@@ -16,9 +16,12 @@ const RAFT_SIDE: f64 = 4.0;
 const MAST_HEIGHT: f64 = 6.0;
 const TOP_MASS: f64 = 30.0e3;
 const PLASTIC_MOMENT: f64 = 400.0e3;
+/// Duration of a pulse, s.
+const PULSE_DURATION: f64 = 0.8;
 
-/// A mast on a hinge of this bending stiffness; returns its top, too.
+/// A mast on a hinge of this strength and stiffness; returns its top, too.
 fn mast(
+    plastic_moment: f64,
     bending_stiffness: f64,
     hardening_ratio: f64,
     young_modulus: f64,
@@ -40,20 +43,20 @@ fn mast(
     // The axes of the hinge need not be those of the motion.
     let axes = [[0.0, 0.0, 1.0], [0.8, 0.6, 0.0]];
     let stiffness = [1.0e10, bending_stiffness, bending_stiffness];
-    let hinge = SpaceHinge::new([center, foot], axes, 1.0e11, stiffness, [PLASTIC_MOMENT; 2])?;
+    let hinge = SpaceHinge::new([center, foot], axes, 1.0e11, stiffness, [plastic_moment; 2])?;
     mesh.add(hinge.with_hardening(hardening_ratio)?)?;
     let model = FemModel::on_faces(mesh, std::slice::from_ref(&corners))?;
     Ok((model.with_rigid_link(center, &corners)?, top))
 }
 
-/// Displacements of the top along and across a force for 0.2 s at an angle from x, on a fixed base.
+/// Displacements of the top along and across a force at an angle from x, on a fixed base.
 fn pushed_displacements(angle: f64, force: f64) -> Vec<[f64; 2]> {
-    let (model, top) = mast(1e5 * PLASTIC_MOMENT, 0.0, 1.0e14).unwrap();
+    let (model, top) = mast(PLASTIC_MOMENT, 1e6 * PLASTIC_MOMENT, 0.0, 1.0e14).unwrap();
     let x = model.row(top, Direction::X).unwrap();
     let y = model.row(top, Direction::Y).unwrap();
     let along = angle.cos() * x.clone() + angle.sin() * y.clone();
     let across = angle.cos() * y + -angle.sin() * x;
-    let load = move |time: f64| if time > 0.0 && time < 0.2 { force } else { 0.0 };
+    let load = move |time: f64| if time > 0.0 && time < PULSE_DURATION { force } else { 0.0 };
     let mut simulation = Simulation::builder(5e-4)
         .ground(SpringCells::under([RAFT_SIDE; 2], [0.0; 2], [3, 3], BED_PROPERTIES))
         .structure(model)
@@ -67,7 +70,7 @@ fn pushed_displacements(angle: f64, force: f64) -> Vec<[f64; 2]> {
         .unwrap();
     let mut displacements = Vec::new();
     let run = simulation
-        .run(1000, |state| displacements.push([state.probes[0], state.probes[1]]))
+        .run(3600, |state| displacements.push([state.probes[0], state.probes[1]]))
         .unwrap();
     assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
     displacements
@@ -83,7 +86,8 @@ fn a_pulse_in_any_direction_turns_the_mast_alike() {
     let force = 2.0 * PLASTIC_MOMENT / MAST_HEIGHT;
     let reference = pushed_displacements(0.0, force);
     let excess = force * MAST_HEIGHT - PLASTIC_MOMENT;
-    let rotation = force * excess * 0.04 / (2.0 * TOP_MASS * MAST_HEIGHT * PLASTIC_MOMENT);
+    let rotation =
+        force * excess * PULSE_DURATION.powi(2) / (2.0 * TOP_MASS * MAST_HEIGHT * PLASTIC_MOMENT);
     let peak_rotation = peak(&reference) / MAST_HEIGHT;
     println!("{peak_rotation} for {rotation}");
     assert!((peak_rotation / rotation - 1.0).abs() < 5e-3);
@@ -100,13 +104,13 @@ fn a_pulse_in_any_direction_turns_the_mast_alike() {
 }
 
 #[test]
-fn a_mast_that_yields_and_lifts_off_closes_the_energy() {
-    let (model, _) = mast(200.0 * PLASTIC_MOMENT, 0.01, 30.0e9).unwrap();
+fn a_mast_that_yields_closes_the_energy() {
+    let (model, _) = mast(0.1 * PLASTIC_MOMENT, 200.0 * PLASTIC_MOMENT, 0.01, 30.0e9).unwrap();
     let hinge = model.inelastic_elements().next().unwrap();
     let mut simulation = Simulation::builder(2e-3)
         .ground(SpringCells::under([RAFT_SIDE; 2], [0.0; 2], [4, 4], BED_PROPERTIES))
         .structure(model)
-        .interface(Coulomb::new(0.5).unwrap())
+        .interface(Coulomb::new(0.1).unwrap())
         .motion(CrossingPulses { quarter_turns: 0 })
         .expected_steps(600)
         .build()

@@ -4507,7 +4507,8 @@ class Mesh:
         In the plane z is zero. Cell data "element" has the numbers of the elements.
 
         Args:
-            values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless given.
+            values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless
+                given.
             elements: numbers of the elements in the grid; all with two nodes or more unless given.
             units: unit of each of the values, stored in the field data "units" as texts "name: unit", in ASCII, such as
                 "moment: N m/m"; none unless given.

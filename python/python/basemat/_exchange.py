@@ -122,7 +122,8 @@ def mesh_to_pyvista(
     In the plane z is zero. Cell data "element" has the numbers of the elements.
 
     Args:
-        values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless given.
+        values: names and arrays of shape (elements,) or (elements, components), one row for each of ``elements``; none unless
+            given.
         elements: numbers of the elements in the grid; all with two nodes or more unless given.
         units: unit of each of the values, stored in the field data "units" as texts "name: unit", in ASCII, such as
             "moment: N m/m"; none unless given.
@@ -144,7 +145,8 @@ def mesh_to_pyvista(
     for name, given in (values or {}).items():
         array = np.asarray(given, dtype=float)
         if array.ndim not in (1, 2) or len(array) != len(numbers):
-            raise InputError(f"values '{name}' have the shape {array.shape}, but must have a row for each of {len(numbers)} elements")
+            rows = f"a row for each of {len(numbers)} elements"
+            raise InputError(f"values '{name}' have the shape {array.shape}, but must have {rows}")
         grid.cell_data[name] = array
     texts = [f"{name}: {unit}".translate(_ASCII) for name, unit in (units or {}).items()]
     grid.field_data["units"] = ["points: m", *texts]

@@ -112,8 +112,8 @@ class Elements:
 
     def transformations(self, tag: int) -> list[str]:
         """Types of the geometric transformations of an element."""
-        names = self._uses("crdTransformation", self._part("elements", tag).text)
-        return [self._part("crdTransformation", name).type for name in names]
+        names = self.uses("crdTransformation", self.part("elements", tag).text)
+        return [self.part("crdTransformation", name).type for name in names]
 
     def _type(self, tag: int) -> str:
         return str(self._ops.eleType(tag))

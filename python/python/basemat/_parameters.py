@@ -28,9 +28,8 @@ Known = Mapping[int, str]
 
 def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
     """Rows of a description and of those that it is made of; ``name``: what it is for the simulation."""
-    # A model of OpenSees is a MatrixModel.
-    model = getattr(value, "_model", None)
-    value = model if isinstance(model, _core.MatrixModel) else value
+    model = model_of_opensees(value)
+    value = value if model is None else model
     made = value if isinstance(value, Made) else getattr(value, "__dict__", {}).get(_MADE)
     if isinstance(value, _core.Record):
         samples = len(value.accelerations)
@@ -52,6 +51,15 @@ def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
         yield from _rows_of_arguments(name, vars(value), "", known)
     else:
         yield name, _shown(value), ""
+
+
+def model_of_opensees(value: Any) -> _core.Structure | None:
+    """The structure that stands for a linear model of OpenSees, with its beams of fibres; None for other objects."""
+    model = getattr(value, "_model", None)
+    if not isinstance(model, _core.MatrixModel):
+        return None
+    with_fibers = getattr(value, "__basemat_structure__", None)
+    return with_fibers if isinstance(with_fibers, _core.Structure) else model
 
 
 def _rows_of_call(name: str, made: Made, known: Known) -> Iterator[Row]:

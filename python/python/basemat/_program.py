@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._parameters import model_of_opensees
 from ._pickling import _CALLS, _MADE, Made, _layer
 
 _SHORT = 30
@@ -153,8 +154,7 @@ class Program:
         kind = type(value)
         if kind.__module__ == "basemat":
             return self._of_package(value)
-        # A model of OpenSees is a MatrixModel.
-        if isinstance(model := getattr(value, "_model", None), _core.MatrixModel):
+        if (model := model_of_opensees(value)) is not None:
             return self._text(model)
         return self._of_user(value)
 

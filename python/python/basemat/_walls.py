@@ -15,7 +15,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-_CURVES = (("static_pressure", "at rest", "black", "-"), ("lowest_pressure", "lowest", "C0", "-"), ("highest_pressure", "highest", "C1", "-"))
+_CURVES = (
+    ("static_pressure", "at rest", "black", "-"),
+    ("lowest_pressure", "lowest", "C0", "-"),
+    ("highest_pressure", "highest", "C1", "-"),
+)
 """Pressures of the envelope, their names in the key, colours and lines."""
 _LIMITS = (("active", "C2", "--"), ("passive", "C3", "--"))
 """Limits of the soil, their colours and lines."""
@@ -46,7 +50,8 @@ def plot_wall_pressures(
                 limits[limits > 1.5 * largest] = np.nan
                 _draw(panel, heights, limits, text, color, line)
         label_axes(panel, "pressure, kPa", "height, m" if number == 0 else "")
-        panel.set_title(title if title is not None and number == 0 else ("left wall", "right wall")[number], fontsize="medium", loc="left")
+        wall = ("left wall", "right wall")[number]
+        panel.set_title(wall if title is None or number else title, fontsize="medium", loc="left")
         panel.margins(x=0.05, y=0.0)
         panel.set_xlim(left=0.0)
     key(panels[1])

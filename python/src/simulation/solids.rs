@@ -1,9 +1,9 @@
-//! States of solids and of beams of fibres during a simulation.
+//! States of solids, beams of fibres and hinges during a simulation.
 
 use std::any::Any;
 
 use basemat::Simulation;
-use basemat::fem::{BeamSectionState, SolidPoint};
+use basemat::fem::{BeamSectionState, HingeState, SolidPoint};
 use basemat::structure::{
     FemModel, Structure, StructureGroup, WithElements, WithModalDamping, WithSprings, WithWalls,
 };
@@ -13,7 +13,7 @@ use super::PySimulation;
 use crate::array::{Array, Count};
 use crate::error::{OrRaise, input_error};
 use crate::names::choice;
-use crate::structure::{PyBeamSections, PySolidPoints};
+use crate::structure::{PyBeamSections, PyHingeState, PySolidPoints};
 
 /// A structure whose elements may yield.
 #[derive(Clone, Copy)]
@@ -34,6 +34,13 @@ impl InelasticModel<'_> {
         match self {
             Self::Fem(model) => model.beam_sections(element),
             Self::Elements(model) => model.beam_sections(element),
+        }
+    }
+
+    fn hinge_state(self, element: usize) -> basemat::Result<HingeState> {
+        match self {
+            Self::Fem(model) => model.hinge_state(element),
+            Self::Elements(model) => model.hinge_state(element),
         }
     }
 
@@ -120,6 +127,15 @@ impl PySimulation {
         let simulation = self.lock()?;
         let model = inelastic_model(&simulation, member)?;
         PyBeamSections::of_element(element.0, |index| model.beam_sections(index))
+    }
+
+    /// The `HingeState` of a hinge with the number ``element`` at the end of the last accepted step: rotation, moment, and what
+    /// of the deformations is plastic. Structure and ``member`` (none unless given) are as for `solid_points`.
+    #[pyo3(signature = (element, *, member=None))]
+    fn hinge_state(&self, element: Count, member: Option<Count>) -> PyResult<PyHingeState> {
+        let simulation = self.lock()?;
+        let model = inelastic_model(&simulation, member)?;
+        PyHingeState::of_element(element.0, |index| model.hinge_state(index))
     }
 
     /// One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use basemat::fem::{BilinearSteel, Concrete, MenegottoPinto, UniaxialMaterial};
 use pyo3::prelude::*;
 
+use super::bilinear_moment::PyBilinearMoment;
 use super::material::PyMaterial;
 use crate::array::{Array, Numbers};
 use crate::error::{OrRaise, WithOption, raise_user_exceptions};
@@ -92,6 +93,9 @@ extracts!(FiberLaw, object => {
     }
     if let Ok(steel) = object.cast::<PyMenegottoPinto>() {
         return Ok(Self(Arc::new(steel.get().0)));
+    }
+    if let Ok(law) = object.cast::<PyBilinearMoment>() {
+        return Ok(Self(Arc::new(law.get().0)));
     }
     user::uniaxial_material(&object).map(Self)
 });

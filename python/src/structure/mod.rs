@@ -2,6 +2,7 @@
 
 mod beam_ends;
 mod beam_sections;
+mod bilinear_moment;
 mod block;
 mod building;
 mod composed;
@@ -12,6 +13,7 @@ mod fiber_material;
 mod fiber_section;
 mod gmsh_space;
 mod grid;
+mod hinges;
 mod hysteresis;
 mod in_space;
 mod layer;
@@ -28,6 +30,7 @@ mod with_elements;
 
 pub(crate) use beam_ends::{PyBeamEndRows, PyBeamRows};
 pub(crate) use beam_sections::PyBeamSections;
+pub(crate) use bilinear_moment::PyBilinearMoment;
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
@@ -38,6 +41,7 @@ pub(crate) use fiber_material::{PyBilinearSteel, PyConcrete, PyMenegottoPinto, f
 pub(crate) use fiber_section::PyFiberSection;
 pub(crate) use gmsh_space::PyGmshSpaceMesh;
 pub(crate) use grid::PyGrid;
+pub(crate) use hinges::{PyAxialMomentSurface, PyHingeState};
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyPendulumBearing,
     PyWithSprings,

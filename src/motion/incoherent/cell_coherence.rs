@@ -11,7 +11,7 @@ use crate::geometry::ContactElement;
 
 /// Position of the two Gauss points, relative to half the side.
 const GAUSS_POSITION: f64 = 0.577_350_269_189_625_8;
-/// Difference of two vectors between elements, relative to a side, that counts as rounding.
+/// Difference of two vectors between elements, relative to the shortest side, that counts as rounding.
 const OFFSET_TOLERANCE: f64 = 1e-9;
 
 /// Reference point and elements, between which the coherence is computed.
@@ -38,11 +38,14 @@ impl<'a> CellCoherence<'a> {
         let mut classes = Vec::new();
         let mut pair_classes = Vec::with_capacity(points.len() * (points.len() + 1) / 2);
         let mut class_indices = HashMap::new();
+        let min_side =
+            elements.iter().flat_map(ContactElement::sides).fold(f64::INFINITY, f64::min);
+        let unit = OFFSET_TOLERANCE * min_side;
         for i in 0..points.len() {
             for j in 0..=i {
                 // The reference point is a class of its own with each element.
                 let key = if coherence.is_homogeneous() && j > 0 {
-                    offset_key(&elements[i - 1], &elements[j - 1])
+                    offset_key(&elements[i - 1], &elements[j - 1], unit)
                 } else {
                     None
                 };
@@ -142,13 +145,12 @@ fn check_distances(coherence: &dyn Coherence, points: &[Vec<[f64; 2]>]) -> Resul
     Ok(())
 }
 
-/// Rounded vector between two elements and their sides; the same for the opposite vector.
-fn offset_key(receiver: &ContactElement, source: &ContactElement) -> Option<[i64; 6]> {
+/// Vector between two elements and their sides in whole numbers of a `unit` (m); the same for the opposite vector.
+fn offset_key(receiver: &ContactElement, source: &ContactElement, unit: f64) -> Option<[i64; 6]> {
     let center = receiver.center();
     let source_center = source.center();
     let sides = receiver.sides();
     let source_sides = source.sides();
-    let unit = OFFSET_TOLERANCE * sides[0].min(sides[1]);
     let numbers = [
         center[0] - source_center[0],
         center[1] - source_center[1],

@@ -19,8 +19,8 @@ use crate::linalg::next_smooth_even;
 const SPREAD_PERIODS: f64 = 2.0;
 /// Amplitude of a spectrum of acceleration, relative to its largest, below which no random motion is computed.
 const NEGLIGIBLE_AMPLITUDE: f64 = 1e-6;
-/// Largest velocity of the differences at t = 0, relative to the peak of the record.
-const MAX_START_VELOCITY_RATIO: f64 = 0.01;
+/// Largest velocity of the differences before t = 0, relative to the peak of the record.
+const MAX_EARLY_VELOCITY_RATIO: f64 = 0.01;
 
 /// Spectrum of a record's velocity, with room for the motion around the record.
 pub(super) struct VelocitySpectrum {
@@ -204,7 +204,8 @@ impl DifferenceSeries {
                     let values = signal[..sample_count].iter().map(|value| value - start);
                     series.displacements.extend(values);
                 } else {
-                    check_start(signal[0], peak)?;
+                    // The end of the period is the time before t = 0.
+                    check_start(&signal[sample_count..], peak)?;
                     series.velocities.extend_from_slice(&signal[..sample_count]);
                 }
             }
@@ -235,12 +236,13 @@ impl DifferenceSeries {
     }
 }
 
-/// Checks the velocity of an element's difference at t = 0, m/s.
-fn check_start(velocity: f64, peak: f64) -> Result<()> {
-    let quantity = "velocity of the incoherent motion at t = 0 over the record's peak";
+/// Checks the velocities of an element's difference before t = 0, m/s.
+fn check_start(early_velocities: &[f64], peak: f64) -> Result<()> {
+    let quantity = "velocity of the incoherent motion before t = 0 over the record's peak";
     let needed = "at most 0.01: put quiet time before the record (`Record::padded`)";
-    let ratio = if peak == 0.0 { 0.0 } else { velocity.abs() / peak };
-    require(quantity, ratio, ratio <= MAX_START_VELOCITY_RATIO, needed).map(drop)
+    let largest = early_velocities.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+    let ratio = if peak == 0.0 { 0.0 } else { largest / peak };
+    require(quantity, ratio, ratio <= MAX_EARLY_VELOCITY_RATIO, needed).map(drop)
 }
 
 /// Error of a length that the Fourier transform does not accept.

@@ -76,12 +76,12 @@ impl Disc {
             let middle = state.time - 0.5 * WEIGHTS_TIME_STEP;
             for (k, frequency) in DISC_FREQUENCIES.iter().enumerate() {
                 let phasor = Complex::polar(1.0, -frequency * middle);
-                load_coefficients[k] = load_coefficients[k] + phasor.scale(load(middle));
+                load_coefficients[k] += phasor.scale(load(middle));
                 for ((weight, element), contact) in
                     weights[k].iter_mut().zip(&self.elements).zip(&state.contact)
                 {
                     let traction = if component == 0 { contact.shear } else { -contact.pressure };
-                    *weight = *weight + phasor.scale(element.area() * traction);
+                    *weight += phasor.scale(element.area() * traction);
                 }
             }
         })?;
@@ -142,9 +142,9 @@ impl Disc {
             for (k, frequency) in DISC_FREQUENCIES.iter().enumerate() {
                 let phasor = Complex::polar(1.0, -frequency * time);
                 let record_motion = phasor.scale(record.at(time).displacement);
-                record_coefficients[k] = record_coefficients[k] + record_motion;
+                record_coefficients[k] += record_motion;
                 for (weight, displacement) in weights[k].iter().zip(&displacements) {
-                    responses[k] = responses[k] + *weight * phasor.scale(*displacement);
+                    responses[k] += *weight * phasor.scale(*displacement);
                 }
             }
         }
@@ -168,9 +168,9 @@ impl Disc {
             for (k, frequency) in DISC_FREQUENCIES.iter().enumerate() {
                 let phasor = Complex::polar(1.0, -frequency * state.time);
                 let displacement = state.absolute_displacement()[component];
-                responses[k] = responses[k] + phasor.scale(displacement);
+                responses[k] += phasor.scale(displacement);
                 let record_motion = phasor.scale(record.at(state.time).displacement);
-                record_coefficients[k] = record_coefficients[k] + record_motion;
+                record_coefficients[k] += record_motion;
             }
         })?;
         Ok(responses.iter().zip(record_coefficients).map(|(u, record)| *u / record).collect())

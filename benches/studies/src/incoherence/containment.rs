@@ -27,8 +27,8 @@ const FRICTION_COEFFICIENT: f64 = 0.5;
 const RECORD_FACTOR: f64 = 1.5;
 const TIME_STEP: f64 = 0.01;
 /// Quiet time before the record, and duration of the run, s.
-const QUIET_TIME: f64 = 5.0;
-const RUN_DURATION: f64 = 17.0;
+const QUIET_TIME: f64 = 3.0;
+const RUN_DURATION: f64 = 13.0;
 /// Damping ratio of the equipment, and periods of the table, s.
 const EQUIPMENT_DAMPING: f64 = 0.05;
 const TABLE_PERIODS: [f64; 4] = [0.05, 0.1, 0.2, 0.5];
@@ -190,7 +190,13 @@ fn statistics(values: &[f64]) -> [f64; 3] {
 }
 
 /// Table and picture of coherent and incoherent runs.
-pub(super) fn compare(seed_count: u64, short: bool) -> Result<(String, Figure), AnyError> {
+pub(super) struct IncoherenceComparison {
+    pub(super) table: String,
+    pub(super) figure: Figure,
+}
+
+/// Runs with coherent motion, and with incoherent motion of several seeds.
+pub(super) fn compare(seed_count: u64, short: bool) -> Result<IncoherenceComparison, AnyError> {
     let scene = ContainmentScene::new(short)?;
     let coherent = scene.run(None)?;
     let mut incoherent = Vec::new();
@@ -237,5 +243,6 @@ pub(super) fn compare(seed_count: u64, short: bool) -> Result<(String, Figure), 
             .dashed("", CURVE_GRAY, curve(&|k| of_seeds(k, 2)))
     });
     let title = "Floor spectra at the top of a containment's wall, 5 % damping";
-    Ok((text, Figure::new(title, 1, panels.collect())))
+    let figure = Figure::new(title, 1, panels.collect());
+    Ok(IncoherenceComparison { table: text, figure })
 }

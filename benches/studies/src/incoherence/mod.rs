@@ -35,6 +35,9 @@ pub(crate) struct IncoherenceOptions {
     /// Seeds of the containment.
     #[arg(long, default_value_t = 20)]
     seeds: u64,
+    /// One part only.
+    #[arg(long)]
+    part: Option<IncoherencePart>,
     /// Folder for the files.
     #[arg(long, default_value = "target/study/incoherence")]
     out: PathBuf,
@@ -43,24 +46,43 @@ pub(crate) struct IncoherenceOptions {
     docs: Option<PathBuf>,
 }
 
+/// Part of the study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum IncoherencePart {
+    Cost,
+    Disc,
+    Containment,
+}
+
 /// Runs the study.
 pub(crate) fn run(options: &IncoherenceOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
-    let cost = cost(options.short)?;
-    println!("{cost}");
-    let disc = disc(options)?;
-    println!("{disc}");
-    let seeds = if options.short { 2 } else { options.seeds };
-    let (containment, figure) = containment::compare(seeds, options.short)?;
-    println!("{containment}");
-    figure.draw(&options.out.join("incoherence.svg"))?;
-    if let Some(docs) = &options.docs {
-        for (name, text) in [("disc", &disc), ("containment", &containment), ("cost", &cost)] {
-            splice("incoherence.md", &format!("incoherence {name}"), text)?;
+    let includes = |part: IncoherencePart| options.part.is_none_or(|chosen| chosen == part);
+    if includes(IncoherencePart::Cost) {
+        publish(options, "cost", &cost(options.short)?)?;
+    }
+    if includes(IncoherencePart::Disc) {
+        publish(options, "disc", &disc(options)?)?;
+    }
+    if includes(IncoherencePart::Containment) {
+        let seeds = if options.short { 2 } else { options.seeds };
+        let comparison = containment::compare(seeds, options.short)?;
+        publish(options, "containment", &comparison.table)?;
+        comparison.figure.draw(&options.out.join("incoherence.svg"))?;
+        if let Some(docs) = &options.docs {
+            comparison.figure.draw(&docs.join("images/incoherence.svg"))?;
         }
-        figure.draw(&docs.join("images/incoherence.svg"))?;
     }
     println!("files in {}", options.out.display());
+    Ok(())
+}
+
+/// Prints a table, and puts it into the tables of the documents.
+fn publish(options: &IncoherenceOptions, name: &str, text: &str) -> Result<(), AnyError> {
+    println!("{text}");
+    if options.docs.is_some() {
+        splice("incoherence.md", &format!("incoherence {name}"), text)?;
+    }
     Ok(())
 }
 

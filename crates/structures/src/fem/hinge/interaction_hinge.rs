@@ -38,7 +38,7 @@ const YIELDING_DEFORMATIONS: [usize; 2] = [0, 2];
 /// // The rotation grows in small steps, and the column shortens so that the axial force stays.
 /// for _ in 0..200 {
 ///     displacement[5] += 1.0e-4;
-///     for _ in 0..30 {
+///     for _ in 0..60 {
 ///         let mut nodal = [0.0; 6];
 ///         force.force(&points, &displacement, &variables, &mut nodal)?;
 ///         displacement[4] -= (nodal[4] + 1.0e6) / 1.0e10;

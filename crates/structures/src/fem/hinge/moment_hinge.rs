@@ -19,7 +19,7 @@ use crate::geometry::{Direction, PLANE_DIRECTIONS};
 /// the direction. [`FemModel::with_tied_nodes`](crate::structure::FemModel::with_tied_nodes) may tie them exactly; the springs then carry nothing.
 ///
 /// The stiffness of the hinge does not count in stiffness-proportional damping: else a hinge that rotates plastically
-/// would have a viscous moment far above its plastic moment (Charney 2008, Earthq. Eng. Struct. Dyn. 37, 667).
+/// would have a viscous moment far above its plastic moment (Charney 2008, J. Struct. Eng. 134, 581).
 /// [`FemModel::hinge_state`](crate::structure::FemModel::hinge_state) returns rotation and moment.
 ///
 /// ```

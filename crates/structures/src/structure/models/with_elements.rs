@@ -3,8 +3,8 @@
 use super::inelastic_elements::InelasticElements;
 use crate::error::{Error, Result, at_least, in_bounds};
 use crate::fem::{
-    BeamSectionState, Direction, Element, MassKind, Mesh, ReadStates, SolidPoint, read_points,
-    read_sections,
+    BeamSectionState, Direction, Element, HingeState, MassKind, Mesh, ReadStates, SolidPoint,
+    read_hinge, read_points, read_sections,
 };
 use crate::structure::{
     Base, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
@@ -128,6 +128,16 @@ impl WithElements {
     /// As for [`solid_points`](WithElements::solid_points).
     pub fn beam_sections(&self, element: usize) -> Result<Vec<BeamSectionState>> {
         self.element_states(element, read_sections)
+    }
+
+    /// State of a hinge, as [`FemModel::hinge_state`](crate::structure::FemModel::hinge_state).
+    ///
+    /// # Errors
+    /// As for [`solid_points`](WithElements::solid_points); [`Error::Part`] for an element that is no hinge.
+    pub fn hinge_state(&self, element: usize) -> Result<HingeState> {
+        let states = self.element_states(element, read_hinge)?;
+        let not_a_hinge = || Error::part(format!("element {element}"), "it is no hinge");
+        states.first().copied().ok_or_else(not_a_hinge)
     }
 
     /// States in an element at the end of the last step.
