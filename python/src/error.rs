@@ -153,6 +153,9 @@ pub(crate) fn in_python_words(mut text: String) -> String {
         ("FiberSection::with_torsional_stiffness", "FiberSection.with_torsional_stiffness"),
         ("QuadFormulation::MeanDilatation", "\"mean_dilatation\""),
         ("site::SoilColumn", "SoilColumn"),
+        ("`Ground::elements`", "`ground.elements`"),
+        ("`Record::padded`", "`Record.padded`"),
+        ("Incoherence::clipped", "Incoherence.clipped"),
         (
             "a recorder of fewer steps takes less",
             "larger `every`, `contact_every`, `motion_every` or `series=False` take less",
