@@ -9,6 +9,7 @@
 //! | [`largest_convergent_step`] | the longest time step whose contact problems all have a solution |
 //! | [`interaction()`] | forces, period and damping on the ground and on a fixed base |
 //! | [`push_over()`] | the largest static load of the foundation, and the path to it |
+//! | [`push_over_by_displacement`] | load against displacement through the collapse load of structure and foundation |
 
 mod base_rotations;
 mod convergent_step;
@@ -16,6 +17,7 @@ mod displacement_search;
 mod free_vibration;
 mod interaction;
 mod push_over;
+mod push_over_by_displacement;
 mod refine;
 mod refine_each;
 mod sensitivity;
@@ -23,6 +25,7 @@ mod sensitivity;
 pub use convergent_step::largest_convergent_step;
 pub use interaction::{Interaction, SystemMode, interaction};
 pub use push_over::{PushControl, PushOver, PushPoint, push_over};
+pub use push_over_by_displacement::push_over_by_displacement;
 pub use refine::{Refinement, Setting, refine};
 pub use refine_each::{Refinements, refine_each};
 pub use sensitivity::{PeakTwins, Sensitivity, sensitivity};

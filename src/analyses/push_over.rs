@@ -6,6 +6,7 @@ use crate::analyses::displacement_search::{
     DisplacementSearch, ForceDisplacement, LIMIT_FORCE_TOLERANCE,
 };
 use crate::error::{Error, Result, StabilityError, at_least, finite, require};
+use crate::interface::Mode;
 use crate::linalg::largest;
 use crate::structure::DofCombination;
 
@@ -24,7 +25,8 @@ pub enum PushControl {
     Forces(Vec<f64>),
     /// Displacements of the controlled degree of freedom, m or rad.
     ///
-    /// Their magnitudes ascend, and all have the same sign.
+    /// Their magnitudes ascend, and all have the same sign. The force of each is found among the stable states: the curve
+    /// ends at the largest load. [`push_over_by_displacement`](super::push_over_by_displacement) passes it.
     Displacements {
         /// The displacements, relative to the state without force.
         targets: Vec<f64>,
@@ -83,8 +85,8 @@ pub struct PushOver {
 ///
 /// The curve ends at the first force without equilibrium, for example because the structure overturns or slides away.
 /// The limit then lies between two forces that differ by a ten-thousandth. Elements bear at their middles, so that a
-/// base of n elements overturns at (1 − 1/n) of W b/2. A curve with a falling branch ends at its peak. On a half-plane
-/// displacements have no datum: control a rotation or a drift there.
+/// base of n elements overturns at (1 − 1/n) of W b/2. A curve with a falling branch ends at its peak.
+/// On a half-plane displacements have no datum: control a rotation or a drift there.
 ///
 /// ```
 /// use basemat::analyses::{PushControl, push_over};
@@ -224,25 +226,13 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
         let areas = simulation.elements().areas();
         // The modes of `state` are those at the start of the first step, in which elements stick after sliding.
         let static_state = &simulation.scene.static_state;
-        let modes = &static_state.modes;
-        let traction = &static_state.traction;
-        let shear_rounding = SHEAR_ROUNDING_TOLERANCE * largest(traction);
-        // Under a weight without friction all elements may be in slip without any shear.
-        let has_shear = |element: usize| {
-            let mut shears = traction[modes.len()..].iter().skip(element).step_by(modes.len());
-            shears.any(|shear| shear.abs() > shear_rounding)
-        };
-        let elements = modes.iter().zip(areas).enumerate();
-        let sliding_elements =
-            elements.filter(|(element, (mode, _))| mode.is_slip() && has_shear(*element));
         PushPoint {
             force,
             displacement: motion.displacement - self.datum.displacement,
             base_rotation: motion.base_rotations[0] - self.datum.base_rotations[0],
             rotation_across: motion.base_rotations[1] - self.datum.base_rotations[1],
             uplifted_fraction: state.uplifted_fraction,
-            sliding_fraction: sliding_elements.fold(0.0, |sum, (_, (_, area))| sum + area)
-                / areas.iter().sum::<f64>(),
+            sliding_fraction: sliding_fraction(&static_state.modes, &static_state.traction, areas),
             base_shear: state.base_shear,
             base_moment: state.base_moment,
         }
@@ -338,6 +328,23 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
         let reason = format!("no force was found for it in {MAX_STATES_PER_TARGET} static states");
         Err(Error::part(format!("displacement {target} of the push-over"), reason))
     }
+}
+
+/// Area of elements that slide against friction over the area of the base.
+///
+/// `traction`: of all elements, whose number is that of `modes`; `areas`: of the elements of the ground.
+pub(super) fn sliding_fraction(modes: &[Mode], traction: &[f64], areas: &[f64]) -> f64 {
+    let shear_rounding = SHEAR_ROUNDING_TOLERANCE * largest(traction);
+    // Under a weight without friction all elements may be in slip without any shear.
+    let has_shear = |element: usize| {
+        let mut shears = traction[modes.len()..].iter().skip(element).step_by(modes.len());
+        shears.any(|shear| shear.abs() > shear_rounding)
+    };
+    let elements = modes.iter().zip(areas).enumerate();
+    let sliding_elements =
+        elements.filter(|(element, (mode, _))| mode.is_slip() && has_shear(*element));
+    let sliding_area = sliding_elements.fold(0.0, |sum, (_, (_, area))| sum + area);
+    sliding_area / areas.iter().sum::<f64>()
 }
 
 /// Whether an error states that the loads have no equilibrium.

@@ -98,7 +98,7 @@ fn distance(first: [f64; 2], second: [f64; 2]) -> f64 {
 /// use basemat::motion::{Coherence, LucoWong};
 /// let coherence = LucoWong::new(0.25, 300.0)?;
 /// // α ω d/c = 0.25 · 2π · 6 Hz · 40 m / 300 m/s
-/// assert!((coherence.between(6.0, [0.0, 0.0], [0.0, 40.0]) - 0.20594).abs() < 1e-5);
+/// assert!((coherence.between(6.0, [0.0, 0.0], [0.0, 40.0]) - 0.20615).abs() < 1e-5);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,6 +9,7 @@
 //! | one quantity of one or more runs over time | [`time_series`], [`probe_time_series`], [`curves`] |
 //! | moment or settlement of a foundation over its rotation, beside measured points | [`moment_rotation`], [`settlement_rotation`] |
 //! | shear stress over shear strain at points of a solid | [`stress_strain`] |
+//! | load over displacement of a push-over | [`push_over`](push_over()) |
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, smallest and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
@@ -49,6 +50,7 @@ mod paths;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
+mod push_over;
 mod refinement;
 mod rocking;
 mod site_response;
@@ -64,6 +66,7 @@ pub use deformed::deformed_shapes;
 pub use element_values::{shell_plan, solid_section};
 pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
 pub use plan::contact_plan;
+pub use push_over::push_over;
 pub use refinement::refinement;
 pub use rocking::{moment_rotation, settlement_rotation};
 pub use site_response::site_response;

@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod closed_types;
+mod collapse_loads;
 mod conditioning;
 mod conveniences;
 mod coordinates;

@@ -17,6 +17,7 @@ mod containment;
 mod document;
 mod elements;
 mod embedded;
+mod fiber_cost;
 mod figure;
 mod fragility;
 mod full_plane;
@@ -57,6 +58,7 @@ enum Study {
     PaperReadings(paper_readings::PaperReadingsOptions),
     PaperScheme(paper_scheme::PaperSchemeOptions),
     FullPlane(full_plane::FullPlaneOptions),
+    FiberCost(fiber_cost::FiberCostOptions),
     Fragility(fragility::FragilityOptions),
     Opensees(opensees::OpenseesOptions),
     Passivity(passivity::PassivityOptions),
@@ -87,6 +89,7 @@ fn main() -> ExitCode {
         Study::PaperReadings(options) => paper_readings::run(options),
         Study::PaperScheme(options) => paper_scheme::run(&options),
         Study::FullPlane(options) => full_plane::run(&options),
+        Study::FiberCost(options) => fiber_cost::run(&options),
         Study::Fragility(options) => fragility::run(&options),
         Study::Opensees(options) => opensees::run(&options),
         Study::Passivity(options) => {

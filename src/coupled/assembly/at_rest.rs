@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 
 use super::backfilled;
-use super::static_stages::{state_under_load, state_under_weight};
+use super::static_stages::{
+    contacts_under_load, state_under_load, state_under_weight, unloaded_contacts,
+};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::base::influence::UPWARD_DIRECTION;
@@ -17,7 +19,7 @@ use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::step_compliance::diagonal_inside_outline;
 use crate::error::{Result, all_finite, finite};
-use crate::interface::{InterfaceLaw, Mode, law_of};
+use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::{CompressedMatrix, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
@@ -138,6 +140,58 @@ pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[V
     StaticLoads::new(parts, assembled).map(|loads| [loads.weight, loads.load])
 }
 
+/// Static state of a foundation without walls under weight and loads at t = 0, from which further loads act.
+///
+/// The function commits the state to the structure's internal variables.
+pub(super) fn loaded_state(
+    parts: &mut Parts,
+    assembled: &Assembled,
+    ground_compliance: &CompressedMatrix,
+) -> Result<LoadedState> {
+    let StaticLoads { weight, load, .. } = StaticLoads::new(parts, assembled)?;
+    let laws = &parts.builder.laws;
+    let gaps = assembled.base.initial_gaps();
+    let problem = StaticProblem {
+        assembled,
+        structure: parts.structure.as_ref(),
+        ground_compliance,
+        is_frictionless: false,
+        jump_offset: &gaps,
+        shared_compliance: &RefCell::default(),
+        may_shorten_increments: true,
+        prescribed: None,
+    };
+    let forces: Vec<f64> = weight.iter().zip(&load).map(|(w, f)| w + f).collect();
+    let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
+    let found = if forces.iter().all(|force| *force == 0.0) {
+        let mut state = StaticState::weightless(assembled.base.layout(), assembled.dofs());
+        open_gaps(&mut state, &assembled.base, laws);
+        let contacts = unloaded_contacts(laws, &state)?;
+        (state, contacts)
+    } else {
+        let stage = parts.builder.gravity_stage;
+        let weight_state = state_under_weight(&problem, laws, stage, &weight)?;
+        contacts_under_load(&problem, laws, weight_state, [&weight, &load])?
+    };
+    if has_p_delta && !is_fixed_base(parts.ground.as_ref()) {
+        let structure = parts.structure.as_ref();
+        let grounded = GroundedStructure { assembled, structure, ground_compliance, laws };
+        buckling::check(grounded, None, &found.0)?;
+    }
+    if let Some(force) = parts.structure.nonlinear_mut() {
+        force.commit(&found.0.displacement);
+    }
+    Ok(LoadedState { state: found.0, contacts: found.1, forces })
+}
+
+/// A static state, and what further loads begin from.
+pub(super) struct LoadedState {
+    pub(super) state: StaticState,
+    pub(super) contacts: PreviousContacts,
+    /// Weight and loads, N.
+    pub(super) forces: Vec<f64>,
+}
+
 /// Forces on the degrees of freedom at t = 0, N.
 struct StaticLoads {
     /// Load that the structure defines.
@@ -225,6 +279,7 @@ pub(crate) fn state_under_loads(
         jump_offset: &gaps,
         shared_compliance: ground.shared_compliance,
         may_shorten_increments: ground.may_shorten_increments,
+        prescribed: None,
     };
     let has_walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
     let is_backfilled =

@@ -21,6 +21,7 @@ mod many_forces;
 mod p_delta_damping;
 mod response_rows;
 mod settled;
+pub(crate) mod static_push;
 mod static_stages;
 mod step_response;
 mod stepped;

@@ -85,6 +85,49 @@ pub(super) fn state_under_load(
     // Under further loads the base sticks at its present position.
     state.modes = state.initial_modes(laws);
     state_under_growing_load(problem, laws, (state, &contact), [weight, load])
+        .map(|(state, _)| state)
+}
+
+/// As [`state_under_load`], with the contacts from which further loads act.
+pub(super) fn contacts_under_load(
+    problem: &StaticProblem<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    (mut state, contact): (StaticState, Vec<ContactState>),
+    [weight, load]: [&[f64]; 2],
+) -> Result<(StaticState, PreviousContacts)> {
+    state.modes = state.initial_modes(laws);
+    if load.iter().all(|force| *force == 0.0) {
+        let contacts = previous_contacts(laws, &state, &contact)?;
+        return Ok((state, contacts));
+    }
+    state_under_growing_load(problem, laws, (state, &contact), [weight, load])
+}
+
+/// Contacts of a state without forces.
+pub(super) fn unloaded_contacts(
+    laws: &[Box<dyn InterfaceLaw>],
+    state: &StaticState,
+) -> Result<PreviousContacts> {
+    let mut contact = vec![ContactState::default(); state.modes.len()];
+    for (element, gap) in contact.iter_mut().zip(&state.gap) {
+        element.gap = *gap;
+    }
+    previous_contacts(laws, state, &contact)
+}
+
+/// Contacts of a static state, from which the next stage begins.
+fn previous_contacts(
+    laws: &[Box<dyn InterfaceLaw>],
+    state: &StaticState,
+    contact: &[ContactState],
+) -> Result<PreviousContacts> {
+    let mut element_contacts = Vec::with_capacity(contact.len());
+    for (e, contact) in contact.iter().enumerate() {
+        let start = PreviousContact::new(*contact, state.modes[e], GRAVITY_STAGE_TIME_STEP);
+        let variables = state.state_variables.get(e);
+        element_contacts.push(start.with_state_variables(variables.map_or(&[], Vec::as_slice)));
+    }
+    PreviousContacts::new(laws, &element_contacts)
 }
 
 /// Static state under `weight` and `load`, from the `state` under the weight with its contact.
@@ -95,21 +138,15 @@ fn state_under_growing_load(
     laws: &[Box<dyn InterfaceLaw>],
     (state, contact): (StaticState, &[ContactState]),
     [weight, load]: [&[f64]; 2],
-) -> Result<StaticState> {
+) -> Result<(StaticState, PreviousContacts)> {
     let element_count = state.modes.len();
-    let element_contacts: Vec<_> = (0..element_count)
-        .map(|e| {
-            let start = PreviousContact::new(contact[e], state.modes[e], GRAVITY_STAGE_TIME_STEP);
-            start.with_state_variables(&state.state_variables[e])
-        })
-        .collect();
-    let initial_contact = PreviousContacts::new(laws, &element_contacts)?;
+    let initial_contact = previous_contacts(laws, &state, contact)?;
     let total_load = |factor: f64| -> Vec<f64> {
         weight.iter().zip(load).map(|(weight, load)| weight + factor * load).collect()
     };
     // Largest factor of the load with an equilibrium.
     let equilibrium_factor = Cell::new(0.0);
-    let follow_path = |increment_count: usize| -> Result<StaticState> {
+    let follow_path = |increment_count: usize| -> Result<(StaticState, PreviousContacts)> {
         let mut state = state.clone();
         let mut contact = initial_contact.clone();
         equilibrium_factor.set(0.0);
@@ -120,10 +157,10 @@ fn state_under_growing_load(
         }
         state.state_variables =
             (0..element_count).map(|e| contact.state_variables_of(e).to_vec()).collect();
-        Ok(state)
+        Ok((state, contact))
     };
     match follow_path(1) {
-        Ok(state) if !is_path_dependent(laws, &state) => Ok(state),
+        Ok(found) if !is_path_dependent(laws, &found.0) => Ok(found),
         _ => follow_path(LOAD_INCREMENT_COUNT).map_err(|error| {
             let error = cause(problem, laws, &total_load(1.0), error);
             toppling_by_loads(problem, equilibrium_factor.get(), error)

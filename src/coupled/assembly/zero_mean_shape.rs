@@ -103,7 +103,7 @@ impl ZeroMeanShape {
         let deviation_stiffness =
             SparseMatrix::new(FIXED_MEANS_STIFFNESS_NAME, &deviation_springs).ok()?;
         let compliance = ground.shared_compliance.borrow();
-        let Compliance { factor, traction_responses, delassus } = compliance.as_ref()?;
+        let Compliance { factor, traction_responses, delassus, .. } = compliance.as_ref()?;
         let mut spring_matrix = factored_spring_matrix(&moduli, delassus, ground.compliance)?;
         let mut traction = vec![0.0; layout.len()];
         // The initial vector has entries of mixed signs and magnitudes. The iteration ends some per cent above the

@@ -12,6 +12,7 @@ use crate::coupled::model::joint_compliance::{
     STATIC_JOINT_COMPLIANCE_RATIO, with_joint_compliance,
 };
 use crate::coupled::model::operators::condense;
+use crate::coupled::statics::prescribed_displacement::{PatternResponse, PrescribedDisplacement};
 use crate::error::{Error, Result};
 use crate::linalg::{CompressedMatrix, SparseFactor, SparseMatrix, sparse_condition};
 
@@ -36,13 +37,25 @@ pub(crate) struct Compliance {
     pub(crate) traction_responses: Vec<f64>,
     /// Delassus operator of structure and ground.
     pub(crate) delassus: Delassus,
+    /// Response to the load pattern of a prescribed displacement; the tractions' responses do not move its control.
+    pub(super) pattern_response: Option<PatternResponse>,
 }
 
 impl ShiftedStiffnessFactor {
     /// Factors K + D + εM with the shift ε.
     pub(crate) fn new(assembled: &Assembled, tangent: &SparseMatrix, shift: f64) -> Result<Self> {
+        Self::with_spring(assembled, tangent, shift, &SparseMatrix::default())
+    }
+
+    /// Factors K + D + εM with the shift ε and the stiffness of a further spring; an empty matrix for none.
+    pub(super) fn with_spring(
+        assembled: &Assembled,
+        tangent: &SparseMatrix,
+        shift: f64,
+        spring: &SparseMatrix,
+    ) -> Result<Self> {
         let Assembled { stiffness, mass, .. } = assembled;
-        let terms = [(1.0, &**stiffness), (1.0, tangent), (shift, mass)];
+        let terms = [(1.0, &**stiffness), (1.0, tangent), (shift, mass), (1.0, spring)];
         let matrix = SparseMatrix::sum(STATIC_STIFFNESS_NAME, assembled.dofs(), &terms)?;
         let factor =
             SparseFactor::with_elimination(STATIC_STIFFNESS_NAME, &matrix, &assembled.elimination)?;
@@ -75,6 +88,16 @@ impl Compliance {
         base: &PlacedBase,
         ground_compliance: &CompressedMatrix,
     ) -> Result<Self> {
+        Self::with_control(factor, base, ground_compliance, None)
+    }
+
+    /// Compliance of a structure whose displacement is prescribed in one direction.
+    pub(super) fn with_control(
+        factor: Rc<ShiftedStiffnessFactor>,
+        base: &PlacedBase,
+        ground_compliance: &CompressedMatrix,
+        prescribed: Option<&PrescribedDisplacement<'_>>,
+    ) -> Result<Self> {
         let order = factor.matrix.order();
         let ground_with_joints;
         let ground_compliance = if base.joints().is_empty() {
@@ -86,9 +109,17 @@ impl Compliance {
                 with_joint_compliance(solve, base, ground_compliance, order, ratio);
             &ground_with_joints
         };
-        let (traction_responses, delassus) =
-            condense(|rhs| factor.factor.solve_many(rhs), base, ground_compliance, order)?;
-        Ok(Self { factor, traction_responses, delassus })
+        let mut pattern_response = prescribed
+            .map(|prescribed| PatternResponse::new(prescribed, &factor.factor))
+            .transpose()?;
+        let solve = |rhs: &mut [f64]| {
+            factor.factor.solve_many(rhs);
+            if let (Some(response), Some(prescribed)) = (&mut pattern_response, prescribed) {
+                response.fix_control(prescribed.control, rhs);
+            }
+        };
+        let (traction_responses, delassus) = condense(solve, base, ground_compliance, order)?;
+        Ok(Self { factor, traction_responses, delassus, pattern_response })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Static equilibrium with contact conditions, by proximal point iteration.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -13,13 +14,16 @@ use crate::coupled::statics::convergence::{
     RelativeForceNorm, extrapolation_factor, has_converged, spring_force_rounding,
 };
 use crate::coupled::statics::fictitious_springs::{FictitiousSprings, difference};
+use crate::coupled::statics::imbalance::{
+    force_rounding, imbalance, joint_element_that_moves_most, unbalanced_force,
+};
+use crate::coupled::statics::prescribed_displacement::PrescribedDisplacement;
 use crate::coupled::statics::shortened_increment::ShortenedIncrement;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
-use crate::geometry::resultant;
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
-use crate::linalg::{CompressedMatrix, SparseMatrix, dot, largest, transposed_multiply_add};
-use crate::structure::{Structure, Tangent, nonlinear_state};
+use crate::linalg::{CompressedMatrix, SparseMatrix, largest, transposed_multiply_add};
+use crate::structure::{Structure, Tangent};
 
 /// Largest unbalanced force of an equilibrium, relative to the load.
 const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
@@ -27,9 +31,11 @@ const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
 ///
 /// It is above the rounding of K u + f(u) at the largest accepted condition, about 2e-6.
 const INNER_FORCE_TOLERANCE: f64 = 1e-5;
-/// Condition beyond which rounding of K u exceeds the tolerance of the force balance.
+/// Largest rounding of the forces within a nonlinear structure that is accepted in place of [`INNER_FORCE_TOLERANCE`].
 ///
-/// The value is from `tests/coupled/conditioning.rs`.
+/// Elements of a few millimetres have stiffnesses far above those of the structure, and masses far below.
+const MAX_INNER_ROUNDING: f64 = 1e-3;
+/// Condition beyond which rounding of K u exceeds the tolerance of the force balance (`tests/coupled/conditioning.rs`).
 const MAX_ACCEPTED_CONDITION: f64 = 1e10;
 /// Largest number of proximal iterations.
 const MAX_PROXIMAL_ITERATIONS: usize = 500;
@@ -62,6 +68,14 @@ pub(crate) struct StaticProblem<'a> {
     pub(crate) shared_compliance: &'a RefCell<Option<Compliance>>,
     /// Whether a search without a solution begins anew, with shortened increments.
     pub(crate) may_shorten_increments: bool,
+    /// Load pattern whose factor follows from a displacement; `None` for constant loads.
+    pub(crate) prescribed: Option<&'a PrescribedDisplacement<'a>>,
+}
+
+/// End of an iteration: displacement, and factor of the load pattern.
+struct Iterate {
+    displacement: Vec<f64>,
+    load_factor: f64,
 }
 
 impl StaticProblem<'_> {
@@ -107,14 +121,15 @@ impl StaticProblem<'_> {
         let initial_shift = springs.shift;
         let mut solver =
             ContactSolver::new(base.layout(), base.areas(), false, ContactSearch::Robust);
-        let relative_norm = RelativeForceNorm::new(assembled, load);
+        let mut relative_norm = RelativeForceNorm::new(assembled, load);
+        let start_displacement = state.displacement.clone();
         let mut tangent = Tangent::new(assembled.dofs());
         let mut stored_compliance = None::<Compliance>;
         let mut change = f64::INFINITY;
         let mut iterations = 0;
         let mut last_step = Vec::new();
-        let mut short_increment = has_short_increments
-            .then(|| ShortenedIncrement::new(assembled, self.structure, load, &relative_norm));
+        let mut short_increment =
+            has_short_increments.then(|| ShortenedIncrement::new(assembled, self.structure));
         while iterations < MAX_PROXIMAL_ITERATIONS {
             iterations += 1;
             tangent.refill(self.structure, &state.displacement)?;
@@ -128,28 +143,39 @@ impl StaticProblem<'_> {
             let compliance = stored_compliance.insert(compliance);
             let next =
                 self.next_iterate(compliance, &mut solver, (laws, start), load, &mut state)?;
-            let Some(mut displacement) = next else { break };
+            let Some(Iterate { mut displacement, load_factor }) = next else { break };
             let mut traction = solver.response().traction.clone();
-            let is_shortened = match &mut short_increment {
-                Some(increment) => {
-                    increment.shorten(&state, springs.shift, &mut displacement, &mut traction)?
-                }
-                None => false,
-            };
+            let start_load = self.applied_load(load, state.load_factor);
+            let end_load = self.applied_load(load, load_factor);
+            if self.prescribed.is_some() {
+                relative_norm = RelativeForceNorm::new(assembled, &end_load);
+            }
+            let mut position = 1.0;
+            if let Some(increment) = &mut short_increment {
+                let loads = [&*start_load, &*end_load];
+                let end = (&mut *displacement, &mut *traction);
+                position = increment.shorten(&relative_norm, &state, loads, springs.shift, end)?;
+            }
+            let is_shortened = position < 1.0;
             let spring_force = springs.force(assembled, &displacement, &state.displacement);
             let previous_change = std::mem::replace(&mut change, relative_norm.of(&spring_force));
             let step = difference(&displacement, &state.displacement);
             state.displacement = displacement;
             state.traction = traction;
             if is_shortened {
+                state.load_factor += position * (load_factor - state.load_factor);
                 last_step = step;
                 continue;
             }
+            state.load_factor = load_factor;
             if has_converged(previous_change, change, iterations, compliance) {
                 // If K u is only rounding, the springs may have no force without an equilibrium.
-                let residual = imbalance(assembled, load, &state.traction);
+                let residual = imbalance(assembled, &end_load, &state.traction);
                 let inner_residual = self.yielding_residual(&relative_norm, load, &state)?;
-                if residual <= FORCE_BALANCE_TOLERANCE && inner_residual <= INNER_FORCE_TOLERANCE {
+                let matrices = [&*assembled.stiffness, &tangent.matrix];
+                let rounding = force_rounding(&relative_norm, matrices, &state.displacement);
+                let inner_tolerance = rounding.clamp(INNER_FORCE_TOLERANCE, MAX_INNER_ROUNDING);
+                if residual <= FORCE_BALANCE_TOLERANCE && inner_residual <= inner_tolerance {
                     self.share(stored_compliance, initial_shift);
                     state.substituted_friction =
                         solver.substituted_friction().or(state.substituted_friction);
@@ -181,9 +207,22 @@ impl StaticProblem<'_> {
         if let Ok(residual) = self.yielding_residual(&relative_norm, load, &state) {
             change = change.max(residual);
         }
-        let joint_element = self.joint_element_that_moves_most(&last_step);
+        let joint_element = joint_element_that_moves_most(&assembled.base, &last_step);
         let error = Error::Preload { iterations, residual: change, joint_element };
+        // The tangent of a structure that yields without limit says nothing of the ground.
+        tangent.refill(self.structure, &start_displacement)?;
         Err(self.ill_conditioned(&tangent.matrix, initial_shift).unwrap_or(error))
+    }
+
+    /// The constant load with the load pattern times its factor.
+    fn applied_load<'l>(&self, load: &'l [f64], load_factor: f64) -> Cow<'l, [f64]> {
+        match self.prescribed {
+            None => Cow::Borrowed(load),
+            Some(prescribed) => {
+                let forces = load.iter().zip(prescribed.pattern);
+                Cow::Owned(forces.map(|(force, p)| force + load_factor * p).collect())
+            }
+        }
     }
 
     /// Unbalanced force of a nonlinear structure, relative to the load; zero for a linear one.
@@ -199,7 +238,8 @@ impl StaticProblem<'_> {
         if self.assembled.is_linear {
             return Ok(0.0);
         }
-        let force = unbalanced_force(self.assembled, self.structure, load, state)?;
+        let load = self.applied_load(load, state.load_factor);
+        let force = unbalanced_force(self.assembled, self.structure, &load, state)?;
         Ok(relative_norm.of(&force))
     }
 
@@ -227,29 +267,7 @@ impl StaticProblem<'_> {
         })
     }
 
-    /// Joint and its element whose sides move most against each other in a step of the displacement.
-    ///
-    /// `None` without joints or step, and if an element of the ground moves more.
-    fn joint_element_that_moves_most(&self, step: &[f64]) -> Option<[usize; 2]> {
-        let base = &self.assembled.base;
-        if base.joints().is_empty() || step.is_empty() {
-            return None;
-        }
-        let layout = base.layout();
-        let mut means = vec![0.0; layout.len()];
-        base.means(step, &mut means);
-        let movement = |element: usize| {
-            let components = 0..layout.components();
-            components.fold(0.0, |sum, k| resultant(sum, means[layout.index_of(k, element)]))
-        };
-        let elements = 0..layout.elements();
-        let element = elements.max_by(|a, b| movement(*a).total_cmp(&movement(*b)))?;
-        let mut joints = base.joints().iter().enumerate();
-        let (joint, placed) = joints.find(|(_, joint)| joint.elements.contains(&element))?;
-        Some([joint, element - placed.elements.start])
-    }
-
-    /// Displacement of the next iterate; `None` if its contact problem has no solution.
+    /// The next iterate; `None` if its contact problem has no solution.
     ///
     /// The tractions are stored in `solver`.
     fn next_iterate(
@@ -259,8 +277,9 @@ impl StaticProblem<'_> {
         (laws, start): (&[Box<dyn InterfaceLaw>], &PreviousContacts),
         load: &[f64],
         state: &mut StaticState,
-    ) -> Result<Option<Vec<f64>>> {
-        let mut displacement = self.displacement_without_traction(compliance, load, state)?;
+    ) -> Result<Option<Iterate>> {
+        let Iterate { mut displacement, mut load_factor } =
+            self.iterate_without_traction(compliance, load, state)?;
         let mut means = vec![0.0; solver.response().traction.len()];
         self.assembled.base.means(&displacement, &mut means);
         let mut free_jump: Vec<f64> = means.iter().map(|mean| -mean).collect();
@@ -283,28 +302,42 @@ impl StaticProblem<'_> {
         }
         let traction = &solver.response().traction;
         transposed_multiply_add(&compliance.traction_responses, -1.0, traction, &mut displacement);
-        Ok(Some(displacement))
+        if let Some(response) = &compliance.pattern_response {
+            load_factor += response.factor_of_tractions(&state.traction, traction);
+        }
+        Ok(Some(Iterate { displacement, load_factor }))
     }
 
-    /// Displacement of the next iterate without the response to its tractions τ₁.
+    /// The next iterate without the response to its tractions τ₁.
     ///
     /// (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would settle
     /// 1/`PROXIMAL_SPRING_FRACTION` times as much as on the ground. The system is therefore solved for the unbalanced force
     /// only, and the response to the last tractions τ₀ is added with the traction responses of the compliance.
-    fn displacement_without_traction(
+    fn iterate_without_traction(
         &self,
         compliance: &Compliance,
         load: &[f64],
         state: &StaticState,
-    ) -> Result<Vec<f64>> {
-        let mut displacement = unbalanced_force(self.assembled, self.structure, load, state)?;
+    ) -> Result<Iterate> {
+        let mut load_factor = state.load_factor;
+        let load = self.applied_load(load, load_factor);
+        let mut displacement = unbalanced_force(self.assembled, self.structure, &load, state)?;
+        if let Some(prescribed) = self.prescribed {
+            let missing = prescribed.missing(&state.displacement);
+            prescribed.add_spring_force(missing, &mut displacement);
+        }
         compliance.factor.factor.solve_many(&mut displacement);
+        if let (Some(prescribed), Some(response)) = (self.prescribed, &compliance.pattern_response)
+        {
+            let missing = prescribed.missing(&state.displacement);
+            load_factor += response.move_control(prescribed.control, missing, &mut displacement);
+        }
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
         }
         let responses = &compliance.traction_responses;
         transposed_multiply_add(responses, 1.0, &state.traction, &mut displacement);
-        Ok(displacement)
+        Ok(Iterate { displacement, load_factor })
     }
 
     /// The springs of the shared compliance, or the initial springs without one.
@@ -355,37 +388,12 @@ impl StaticProblem<'_> {
 
     /// Compliance with springs of stiffness `shift` per mass.
     fn compliance(&self, tangent: &SparseMatrix, shift: f64) -> Result<Compliance> {
-        let factor = Rc::new(ShiftedStiffnessFactor::new(self.assembled, tangent, shift)?);
-        Compliance::new(factor, &self.assembled.base, self.ground_compliance)
+        let Self { assembled, ground_compliance, prescribed, .. } = *self;
+        let spring = match prescribed {
+            Some(prescribed) => prescribed.spring(assembled.dofs())?,
+            None => SparseMatrix::default(),
+        };
+        let factor = ShiftedStiffnessFactor::with_spring(assembled, tangent, shift, &spring)?;
+        Compliance::with_control(Rc::new(factor), &assembled.base, ground_compliance, prescribed)
     }
-}
-
-/// Unbalanced resultant force, relative to the load.
-///
-/// K does not resist translations. The tractions alone must balance the resultants of the load.
-fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
-    let mut residual = load.to_vec();
-    assembled.base.add_forces(-1.0, traction, &mut residual);
-    let mut max_resultant = 0.0_f64;
-    let mut scale = 0.0_f64;
-    for vector in &assembled.influence.whole_vectors(load.len()) {
-        max_resultant = max_resultant.max(dot(vector, &residual).abs());
-        scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
-    }
-    max_resultant / scale.max(f64::MIN_POSITIVE)
-}
-
-/// Unbalanced force: load − K u − f(u) − BᵀAτ.
-fn unbalanced_force(
-    assembled: &Assembled,
-    structure: &dyn Structure,
-    load: &[f64],
-    state: &StaticState,
-) -> Result<Vec<f64>> {
-    let mut residual = load.to_vec();
-    assembled.stiffness.multiply_add(-1.0, &state.displacement, &mut residual);
-    assembled.base.add_forces(-1.0, &state.traction, &mut residual);
-    let force = nonlinear_state(structure, &state.displacement)?.0;
-    residual.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
-    Ok(residual)
 }

@@ -19,49 +19,42 @@ const FULL_INCREMENT_TOLERANCE: f64 = 1e-8;
 pub(super) struct ShortenedIncrement<'a> {
     assembled: &'a Assembled,
     structure: &'a dyn Structure,
-    load: &'a [f64],
-    relative_norm: &'a RelativeForceNorm,
     search: IncrementSearch,
     start_force: Vec<f64>,
     end_force: Vec<f64>,
 }
 
 impl<'a> ShortenedIncrement<'a> {
-    /// Buffers for a structure under a load.
-    pub(super) fn new(
-        assembled: &'a Assembled,
-        structure: &'a dyn Structure,
-        load: &'a [f64],
-        relative_norm: &'a RelativeForceNorm,
-    ) -> Self {
-        let start_force = vec![0.0; load.len()];
+    /// Buffers for a structure.
+    pub(super) fn new(assembled: &'a Assembled, structure: &'a dyn Structure) -> Self {
+        let start_force = vec![0.0; assembled.dofs()];
         let end_force = start_force.clone();
-        let search = IncrementSearch::new(load.len());
-        Self { assembled, structure, load, relative_norm, search, start_force, end_force }
+        let search = IncrementSearch::new(assembled.dofs());
+        Self { assembled, structure, search, start_force, end_force }
     }
 
     /// Moves the end of an iteration back along its increment, if the increment passed the balance on this line.
     ///
-    /// `start`: state before the iteration. `displacement` and `traction`: the end; both move. `shift`: stiffness per mass of
-    /// the springs between both displacements, 1/s². Returns whether the end has moved.
+    /// `start`: state before the iteration. `displacement` and `traction`: the end; both move. `loads`: at the start and the
+    /// end. `shift`: stiffness per mass of the springs between both displacements, 1/s². Returns the position of the new end
+    /// on the increment: below one if it has moved.
     pub(super) fn shorten(
         &mut self,
+        relative_norm: &RelativeForceNorm,
         start: &StaticState,
+        loads: [&[f64]; 2],
         shift: f64,
-        displacement: &mut [f64],
-        traction: &mut [f64],
-    ) -> Result<bool> {
+        (displacement, traction): (&mut [f64], &mut [f64]),
+    ) -> Result<f64> {
         let Self { assembled, structure, search, start_force, end_force, .. } = self;
-        let Some(nonlinear_force) = structure.nonlinear() else { return Ok(false) };
-        let start_linear = linear_force(assembled, self.load, &start.displacement, &start.traction);
+        let Some(nonlinear_force) = structure.nonlinear() else { return Ok(1.0) };
+        let start_linear = linear_force(assembled, loads[0], &start.displacement, &start.traction);
         start_force.fill(0.0);
         nonlinear_force.force(&start.displacement, start_force)?;
-        if self.relative_norm.of(&difference(&start_linear, start_force))
-            <= FULL_INCREMENT_TOLERANCE
-        {
-            return Ok(false);
+        if relative_norm.of(&difference(&start_linear, start_force)) <= FULL_INCREMENT_TOLERANCE {
+            return Ok(1.0);
         }
-        let mut end_linear = linear_force(assembled, self.load, displacement, traction);
+        let mut end_linear = linear_force(assembled, loads[1], displacement, traction);
         assembled.mass.multiply_add(-shift, displacement, &mut end_linear);
         assembled.mass.multiply_add(shift, &start.displacement, &mut end_linear);
         end_force.fill(0.0);
@@ -74,7 +67,7 @@ impl<'a> ShortenedIncrement<'a> {
         for (end, start) in traction.iter_mut().zip(&start.traction) {
             *end = start + position * (*end - start);
         }
-        Ok(position < 1.0)
+        Ok(position)
     }
 }
 

@@ -33,6 +33,8 @@ pub(crate) struct StaticState {
     ///
     /// `None` if no coefficient was replaced.
     pub(crate) substituted_friction: Option<f64>,
+    /// Factor of the load pattern of a prescribed displacement; zero without one.
+    pub(crate) load_factor: f64,
 }
 
 impl StaticState {
@@ -50,6 +52,7 @@ impl StaticState {
             force: Vec::new(),
             energy: None,
             substituted_friction: None,
+            load_factor: 0.0,
         }
     }
 

@@ -74,8 +74,7 @@ impl VelocitySpectrum {
 
     /// Number of knots, a bandwidth apart, that interpolation needs up to the highest frequency.
     pub(super) fn knot_count(&self, bandwidth: f64) -> usize {
-        let (last_knot, _) = knot_and_fraction(self.frequency(self.values.len() - 1), bandwidth);
-        last_knot + 3
+        knot_below(self.frequency(self.values.len() - 1), bandwidth) + 3
     }
 
     /// Whether the record has motion within a bandwidth around each knot.
@@ -83,7 +82,7 @@ impl VelocitySpectrum {
         let mut amplitudes = vec![0.0_f64; self.knot_count(bandwidth)];
         for (index, value) in self.values.iter().enumerate() {
             let frequency = self.frequency(index);
-            let (knot, _) = knot_and_fraction(frequency, bandwidth);
+            let knot = knot_below(frequency, bandwidth);
             let amplitude = frequency * value.norm();
             amplitudes[knot] = amplitudes[knot].max(amplitude);
             amplitudes[knot + 1] = amplitudes[knot + 1].max(amplitude);
@@ -96,12 +95,10 @@ impl VelocitySpectrum {
 /// Longest spread of the random motion, as a multiple of the record.
 const MAX_SPREAD_RATIO: f64 = 4.0;
 
-/// Knot at or below a frequency, and position between it and the next one, from 0 to 1.
-fn knot_and_fraction(frequency: f64, bandwidth: f64) -> (usize, f64) {
-    let position = frequency / bandwidth;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-    let knot = position as usize;
-    (knot, position - knot as f64)
+/// Knot at or below a frequency, Hz.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
+fn knot_below(frequency: f64, bandwidth: f64) -> usize {
+    (frequency / bandwidth) as usize
 }
 
 /// Motion of the elements relative to the reference point, at knots a bandwidth apart from 0 Hz on.
@@ -123,7 +120,9 @@ impl Knots {
         let deviations: Vec<f64> = self.deviations.iter().map(|values| values[element]).collect();
         let mut transfer = Vec::with_capacity(spectrum.values.len());
         for index in 0..spectrum.values.len() {
-            let (knot, fraction) = knot_and_fraction(spectrum.frequency(index), self.bandwidth);
+            let frequency = spectrum.frequency(index);
+            let knot = knot_below(frequency, self.bandwidth);
+            let fraction = frequency / self.bandwidth - knot as f64;
             // Means are even functions of the frequency, and deviations grow with it from zero.
             let mean = cubic_between(&means, 1.0, knot, fraction);
             let deviation = cubic_between(&deviations, -1.0, knot, fraction);
@@ -231,8 +230,7 @@ impl DifferenceSeries {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..last")]
         let k = position as usize;
         let ends = [k, k + 1].map(|sample| [displacements[sample], velocities[sample]]);
-        let [displacement, _] = cubic_at(self.time_step, ends, position - k as f64);
-        displacement
+        cubic_at(self.time_step, ends, position - k as f64)[0]
     }
 }
 

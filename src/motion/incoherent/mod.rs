@@ -165,7 +165,6 @@ impl Incoherence {
                     Some(DifferenceSeries::new(&spectrum, &knots, elements.len())?);
             }
         }
-        let [x, y, up] = differences;
         let mut indices = HashMap::with_capacity(elements.len());
         let mut delays = Vec::with_capacity(elements.len());
         for (index, element) in elements.iter().enumerate() {
@@ -175,15 +174,13 @@ impl Incoherence {
                 + self.slowness[1] * (place[1] - reference[1]);
             delays.push(delay);
         }
-        let component = |record: Option<&Record>, difference: Option<DifferenceSeries>| {
-            record.map(|record| ComponentMotion { record: record.clone(), difference })
-        };
+        let records = [&records.x, &records.y, &records.up];
+        let components = [0, 1, 2].map(|component| {
+            let difference = differences[component].take();
+            records[component].clone().map(|record| ComponentMotion { record, difference })
+        });
         Ok(IncoherentMotion {
-            components: [
-                component(records.x.as_ref(), x),
-                component(records.y.as_ref(), y),
-                component(records.up.as_ref(), up),
-            ],
+            components,
             elements: elements.to_vec(),
             indices,
             delays,

@@ -33,6 +33,9 @@ const PHASE_BANDWIDTH: f64 = 0.25;
 /// Time step of the record, and time of its pulse, in R/c.
 const RECORD_TIME_STEP: f64 = 0.1;
 const PULSE_TIME: f64 = 60.0;
+/// Number of samples until the random motion has ended, and the time of the last one, in R/c.
+const SAMPLE_COUNT: u32 = 2000;
+const MOTION_DURATION: f64 = 200.0;
 
 /// The disc: its body and its ground.
 pub struct Disc {
@@ -106,17 +109,17 @@ impl Disc {
         Ok(sum)
     }
 
-    /// Incoherent motion of a seed, and the record at its reference point, which is the centre of the disc.
-    pub fn motion(&self, component: usize, seed: u64) -> Result<(IncoherentMotion, Record)> {
+    /// Incoherent motion of a seed, whose reference point is the centre of the disc.
+    pub fn motion(&self, component: usize, seed: u64) -> Result<IncoherentMotion> {
         let record = pulse()?;
         let mut records = Triaxial::default();
         match component {
-            0 => records.x = Some(record.clone()),
-            _ => records.up = Some(record.clone()),
+            0 => records.x = Some(record),
+            _ => records.up = Some(record),
         }
         let incoherence = Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, 1.0)?);
         let incoherence = incoherence.with_bandwidth(PHASE_BANDWIDTH / TAU)?.with_seed(seed);
-        Ok((incoherence.motion(&records, &self.elements)?, record))
+        incoherence.motion(&records, &self.elements)
     }
 
     /// Motion of the disc over that of the record at each frequency, Σ wᵢuᵢ.
@@ -126,10 +129,11 @@ impl Disc {
         weights: &[Vec<Complex>],
         seed: u64,
     ) -> Result<Vec<Complex>> {
-        let (motion, record) = self.motion(component, seed)?;
+        let motion = self.motion(component, seed)?;
+        let record = motion.records()[0].clone();
         let mut responses = vec![Complex::real(0.0); DISC_FREQUENCIES.len()];
         let mut record_coefficients = responses.clone();
-        for sample in 0..2000 {
+        for sample in 0..SAMPLE_COUNT {
             let time = RECORD_TIME_STEP * f64::from(sample);
             let displacements: Vec<f64> = self
                 .elements
@@ -153,15 +157,16 @@ impl Disc {
 
     /// Motion of the disc over that of the record at each frequency, from a run with the motion of a seed.
     pub fn run(&self, component: usize, seed: u64) -> Result<Vec<Complex>> {
-        let (motion, record) = self.motion(component, seed)?;
-        let mut simulation = Simulation::builder(RECORD_TIME_STEP)
+        let motion = self.motion(component, seed)?;
+        let record = motion.records()[0].clone();
+        let mut simulation = Simulation::builder(WEIGHTS_TIME_STEP)
             .gravity(0.0)
             .structure(self.body.clone())
             .ground(Self::ground(&self.body, self.cell_count)?)
             .interface(Bonded)
             .motion(motion)
             .build()?;
-        let steps = simulation.steps_for(1.8 * PULSE_TIME);
+        let steps = simulation.steps_for(MOTION_DURATION);
         let mut responses = vec![Complex::real(0.0); DISC_FREQUENCIES.len()];
         let mut record_coefficients = responses.clone();
         simulation.run(steps, |state| {
@@ -177,13 +182,19 @@ impl Disc {
     }
 }
 
-/// Mean square of the disc's motion over seeds, and its standard error, for each frequency.
+/// Mean over seeds.
+pub struct SampledMean {
+    pub mean: f64,
+    pub standard_error: f64,
+}
+
+/// Mean square of the disc's motion over seeds, for each frequency.
 pub fn sampled_mean_squares(
     disc: &Disc,
     component: usize,
     weights: &[Vec<Complex>],
     seed_count: u64,
-) -> Result<Vec<[f64; 2]>> {
+) -> Result<Vec<SampledMean>> {
     let mut squares = vec![vec![]; DISC_FREQUENCIES.len()];
     for seed in 0..seed_count {
         let responses = disc.response(component, weights, seed)?;
@@ -197,7 +208,7 @@ pub fn sampled_mean_squares(
         .map(|squares| {
             let mean = squares.iter().sum::<f64>() / count;
             let deviation: f64 = squares.iter().map(|square| (square - mean).powi(2)).sum();
-            [mean, (deviation / ((count - 1.0) * count)).sqrt()]
+            SampledMean { mean, standard_error: (deviation / ((count - 1.0) * count)).sqrt() }
         })
         .collect())
 }

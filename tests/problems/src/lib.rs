@@ -21,6 +21,7 @@ pub mod dense;
 pub mod directions;
 pub mod enumerated_contact;
 pub mod faults;
+pub mod fiber_frames;
 pub mod fiber_tables;
 pub mod flexible_scenes;
 pub mod headline;

@@ -13,7 +13,8 @@ use basemat::bem::plan::Plan;
 use basemat::motion::{AbrahamsonCoherence, Coherence, Incoherence, LucoWong, Triaxial};
 use basemat::prelude::*;
 use basemat_problems::incoherent_disc::{
-    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, sampled_mean_squares,
+    DISC_COMPONENTS, DISC_FREQUENCIES, Disc, PUBLISHED_MEAN_SQUARES, SampledMean,
+    sampled_mean_squares,
 };
 use cpu_time::ThreadTime;
 
@@ -101,7 +102,7 @@ fn disc(options: &IncoherenceOptions) -> Result<String, AnyError> {
         let sampled = sampled_mean_squares(&disc, component, &weights, seed_count)?;
         for (k, frequency) in DISC_FREQUENCIES.into_iter().enumerate() {
             let direct = disc.mean_square(&weights[k], frequency)?;
-            let [mean, standard_error] = sampled[k];
+            let SampledMean { mean, standard_error } = sampled[k];
             writeln!(
                 text,
                 "| {name} | {frequency} | {:.3} | {direct:.4} | {:+.2} | {mean:.4} | {standard_error:.4} |",

@@ -1,4 +1,4 @@
-//! Solids that yield: every check of their laws, elements, energies and time steps, with its limit.
+//! Solids and frames that yield: every check of their laws, elements, energies and time steps, with its limit.
 //!
 //! The process fails if a limit is exceeded. The table of `docs/validation.md` comes from
 //!
@@ -8,6 +8,7 @@
 
 mod check;
 mod elements;
+mod frames;
 mod laws;
 mod rotations;
 mod runs;
@@ -19,7 +20,7 @@ use crate::AnyError;
 use crate::document::splice_into;
 use check::{Check, markdown};
 
-/// Solids that yield: checks of laws, elements, energies and time steps.
+/// Solids and frames that yield: checks of laws, elements, energies and time steps.
 ///
 /// Prints a table, and fails if a limit is exceeded.
 #[derive(Debug, clap::Args)]
@@ -40,6 +41,7 @@ pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
     let (rotation_checks, figure) = rotations::checks(options.short)?;
     checks.extend(rotation_checks);
     checks.extend(runs::checks(options.short)?);
+    checks.extend(frames::checks(options.short));
     let table = markdown(&checks);
     println!("\n{table}");
     if let Some(docs) = &options.docs {

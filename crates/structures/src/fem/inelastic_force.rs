@@ -49,6 +49,29 @@ pub trait InelasticForce: Send + Sync {
         matrix: &mut [f64],
     ) -> Result<()>;
 
+    /// Whether [`force_and_tangent`](InelasticForce::force_and_tangent) takes little longer than the force. Default: no.
+    ///
+    /// A model then computes the tangent with each force, and stores it for an iteration that needs it.
+    fn has_shared_evaluation(&self) -> bool {
+        false
+    }
+
+    /// Adds force and tangent at one displacement. Default: one after the other.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn force_and_tangent(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        force: &mut [f64],
+        matrix: &mut [f64],
+    ) -> Result<()> {
+        self.force(coordinates, displacement, variables, force)?;
+        self.tangent(coordinates, displacement, variables, matrix)
+    }
+
     /// Whether the tangent is symmetric at every displacement. Default: yes.
     fn has_symmetric_tangent(&self) -> bool {
         true

@@ -9,7 +9,7 @@ use crate::fem::element::{Element, MassKind};
 use crate::fem::element_matrix::add_matrix;
 use crate::fem::fiber::{
     BasicBeam, BasicState, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, PLANE_BENDING,
-    plane_strains,
+    SolutionMemo, plane_strains,
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
@@ -57,6 +57,7 @@ pub struct FiberBeam {
     formulation: BeamFormulation,
     mass_per_length: f64,
     axial_force: AxialForce,
+    memo: SolutionMemo<2, 3>,
 }
 
 /// Basic deformations (elongation, rotations relative to the chord) due to a unit displacement of each degree of freedom.
@@ -83,6 +84,7 @@ impl FiberBeam {
             formulation: BeamFormulation::default(),
             mass_per_length: not_negative("mass per length of the beam", mass_per_length)?,
             axial_force: AxialForce::default(),
+            memo: SolutionMemo::default(),
         })
     }
 
@@ -111,6 +113,7 @@ impl FiberBeam {
             section: &self.section,
             points: &self.points,
             length,
+            memo: &self.memo,
         }
     }
 
@@ -121,6 +124,27 @@ impl FiberBeam {
         displacement: &[f64],
         variables: &[f64],
     ) -> Result<DeformedBeam<'_>> {
+        self.evaluated(coordinates, displacement, variables, BasicBeam::state)
+    }
+
+    /// As [`deformed`](FiberBeam::deformed), without forces and tangent in an element by displacements.
+    fn strained(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+    ) -> Result<DeformedBeam<'_>> {
+        self.evaluated(coordinates, displacement, variables, BasicBeam::deformed_state)
+    }
+
+    /// State by one of the methods of the basic beam.
+    fn evaluated<'a>(
+        &'a self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        evaluate: fn(&BasicBeam<'a, 2, 3>, &[f64; 3], &[f64]) -> Result<BasicState<2, 3>>,
+    ) -> Result<DeformedBeam<'a>> {
         same_length("coordinates of a beam", coordinates.len(), 2)?;
         same_length("displacement of a beam", displacement.len(), DOF_COUNT)?;
         same_length("internal variables of a beam", variables.len(), self.variable_count())?;
@@ -130,7 +154,7 @@ impl FiberBeam {
         let rows = basic_rows(&line);
         let beam = self.basic_beam(line.length);
         let v = rows.map(|row| dot(&row, displacement));
-        let state = beam.state(&v, variables)?;
+        let state = evaluate(&beam, &v, variables)?;
         Ok(DeformedBeam { beam, rows, v, state })
     }
 
@@ -153,6 +177,17 @@ struct DeformedBeam<'a> {
     /// Basic deformations.
     v: [f64; 3],
     state: BasicState<2, 3>,
+}
+
+impl DeformedBeam<'_> {
+    /// Adds the nodal forces to `force`.
+    fn add_force(&self, force: &mut [f64]) {
+        for (row, basic_force) in self.rows.iter().zip(self.state.forces) {
+            for (nodal_force, entry) in force.iter_mut().zip(row) {
+                *nodal_force += basic_force * entry;
+            }
+        }
+    }
 }
 
 /// Rows of elongation and rotations relative to the chord, for displacements along x and y and rotations of the nodes.
@@ -247,6 +282,10 @@ impl Element for FiberBeam {
 }
 
 impl InelasticForce for FiberBeam {
+    fn has_shared_evaluation(&self) -> bool {
+        true
+    }
+
     fn variable_count(&self) -> usize {
         self.basic_beam(1.0).variable_count()
     }
@@ -264,12 +303,7 @@ impl InelasticForce for FiberBeam {
         variables: &[f64],
         force: &mut [f64],
     ) -> Result<()> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
-        for (row, basic_force) in deformed.rows.iter().zip(deformed.state.forces) {
-            for (nodal_force, entry) in force.iter_mut().zip(row) {
-                *nodal_force += basic_force * entry;
-            }
-        }
+        self.deformed(coordinates, displacement, variables)?.add_force(force);
         Ok(())
     }
 
@@ -285,13 +319,27 @@ impl InelasticForce for FiberBeam {
         Ok(())
     }
 
+    fn force_and_tangent(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        force: &mut [f64],
+        matrix: &mut [f64],
+    ) -> Result<()> {
+        let deformed = self.deformed(coordinates, displacement, variables)?;
+        deformed.add_force(force);
+        add_stiffness(&deformed.state.stiffness, &deformed.rows, matrix);
+        Ok(())
+    }
+
     fn energy(
         &self,
         coordinates: &[[f64; 3]],
         displacement: &[f64],
         variables: &[f64],
     ) -> Result<InternalEnergy> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
+        let deformed = self.strained(coordinates, displacement, variables)?;
         deformed.beam.energy(&deformed.state, variables)
     }
 
@@ -301,9 +349,9 @@ impl InelasticForce for FiberBeam {
         displacements: [&[f64]; 3],
         variables: &[f64],
     ) -> Result<f64> {
-        let start = self.deformed(coordinates, displacements[0], variables)?;
-        let midstep = self.deformed(coordinates, displacements[1], variables)?;
-        let end = self.deformed(coordinates, displacements[2], variables)?;
+        let start = self.strained(coordinates, displacements[0], variables)?;
+        let midstep = self.strained(coordinates, displacements[1], variables)?;
+        let end = self.strained(coordinates, displacements[2], variables)?;
         let increment = std::array::from_fn(|i| end.v[i] - start.v[i]);
         start
             .beam
@@ -316,7 +364,7 @@ impl InelasticForce for FiberBeam {
         displacement: &[f64],
         variables: &[f64],
     ) -> Result<Vec<BeamSectionState>> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
+        let deformed = self.strained(coordinates, displacement, variables)?;
         let states = deformed.beam.section_states(&deformed.state, variables)?;
         let &[first, second] = coordinates else { return Ok(Vec::new()) };
         let along = add_scaled(second, -1.0, first);
@@ -336,9 +384,9 @@ impl InelasticForce for FiberBeam {
         Ok(sections.collect())
     }
 
-    /// Changes nothing in a state that the beam cannot have.
+    /// Changes nothing in a state that a beam by forces cannot have.
     fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]) {
-        if let Ok(deformed) = self.deformed(coordinates, displacement, variables) {
+        if let Ok(deformed) = self.strained(coordinates, displacement, variables) {
             deformed.beam.commit(&deformed.state, &deformed.v, variables);
         }
     }

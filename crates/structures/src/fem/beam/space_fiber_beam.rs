@@ -1,17 +1,19 @@
 //! Beam of fibres in space.
 
+mod deformed;
+
 use std::sync::Arc;
 
 use super::axes::BeamAxes;
-use super::basic_rows::{BASIC_COUNT, BasicRows, DOF_COUNT, Torsion};
+use super::basic_rows::{BASIC_COUNT, BasicRows, DOF_COUNT};
 use super::local_matrices::{AxialForce, BarMatrix, Bending, bar_mass};
 use super::space::{local_matrix, within_beam};
-use crate::error::{Error, Result, all_finite, finite, not_negative, positive, same_length};
+use crate::error::{Result, all_finite, finite, not_negative, positive, same_length};
 use crate::fem::element::{Element, MassKind};
 use crate::fem::element_matrix::add_transformed;
 use crate::fem::fiber::{
-    BasicBeam, BasicState, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, SPACE_BENDING,
-    space_strains,
+    BasicBeam, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, SPACE_BENDING,
+    SolutionMemo, space_strains,
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
@@ -66,6 +68,7 @@ pub struct SpaceFiberBeam {
     mass_per_length: f64,
     orientation: [f64; 3],
     axial_force: AxialForce,
+    memo: SolutionMemo<3, BASIC_COUNT>,
 }
 
 impl SpaceFiberBeam {
@@ -79,6 +82,12 @@ impl SpaceFiberBeam {
     /// mass is finite and not negative; [`Error::NotFinite`] for the orientation; [`Error::Scene`] for a section without
     /// torsional stiffness. [`Mesh::add`](crate::fem::Mesh::add) returns an error for a beam without length or along its
     /// orientation. Each of these errors is in an [`Error::Item`] that names the nodes.
+    ///
+    /// [`Error::Size`]: crate::Error::Size
+    /// [`Error::Input`]: crate::Error::Input
+    /// [`Error::NotFinite`]: crate::Error::NotFinite
+    /// [`Error::Scene`]: crate::Error::Scene
+    /// [`Error::Item`]: crate::Error::Item
     pub fn new(
         nodes: [usize; 2],
         section: &FiberSection,
@@ -109,6 +118,7 @@ impl SpaceFiberBeam {
             mass_per_length: not_negative("mass per length of the beam", mass_per_length)?,
             orientation,
             axial_force: AxialForce::default(),
+            memo: SolutionMemo::default(),
         })
     }
 
@@ -124,7 +134,7 @@ impl SpaceFiberBeam {
     /// of the fibres.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is finite.
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
     pub fn with_compression(self, compression: f64) -> Result<Self> {
         let compression = finite("axial force of the beam", compression)
             .map_err(|fault| within_beam(self.nodes, fault))?;
@@ -144,30 +154,8 @@ impl SpaceFiberBeam {
             section: &self.section,
             points: &self.points,
             length,
+            memo: &self.memo,
         }
-    }
-
-    /// State at displacements of the nodes, with the beam and its basic deformations.
-    fn deformed(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<DeformedSpaceBeam<'_>> {
-        same_length("coordinates of a beam", coordinates.len(), 2)?;
-        same_length("displacement of a beam", displacement.len(), DOF_COUNT)?;
-        same_length("internal variables of a beam", variables.len(), self.variable_count())?;
-        let needed = "two nodes at a distance, and an orientation that is not along the beam";
-        let axes = self
-            .axes(coordinates)
-            .ok_or(Error::Scene { quantity: "beam of fibres in space", needed })?;
-        let rows = BasicRows::new(&axes);
-        let beam = self.basic_beam(axes.length);
-        let v = rows.bending.map(|row| dot(&row, displacement));
-        let state = beam.state(&v, variables)?;
-        let twist = dot(&rows.twist, displacement);
-        let torsion = Torsion { stiffness: self.torsional_stiffness / axes.length, twist };
-        Ok(DeformedSpaceBeam { beam, rows, v, state, torsion })
     }
 
     /// Rotary inertia about the line of the nodes per length, kg m: of mass spread as the stiffness of the fibres.
@@ -176,16 +164,6 @@ impl SpaceFiberBeam {
             self.section.elastic_stiffness(space_strains);
         self.mass_per_length * (bending_y + bending_z) / axial
     }
-}
-
-/// A beam in a deformed state.
-struct DeformedSpaceBeam<'a> {
-    beam: BasicBeam<'a, 3, BASIC_COUNT>,
-    rows: BasicRows,
-    /// Elongation, and rotations relative to the chord.
-    v: [f64; BASIC_COUNT],
-    state: BasicState<3, BASIC_COUNT>,
-    torsion: Torsion,
 }
 
 impl Element for SpaceFiberBeam {
@@ -260,7 +238,8 @@ impl Element for SpaceFiberBeam {
         add_transformed(&local_mass, &axes.to_local(&[[0.0; 3]; 2]), matrix);
     }
 
-    /// [`Error::Input`] in an [`Error::Item`] when the nodes coincide or the orientation lies along the beam.
+    /// [`Error::Input`](crate::Error::Input) in an [`Error::Item`](crate::Error::Item) when the nodes coincide or the
+    /// orientation lies along the beam.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a beam", coordinates.len(), 2)?;
         let ends = [coordinates[0], coordinates[1]];
@@ -270,6 +249,10 @@ impl Element for SpaceFiberBeam {
 }
 
 impl InelasticForce for SpaceFiberBeam {
+    fn has_shared_evaluation(&self) -> bool {
+        true
+    }
+
     fn variable_count(&self) -> usize {
         self.basic_beam(1.0).variable_count()
     }
@@ -287,14 +270,7 @@ impl InelasticForce for SpaceFiberBeam {
         variables: &[f64],
         force: &mut [f64],
     ) -> Result<()> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
-        let bending = deformed.rows.bending.iter().zip(deformed.state.forces);
-        let torque = deformed.torsion.torque();
-        for (row, basic_force) in bending.chain([(&deformed.rows.twist, torque)]) {
-            for (nodal_force, entry) in force.iter_mut().zip(row) {
-                *nodal_force += basic_force * entry;
-            }
-        }
+        self.deformed(coordinates, displacement, variables)?.add_force(force);
         Ok(())
     }
 
@@ -305,9 +281,21 @@ impl InelasticForce for SpaceFiberBeam {
         variables: &[f64],
         matrix: &mut [f64],
     ) -> Result<()> {
+        self.deformed(coordinates, displacement, variables)?.add_tangent(matrix);
+        Ok(())
+    }
+
+    fn force_and_tangent(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        force: &mut [f64],
+        matrix: &mut [f64],
+    ) -> Result<()> {
         let deformed = self.deformed(coordinates, displacement, variables)?;
-        let torsional_stiffness = deformed.torsion.stiffness;
-        deformed.rows.add_stiffness(&deformed.state.stiffness, torsional_stiffness, matrix);
+        deformed.add_force(force);
+        deformed.add_tangent(matrix);
         Ok(())
     }
 
@@ -317,7 +305,7 @@ impl InelasticForce for SpaceFiberBeam {
         displacement: &[f64],
         variables: &[f64],
     ) -> Result<InternalEnergy> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
+        let deformed = self.strained(coordinates, displacement, variables)?;
         let mut energy = deformed.beam.energy(&deformed.state, variables)?;
         energy.stored += deformed.torsion.energy();
         Ok(energy)
@@ -329,9 +317,9 @@ impl InelasticForce for SpaceFiberBeam {
         displacements: [&[f64]; 3],
         variables: &[f64],
     ) -> Result<f64> {
-        let start = self.deformed(coordinates, displacements[0], variables)?;
-        let midstep = self.deformed(coordinates, displacements[1], variables)?;
-        let end = self.deformed(coordinates, displacements[2], variables)?;
+        let start = self.strained(coordinates, displacements[0], variables)?;
+        let midstep = self.strained(coordinates, displacements[1], variables)?;
+        let end = self.strained(coordinates, displacements[2], variables)?;
         let increment = std::array::from_fn(|i| end.v[i] - start.v[i]);
         let states = [&start.state, &midstep.state, &end.state];
         let bending = start.beam.remainder(states, &increment, variables)?;
@@ -371,9 +359,9 @@ impl InelasticForce for SpaceFiberBeam {
         Ok(sections.collect())
     }
 
-    /// Changes nothing in a state that the beam cannot have.
+    /// Changes nothing in a state that a beam by forces cannot have.
     fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]) {
-        if let Ok(deformed) = self.deformed(coordinates, displacement, variables) {
+        if let Ok(deformed) = self.strained(coordinates, displacement, variables) {
             deformed.beam.commit(&deformed.state, &deformed.v, variables);
         }
     }

@@ -16,11 +16,12 @@
 
 use std::ops::Range;
 
+use super::basic_state::{BasicState, LastState, MAX_SECTIONS, SectionState};
 use super::interpolation::Interpolation;
 use super::quadrature::BeamPoint;
 use super::section::{FiberSection, SectionResponse};
+use super::solution_memo::{SolutionKey, SolutionMemo, next_history};
 use crate::error::{Error, Result};
-use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
 use crate::linalg::dot;
@@ -55,27 +56,16 @@ pub(in crate::fem) struct BasicBeam<'a, const N: usize, const B: usize> {
     pub(in crate::fem) points: &'a [BeamPoint],
     /// Length, m.
     pub(in crate::fem) length: f64,
-}
-
-/// Largest number of sections along a beam.
-const MAX_SECTIONS: usize = 5;
-
-/// Basic forces, tangent, and deformations of the sections.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::fem) struct BasicState<const N: usize, const B: usize> {
-    pub(in crate::fem) forces: [f64; B],
-    /// ∂q/∂v.
-    pub(in crate::fem) stiffness: [[f64; B]; B],
-    /// Deformations of each section, of which the first are in use.
-    deformations: [[f64; N]; MAX_SECTIONS],
+    /// Last states of a beam by forces.
+    pub(in crate::fem) memo: &'a SolutionMemo<N, B>,
 }
 
 impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
-    /// Number of internal variables: those of all fibres, then e and q of a force-based element.
+    /// Number of internal variables: those of all fibres, then e, q, v and the number of the history of a force-based element.
     pub(in crate::fem) fn variable_count(&self) -> usize {
         let state_count = match self.formulation {
             BeamFormulation::DisplacementBased => 0,
-            BeamFormulation::ForceBased => N * self.points.len() + B + B,
+            BeamFormulation::ForceBased => N * self.points.len() + B + B + 1,
         };
         self.points.len() * self.section.variable_count() + state_count
     }
@@ -105,7 +95,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
         let forces = std::array::from_fn(|_| next());
         let basic_deformations = std::array::from_fn(|_| next());
-        LastState { deformations, forces, basic_deformations }
+        LastState { deformations, forces, basic_deformations, history: next() }
     }
 
     /// Stiffness of small strains.
@@ -149,6 +139,34 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
     }
 
+    /// Deformations of the sections at basic deformations v.
+    ///
+    /// Evaluates no fibre of an element by displacements, whose forces are then zero. The tangent may be zero.
+    ///
+    /// # Errors
+    /// As for [`state`](BasicBeam::state).
+    pub(in crate::fem) fn deformed_state(
+        &self,
+        v: &[f64; B],
+        variables: &[f64],
+    ) -> Result<BasicState<N, B>> {
+        if self.formulation == BeamFormulation::ForceBased {
+            let LastState { deformations, forces, basic_deformations, .. } =
+                self.last_state(variables);
+            // At the end of the last step nothing has to be solved.
+            if *v == basic_deformations {
+                return Ok(BasicState { deformations, forces, ..BasicState::zero() });
+            }
+            return self.force_based_state(v, variables);
+        }
+        let mut state = BasicState::zero();
+        for (deformations, point) in state.deformations.iter_mut().zip(self.points) {
+            let a = (self.interpolation.deformations)(point.position);
+            *deformations = product(&a, v).map(|deformation| deformation / self.length);
+        }
+        Ok(state)
+    }
+
     fn displacement_based_state(
         &self,
         v: &[f64; B],
@@ -180,6 +198,10 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
 
     fn force_based_state(&self, v: &[f64; B], variables: &[f64]) -> Result<BasicState<N, B>> {
         let last = self.last_state(variables);
+        let key = SolutionKey { history: last.history, length: self.length, v: *v };
+        if let Some(state) = self.memo.find(&key) {
+            return Ok(state);
+        }
         let mut part_count = 1;
         while part_count <= MAX_PARTS {
             let mut state = BasicState { forces: last.forces, ..BasicState::zero() };
@@ -196,6 +218,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
                 }
             }
             if is_found {
+                self.memo.store(key, state);
                 return Ok(state);
             }
             part_count *= PART_FACTOR;
@@ -347,36 +370,12 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
         if self.formulation == BeamFormulation::ForceBased {
             let first = self.points.len() * self.section.variable_count();
+            let history = next_history(self.last_state(variables).history, v);
             let sections = state.deformations.iter().take(self.points.len()).flatten();
-            let values = sections.chain(&state.forces).chain(v);
+            let values = sections.chain(&state.forces).chain(v).chain([&history]);
             for (variable, value) in variables[first..].iter_mut().zip(values) {
                 *variable = *value;
             }
-        }
-    }
-}
-
-/// State of a section along a beam.
-pub(in crate::fem) struct SectionState<const N: usize> {
-    pub(in crate::fem) point: BeamPoint,
-    pub(in crate::fem) deformations: [f64; N],
-    pub(in crate::fem) forces: [f64; N],
-    pub(in crate::fem) fibers: Vec<FiberState>,
-}
-
-/// State of a force-based element at the end of the last step.
-struct LastState<const N: usize, const B: usize> {
-    deformations: [[f64; N]; MAX_SECTIONS],
-    forces: [f64; B],
-    basic_deformations: [f64; B],
-}
-
-impl<const N: usize, const B: usize> BasicState<N, B> {
-    fn zero() -> Self {
-        Self {
-            forces: [0.0; B],
-            stiffness: [[0.0; B]; B],
-            deformations: [[0.0; N]; MAX_SECTIONS],
         }
     }
 }

@@ -120,6 +120,16 @@ impl Concrete {
         }
     }
 
+    /// Overwrites the variables by those of a largest compressive strain.
+    fn write(&self, max_compression: f64, variables: &mut [f64]) {
+        let Unloading { residual_strain, slope } = self.unloading(max_compression);
+        let dissipated = self.dissipated(max_compression);
+        let values = [max_compression, residual_strain, slope, dissipated];
+        for (variable, value) in variables.iter_mut().zip(values) {
+            *variable = value;
+        }
+    }
+
     /// Energy dissipated when the largest compressive strain was this, J/m³.
     fn dissipated(&self, max_compression: f64) -> f64 {
         let stress = self.envelope(max_compression).stress;
@@ -129,14 +139,18 @@ impl Concrete {
     }
 }
 
-/// Variable: largest compressive strain so far.
+/// Variables: largest compressive strain so far; residual strain and slope of unloading from it; energy dissipated (J/m³).
 impl UniaxialMaterial for Concrete {
     fn modulus(&self) -> f64 {
         self.initial_modulus()
     }
 
     fn variable_count(&self) -> usize {
-        1
+        4
+    }
+
+    fn initialize(&self, variables: &mut [f64]) {
+        self.write(0.0, variables);
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
@@ -146,7 +160,8 @@ impl UniaxialMaterial for Concrete {
             let stress = if compression > 0.0 { -envelope.stress } else { 0.0 };
             return Ok(UniaxialResponse { stress, tangent: envelope.tangent });
         }
-        let Unloading { residual_strain, slope } = self.unloading(variables[0]);
+        let residual_strain = variables[1];
+        let slope = variables[2];
         if compression <= residual_strain {
             return Ok(UniaxialResponse::default());
         }
@@ -154,14 +169,20 @@ impl UniaxialMaterial for Concrete {
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
-        let max_compression = variables[0].max(-strain);
         let stress = self.response(strain, variables)?.stress;
-        let slope = self.unloading(max_compression).slope;
+        let mut largest = [variables[0], variables[1], variables[2], variables[3]];
+        if -strain > largest[0] {
+            self.write(-strain, &mut largest);
+        }
+        let slope = largest[2];
+        let dissipated = largest[3];
         let stored = if slope > 0.0 { 0.5 * stress * stress / slope } else { 0.0 };
-        Ok(InternalEnergy { stored, dissipated: self.dissipated(max_compression) })
+        Ok(InternalEnergy { stored, dissipated })
     }
 
     fn commit(&self, strain: f64, variables: &mut [f64]) {
-        variables[0] = variables[0].max(-strain);
+        if -strain > variables[0] {
+            self.write(-strain, variables);
+        }
     }
 }

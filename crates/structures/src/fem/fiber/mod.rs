@@ -4,9 +4,10 @@
 //! |---|---|
 //! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs`, `concrete.rs` |
 //! | sections of fibres | `section.rs`, `section_shapes.rs`, `section_checks.rs` |
-//! | forces of a beam without rigid motions | `basic_beam.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
+//! | forces of a beam without rigid motions | `basic_beam.rs`, `basic_state.rs`, `solution_memo.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
 
 mod basic_beam;
+mod basic_state;
 mod bilinear_steel;
 mod concrete;
 mod interpolation;
@@ -15,6 +16,7 @@ mod quadrature;
 mod section;
 mod section_checks;
 mod section_shapes;
+mod solution_memo;
 #[cfg(test)]
 mod tests;
 
@@ -23,10 +25,11 @@ use std::fmt::Debug;
 
 use super::internal_energy::InternalEnergy;
 use super::material::Material;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
+pub(super) use basic_beam::BasicBeam;
 pub use basic_beam::BeamFormulation;
-pub(super) use basic_beam::{BasicBeam, BasicState};
+pub(super) use basic_state::BasicState;
 pub use bilinear_steel::BilinearSteel;
 pub use concrete::Concrete;
 pub(super) use interpolation::{PLANE_BENDING, SPACE_BENDING};
@@ -35,6 +38,7 @@ pub(super) use quadrature::BeamPoint;
 pub use quadrature::BeamQuadrature;
 pub use section::FiberSection;
 pub(super) use section::{plane_strains, space_strains};
+pub(super) use solution_memo::SolutionMemo;
 
 /// Stress of a fibre and its derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -116,6 +120,25 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
     /// # Errors
     /// Any: the step ends with it, and nothing of the step is committed.
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse>;
+
+    /// Overwrites `responses` by those of several fibres, whose variables follow each other.
+    ///
+    /// # Errors
+    /// The first of a fibre, with its index.
+    #[doc(hidden)]
+    fn responses(
+        &self,
+        strains: &[f64],
+        variables: &[f64],
+        responses: &mut [UniaxialResponse],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let count = self.variable_count();
+        for (k, (response, strain)) in responses.iter_mut().zip(strains).enumerate() {
+            let fiber_variables = &variables[k * count..(k + 1) * count];
+            *response = self.response(*strain, fiber_variables).map_err(|fault| (k, fault))?;
+        }
+        Ok(())
+    }
 
     /// Energy stored and dissipated since the initial state, J/m³.
     ///

@@ -3,11 +3,14 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::UniaxialMaterial;
+use super::{UniaxialMaterial, UniaxialResponse};
 use crate::error::{Error, Result, all_finite, positive};
 use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::add_outer;
+
+/// Largest number of fibres whose responses are evaluated together.
+const MAX_CHUNK_FIBERS: usize = 32;
 
 /// Fibre of a section.
 #[derive(Debug, Clone)]
@@ -50,6 +53,8 @@ struct Fiber {
 #[derive(Debug, Clone, Default)]
 pub struct FiberSection {
     fibers: Vec<Fiber>,
+    /// Ranges of neighbouring fibres with one law, of a limited number of fibres.
+    chunks: Vec<Range<usize>>,
     variable_count: usize,
     /// G J, N m²; `None` for a section of beams in the plane.
     pub(super) torsional_stiffness: Option<f64>,
@@ -109,6 +114,12 @@ impl FiberSection {
             self.variable_count += material.variable_count();
             let variables = first..self.variable_count;
             self.fibers.push(Fiber { position, area, material: Arc::clone(material), variables });
+        }
+        let mut start = self.fibers.len() - fibers.len();
+        while start < self.fibers.len() {
+            let end = self.fibers.len().min(start + MAX_CHUNK_FIBERS);
+            self.chunks.push(start..end);
+            start = end;
         }
         Ok(self)
     }
@@ -180,17 +191,30 @@ impl FiberSection {
         strains: fn([f64; 2]) -> [f64; N],
     ) -> Result<SectionResponse<N>> {
         let mut response = SectionResponse { forces: [0.0; N], tangent: [[0.0; N]; N] };
-        for (index, fiber) in self.fibers.iter().enumerate() {
-            let row = strains(fiber.position);
-            let strain = fiber_strain(&row, deformations);
-            let fiber_response = fiber
-                .material
-                .response(strain, &variables[fiber.variables.clone()])
-                .map_err(|fault| within_fiber(index, fault))?;
-            for (force, entry) in response.forces.iter_mut().zip(row) {
-                *force += fiber.area * fiber_response.stress * entry;
+        let mut rows = [[0.0; N]; MAX_CHUNK_FIBERS];
+        let mut fiber_strains = [0.0; MAX_CHUNK_FIBERS];
+        let mut fiber_responses = [UniaxialResponse::default(); MAX_CHUNK_FIBERS];
+        for chunk in &self.chunks {
+            let fibers = &self.fibers[chunk.clone()];
+            let count = fibers.len();
+            let (Some(first), Some(last)) = (fibers.first(), fibers.last()) else {
+                continue;
+            };
+            for (k, fiber) in fibers.iter().enumerate() {
+                rows[k] = strains(fiber.position);
+                fiber_strains[k] = fiber_strain(&rows[k], deformations);
             }
-            add_outer(fiber.area * fiber_response.tangent, &row, &mut response.tangent);
+            let variables = &variables[first.variables.start..last.variables.end];
+            first
+                .material
+                .responses(&fiber_strains[..count], variables, &mut fiber_responses[..count])
+                .map_err(|(k, fault)| within_fiber(chunk.start + k, fault))?;
+            for ((fiber, row), fiber_response) in fibers.iter().zip(&rows).zip(&fiber_responses) {
+                for (force, entry) in response.forces.iter_mut().zip(row) {
+                    *force += fiber.area * fiber_response.stress * entry;
+                }
+                add_outer(fiber.area * fiber_response.tangent, row, &mut response.tangent);
+            }
         }
         Ok(response)
     }

@@ -115,8 +115,8 @@ impl Hinge {
 
 /// Axes of a hinge in the plane along a direction [x, y], and to its left.
 pub(super) fn plane_axes([x, y]: [f64; 2]) -> Result<[[f64; 3]; 3]> {
-    let [cosine, sine, _] = unit_axis([x, y, 0.0])?;
-    Ok([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    let along = unit_axis([x, y, 0.0])?;
+    Ok([along, [-along[1], along[0], 0.0], [0.0, 0.0, 1.0]])
 }
 
 /// Implements [`Element`] for a hinge with the fields `nodes` and `force`.

@@ -209,7 +209,8 @@ impl PressedHinge<'_> {
             let axial_force = axial_forces[0] + part * (axial_forces[1] - axial_forces[0]);
             self.rotation = start + part * (rotation - start);
             // The axial force grows with the elongation: bisection.
-            let [mut lower, mut upper] = [self.elongation - 0.1, self.elongation + 0.1];
+            let mut lower = self.elongation - 0.1;
+            let mut upper = self.elongation + 0.1;
             for _ in 0..80 {
                 self.elongation = 0.5 * (lower + upper);
                 let forces = axial_force_and_moment(

@@ -23,21 +23,31 @@ fn by_strength(a: &SolidState, b: &SolidState) -> Ordering {
     strengths.then(a.plastic_strain.total_cmp(&b.plastic_strain))
 }
 
-/// Displacements, forces and matrix of one element.
+/// Displacements, forces and matrix of one element, and the tangents of elements that compute them with their forces.
 struct Scratch {
     displacements: [Vec<f64>; 3],
     force: Vec<f64>,
     matrix: Vec<f64>,
+    /// Tangents of all elements with a shared evaluation, one after the other.
+    tangents: Vec<f64>,
+    /// Displacement of the model to which `tangents` belong; empty for none.
+    tangent_displacement: Vec<f64>,
 }
 
 impl Scratch {
-    /// Scratch for elements with up to this number of degrees of freedom.
-    fn new(max_order: usize) -> Self {
+    /// Scratch for elements.
+    fn new(elements: &[InelasticElement]) -> Self {
+        let max_order = elements.iter().map(|element| element.rows.len()).max().unwrap_or(0);
+        let shared_elements = elements.iter().filter(|element| element.has_shared_evaluation());
+        let tangent_count: usize =
+            shared_elements.map(|element| element.rows.len() * element.rows.len()).sum();
         let zeros = vec![0.0; max_order];
         Self {
             displacements: [zeros.clone(), zeros.clone(), zeros.clone()],
             force: zeros,
             matrix: vec![0.0; max_order * max_order],
+            tangents: vec![0.0; tangent_count],
+            tangent_displacement: Vec::new(),
         }
     }
 }
@@ -64,7 +74,6 @@ short_debug! {
 
 impl Clone for InelasticElements {
     fn clone(&self) -> Self {
-        let orders = self.elements.iter().map(|element| element.rows.len());
         Self {
             elements: self.elements.clone(),
             dof_count: self.dof_count,
@@ -72,7 +81,7 @@ impl Clone for InelasticElements {
             committed_displacement: self.committed_displacement.clone(),
             energy_at_rest: self.energy_at_rest,
             has_initial_stress: self.has_initial_stress,
-            scratch: Mutex::new(Scratch::new(orders.max().unwrap_or(0))),
+            scratch: Mutex::new(Scratch::new(&self.elements)),
         }
     }
 }
@@ -91,7 +100,6 @@ impl InelasticElements {
     ) -> Result<Option<Self>> {
         let mut elements = Vec::new();
         let mut variables = Vec::new();
-        let mut max_order = 0;
         for (index, element) in mesh.shared_elements().enumerate() {
             let Some(force) = element.inelastic() else { continue };
             let first_variable = variables.len();
@@ -119,12 +127,12 @@ impl InelasticElements {
                 .and_then(|()| all_finite("internal variables", element_variables))
                 .map_err(|fault| fault.within(inelastic.name()))?;
             inelastic.check_links(force)?;
-            max_order = max_order.max(inelastic.rows.len());
             elements.push(inelastic);
         }
         if elements.is_empty() {
             return Ok(None);
         }
+        let scratch = Mutex::new(Scratch::new(&elements));
         let mut model = Self {
             elements,
             dof_count,
@@ -132,7 +140,7 @@ impl InelasticElements {
             committed_displacement: vec![0.0; dof_count],
             energy_at_rest: InternalEnergy::default(),
             has_initial_stress: false,
-            scratch: Mutex::new(Scratch::new(max_order)),
+            scratch,
         };
         let mut force = vec![0.0; dof_count];
         model.force(&model.committed_displacement, &mut force)?;
@@ -224,24 +232,43 @@ impl NonlinearForce for InelasticElements {
         self.check_length(displacement)?;
         same_length("nonlinear force of the model", force.len(), self.dof_count)?;
         let scratch = &mut *self.scratch();
+        scratch.tangent_displacement.clear();
+        let mut tangent_start = 0;
         for (element, inelastic_force, variables) in self.forces() {
-            let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
-            let element_force = &mut scratch.force[..element.rows.len()];
-            element.gather(displacement, element_displacement);
+            let order = element.rows.len();
+            let u = &mut scratch.displacements[0][..order];
+            let element_force = &mut scratch.force[..order];
+            element.gather(displacement, u);
             element_force.fill(0.0);
-            inelastic_force
-                .force(&element.coordinates, element_displacement, variables, element_force)
-                .map_err(|fault| fault.within(element.name()))?;
+            let coordinates = &element.coordinates;
+            let result = if inelastic_force.has_shared_evaluation() {
+                let matrix = &mut scratch.tangents[tangent_start..][..order * order];
+                tangent_start += order * order;
+                matrix.fill(0.0);
+                inelastic_force.force_and_tangent(coordinates, u, variables, element_force, matrix)
+            } else {
+                inelastic_force.force(coordinates, u, variables, element_force)
+            };
+            result.map_err(|fault| fault.within(element.name()))?;
             element.scatter(element_force, force);
         }
+        scratch.tangent_displacement.extend_from_slice(displacement);
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
         self.check_length(displacement)?;
         let scratch = &mut *self.scratch();
+        let has_tangents = scratch.tangent_displacement == displacement;
+        let mut tangent_start = 0;
         for (element, inelastic_force, variables) in self.forces() {
             let order = element.rows.len();
+            if has_tangents && inelastic_force.has_shared_evaluation() {
+                let element_matrix = &scratch.tangents[tangent_start..][..order * order];
+                tangent_start += order * order;
+                element.scatter_matrix(element_matrix, matrix);
+                continue;
+            }
             let element_displacement = &mut scratch.displacements[0][..order];
             let element_matrix = &mut scratch.matrix[..order * order];
             element.gather(displacement, element_displacement);
@@ -302,6 +329,7 @@ impl NonlinearForce for InelasticElements {
             return;
         }
         let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
+        scratch.tangent_displacement.clear();
         for element in &self.elements {
             let Some(force) = element.element.inelastic() else { continue };
             let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
@@ -322,6 +350,8 @@ impl NonlinearForce for InelasticElements {
         if values.len() != value_count || values.iter().any(|value| !value.is_finite()) {
             return Err(CheckpointError::Corrupt { quantity: "state of the elements" }.into());
         }
+        let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
+        scratch.tangent_displacement.clear();
         let variable_count = self.variables.len();
         self.variables.copy_from_slice(&values[..variable_count]);
         self.committed_displacement.copy_from_slice(&values[variable_count..]);

@@ -77,6 +77,11 @@ impl InelasticElement {
         }
     }
 
+    /// Whether the element computes its tangent with its force.
+    pub(super) fn has_shared_evaluation(&self) -> bool {
+        self.element.inelastic().is_some_and(InelasticForce::has_shared_evaluation)
+    }
+
     /// Returns an error if links and ties prevent a deformation that can yield.
     pub(super) fn check_links(&self, force: &dyn InelasticForce) -> Result<()> {
         for deformation in force.yielding_deformations(&self.coordinates) {

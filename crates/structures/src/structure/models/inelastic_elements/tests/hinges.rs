@@ -8,8 +8,15 @@ use crate::fem::{
 use crate::linalg::Triplets;
 use crate::structure::{FemModel, RayleighDamping, Structure};
 
-/// A column on a rigid base with a hinge at its foot, and the nodes of the hinge.
-fn column(hinge: impl Fn([usize; 2]) -> Box<dyn Element>) -> (FemModel, [usize; 2]) {
+/// A column on a base with a hinge at its foot.
+struct HingedColumn {
+    model: FemModel,
+    /// Nodes of the hinge.
+    ends: [usize; 2],
+}
+
+/// A column with this hinge at its foot.
+fn column(hinge: impl Fn([usize; 2]) -> Box<dyn Element>) -> HingedColumn {
     let mut mesh = Mesh::new();
     let line = [-1.0, 0.0, 1.0].map(|x| mesh.add_node(x, 0.0).unwrap());
     let ends = [line[1], mesh.add_node(0.0, 0.0).unwrap()];
@@ -19,7 +26,7 @@ fn column(hinge: impl Fn([usize; 2]) -> Box<dyn Element>) -> (FemModel, [usize; 
     }
     mesh.add(LumpedMass::new(top, 5.0e3).unwrap()).unwrap();
     mesh.add(hinge(ends)).unwrap();
-    (FemModel::new(mesh, &line).unwrap(), ends)
+    HingedColumn { model: FemModel::new(mesh, &line).unwrap(), ends }
 }
 
 fn bilinear(nodes: [usize; 2]) -> Box<dyn Element> {
@@ -29,14 +36,14 @@ fn bilinear(nodes: [usize; 2]) -> Box<dyn Element> {
 
 #[test]
 fn ties_must_leave_the_deformations_that_yield() {
-    let (model, ends) = column(bilinear);
+    let HingedColumn { model, ends } = column(bilinear);
     // Tied displacements leave the rotation.
     let tied = model.clone().with_tied_nodes(ends[0], &[ends[1]]).unwrap();
     assert_eq!(tied.dofs() + 2, model.dofs());
     assert!(tied.dof(ends[1], Direction::Rotation).is_some());
     let rigid = model.with_rigid_link(ends[0], &[ends[1]]).unwrap_err();
     assert!(rigid.to_string().contains("links or ties"), "{rigid}");
-    let (model, ends) = column(|nodes| {
+    let HingedColumn { model, ends } = column(|nodes| {
         let surface = AxialMomentSurface::ellipse(2.0e6, 300.0e3).unwrap();
         let hinge = InteractionHinge::new(nodes, [0.0, 1.0], [1.0e10; 2], 1.0e8, surface);
         Box::new(hinge.unwrap())
@@ -49,7 +56,7 @@ fn ties_must_leave_the_deformations_that_yield() {
 #[test]
 fn hinges_have_no_stiffness_damping() {
     let damping = RayleighDamping::new(0.0, 1e-2).unwrap();
-    let (model, ends) = column(bilinear);
+    let HingedColumn { model, ends } = column(bilinear);
     let model = model.with_rayleigh(damping);
     let mut matrix = Triplets::new(model.dofs());
     model.damping(&mut matrix).unwrap();
@@ -61,7 +68,7 @@ fn hinges_have_no_stiffness_damping() {
 
 #[test]
 fn states_are_those_of_hinges_alone() {
-    let (mut model, ends) = column(bilinear);
+    let HingedColumn { mut model, ends } = column(bilinear);
     assert!(matches!(model.hinge_state(0), Err(Error::Part { .. })));
     assert!(matches!(model.hinge_state(9), Err(Error::Index { .. })));
     let mut displacement = vec![0.0; model.dofs()];

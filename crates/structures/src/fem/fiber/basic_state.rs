@@ -1,0 +1,44 @@
+//! States of a beam of fibres without its rigid motions.
+
+use super::quadrature::BeamPoint;
+use crate::fem::inelastic_force::FiberState;
+
+/// Largest number of sections along a beam.
+pub(super) const MAX_SECTIONS: usize = 5;
+
+/// Basic forces, tangent, and deformations of the sections.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::fem) struct BasicState<const N: usize, const B: usize> {
+    pub(in crate::fem) forces: [f64; B],
+    /// ∂q/∂v.
+    pub(in crate::fem) stiffness: [[f64; B]; B],
+    /// Deformations of each section, of which the first are in use.
+    pub(super) deformations: [[f64; N]; MAX_SECTIONS],
+}
+
+/// State of a section along a beam.
+pub(in crate::fem) struct SectionState<const N: usize> {
+    pub(in crate::fem) point: BeamPoint,
+    pub(in crate::fem) deformations: [f64; N],
+    pub(in crate::fem) forces: [f64; N],
+    pub(in crate::fem) fibers: Vec<FiberState>,
+}
+
+/// State of a force-based element at the end of the last step.
+pub(super) struct LastState<const N: usize, const B: usize> {
+    pub(super) deformations: [[f64; N]; MAX_SECTIONS],
+    pub(super) forces: [f64; B],
+    pub(super) basic_deformations: [f64; B],
+    /// Number of the committed deformations so far.
+    pub(super) history: f64,
+}
+
+impl<const N: usize, const B: usize> BasicState<N, B> {
+    pub(super) fn zero() -> Self {
+        Self {
+            forces: [0.0; B],
+            stiffness: [[0.0; B]; B],
+            deformations: [[0.0; N]; MAX_SECTIONS],
+        }
+    }
+}
