@@ -163,8 +163,8 @@ impl WithElements {
 
 /// Adds `factor` times the product of two sums of degrees of freedom.
 fn add_product(factor: f64, row: &DofCombination, column: &DofCombination, matrix: &mut Triplets) {
-    for &(i, row_weight) in row.iter() {
-        for &(j, column_weight) in column.iter() {
+    for &(i, row_weight) in row {
+        for &(j, column_weight) in column {
             matrix.add(i, j, row_weight * column_weight * factor);
         }
     }
