@@ -9,9 +9,7 @@ use std::cell::Cell;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Joint, Load, Probe, SimulationBuilder, Theta};
-use basemat::fem::{
-    BeamFormulation, DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial,
-};
+use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};

@@ -251,20 +251,18 @@ fn a_strong_column_lifts_its_footing() {
 #[test]
 fn a_block_has_the_curve_of_the_push_over_by_forces() {
     let block = RigidBlock::new(5.0, 8.0, 2000.0).unwrap();
-    let scene = |height: f64, friction: f64| {
-        let row = block.horizontal_at(height);
-        let builder = Simulation::builder(0.01)
+    let scene = |friction: f64| {
+        Simulation::builder(0.01)
             .ground(SpringGround::under(&block, 20, 3.0e7, 3.0e7).unwrap())
             .structure(block.clone())
-            .interface(Coulomb::new(friction).unwrap());
-        (row, builder)
+            .interface(Coulomb::new(friction).unwrap())
     };
-    let (row, builder) = scene(8.0, 5.0);
+    let top = block.horizontal_at(8.0);
     let displacements = [0.01, 0.03, 0.1, 0.3];
-    let curve = pushed(builder, &row, &displacements);
+    let curve = pushed(scene(5.0), &top, &displacements);
     let forces = curve.points[1..].iter().map(|point| point.force).collect();
-    let by_forces = push_over(&row, &PushControl::Forces(forces), |force| {
-        scene(8.0, 5.0).1.load(Load::constant(row.clone(), force)).build()
+    let by_forces = push_over(&top, &PushControl::Forces(forces), |force| {
+        scene(5.0).load(Load::constant(top.clone(), force)).build()
     })
     .unwrap();
     assert_eq!(by_forces.points.len(), 5);
@@ -275,8 +273,8 @@ fn a_block_has_the_curve_of_the_push_over_by_forces() {
         assert!((point.base_moment / expected.base_moment - 1.0).abs() < 1e-6);
         assert!((point.base_rotation / expected.base_rotation - 1.0).abs() < 1e-5);
     }
-    let (row, builder) = scene(0.8, 0.3);
-    let curve = pushed(builder, &row, &[0.01, 0.05, 0.2, 1.0]);
+    let near_base = block.horizontal_at(0.8);
+    let curve = pushed(scene(0.3), &near_base, &[0.01, 0.05, 0.2, 1.0]);
     let resistance = 0.3 * 80.0e3 * 9.80665;
     check_collapse("sliding block", &curve, resistance);
     assert!(curve.points[4].sliding_fraction == 1.0, "{:?}", curve.points[4]);
@@ -324,19 +322,14 @@ fn two_storeys(formulation: BeamFormulation, height: f64) -> (FemModel, [usize; 
 
 #[test]
 fn wrong_pushes_are_refused() {
-    let scene = || {
-        let (model, row) = cantilever(BeamFormulation::ForceBased).unwrap();
-        (bonded(model).unwrap(), row)
-    };
-    let (builder, row) = scene();
-    assert!(matches!(push_over_by_displacement(builder, &row, &row, &[]), Err(Error::Size { .. })));
-    let (builder, row) = scene();
-    let result = push_over_by_displacement(builder, &row, &row, &[f64::NAN]);
-    assert!(matches!(result, Err(Error::NotFinite { .. })), "{result:?}");
-    let (builder, row) = scene();
-    let result = push_over_by_displacement(builder, &DofCombination::default(), &row, &[0.1]);
+    let row = cantilever(BeamFormulation::ForceBased).unwrap().1;
+    let builder = || bonded(cantilever(BeamFormulation::ForceBased).unwrap().0).unwrap();
+    let result = push_over_by_displacement(builder(), &row, &row, &[]);
     assert!(matches!(result, Err(Error::Size { .. })), "{result:?}");
-    let (builder, row) = scene();
-    let result = push_over_by_displacement(builder, &row, &DofCombination::from(999), &[0.1]);
+    let result = push_over_by_displacement(builder(), &row, &row, &[f64::NAN]);
+    assert!(matches!(result, Err(Error::NotFinite { .. })), "{result:?}");
+    let result = push_over_by_displacement(builder(), &DofCombination::default(), &row, &[0.1]);
+    assert!(matches!(result, Err(Error::Size { .. })), "{result:?}");
+    let result = push_over_by_displacement(builder(), &row, &DofCombination::from(999), &[0.1]);
     assert!(matches!(result, Err(Error::Index { .. })), "{result:?}");
 }

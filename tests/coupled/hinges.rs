@@ -204,7 +204,7 @@ fn portals_that_yield_and_lift_off_close_the_energy() {
         }),
     ];
     for (name, hinge) in kinds {
-        let (model, _) = portal(30.0e9, 40.0e3, hinge).unwrap();
+        let model = portal(30.0e9, 40.0e3, hinge).unwrap().0;
         let model = model.with_rayleigh(RayleighDamping::new(0.0, 1e-3).unwrap());
         let mut simulation = Simulation::builder(0.005)
             .ground(SpringGround::under(&model, 4, 4.0e8, 4.0e8).unwrap())

@@ -247,7 +247,9 @@ fn beams_of_fibres_turn_with_their_nodes() {
         let mut z_factor = 1.0;
         if is_reversed {
             image_points.reverse();
-            image_path.iter_mut().for_each(|u| u.rotate_left(6));
+            for displacement in &mut image_path {
+                displacement.rotate_left(6);
+            }
             z_factor = -1.0;
         }
         let expected =

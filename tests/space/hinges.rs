@@ -105,7 +105,7 @@ fn a_pulse_in_any_direction_turns_the_mast_alike() {
 
 #[test]
 fn a_mast_that_yields_closes_the_energy() {
-    let (model, _) = mast(0.1 * PLASTIC_MOMENT, 200.0 * PLASTIC_MOMENT, 0.01, 30.0e9).unwrap();
+    let model = mast(0.1 * PLASTIC_MOMENT, 200.0 * PLASTIC_MOMENT, 0.01, 30.0e9).unwrap().0;
     let hinge = model.inelastic_elements().next().unwrap();
     let mut simulation = Simulation::builder(2e-3)
         .ground(SpringCells::under([RAFT_SIDE; 2], [0.0; 2], [4, 4], BED_PROPERTIES))

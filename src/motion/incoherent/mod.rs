@@ -221,7 +221,7 @@ impl Incoherence {
     }
 }
 
-/// ComponentMotion of the motion while its random part is computed.
+/// Component of the motion while its random part is computed.
 struct RandomComponent {
     /// 0 for x, 1 for y, 2 for up.
     component: usize,
@@ -233,7 +233,7 @@ struct RandomComponent {
 }
 
 impl RandomComponent {
-    /// ComponentMotion of a record, without knots.
+    /// Component of a record, without knots.
     fn new(component: usize, record: &Record, incoherence: &Incoherence) -> Result<Self> {
         let bandwidth = incoherence.bandwidth;
         let spectrum = VelocitySpectrum::new(record, bandwidth)?;
@@ -282,7 +282,7 @@ fn place_key([x, y]: [f64; 2]) -> [u64; 2] {
     [(x + 0.0).to_bits(), (y + 0.0).to_bits()]
 }
 
-/// ComponentMotion of an incoherent motion.
+/// Component of an incoherent motion.
 struct ComponentMotion {
     /// Motion at the reference point.
     record: Record,

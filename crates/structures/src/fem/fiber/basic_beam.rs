@@ -155,7 +155,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
                 self.last_state(variables);
             // At the end of the last step nothing has to be solved.
             if *v == basic_deformations {
-                return Ok(BasicState { deformations, forces, ..BasicState::zero() });
+                return Ok(BasicState { forces, deformations, ..BasicState::zero() });
             }
             return self.force_based_state(v, variables);
         }
