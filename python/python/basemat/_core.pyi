@@ -119,7 +119,9 @@ _GmshPart: TypeAlias = Union[
     "Material", tuple["Material", float], tuple["Material", "BeamSection", Sequence[float]], None
 ]
 _Solid: TypeAlias = Union["Material", "Iwan", "DruckerPrager", UserMaterial]
-_FiberLaw: TypeAlias = Union["Concrete", "BilinearSteel", "MenegottoPinto", "Material", UserUniaxialMaterial]
+_FiberLaw: TypeAlias = Union[
+    "Concrete", "BilinearSteel", "BilinearMoment", "MenegottoPinto", "Material", UserUniaxialMaterial
+]
 _ShellAxes: TypeAlias = Union[ArrayLike, Callable[[float, float, float], ArrayLike]]
 _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
@@ -2545,6 +2547,10 @@ class Simulation:
         axial forces, moments, and strains and stresses of all fibres. Structure and ``member`` (none unless given) are as for
         `solid_points`.
         """
+    def hinge_state(self, element: int, *, member: int | None = None) -> HingeState:
+        """The `HingeState` of a hinge with the number ``element`` at the end of the last accepted step: rotation, moment, and what
+        of the deformations is plastic. Structure and ``member`` (none unless given) are as for `solid_points`.
+        """
     def solid_values(
         self,
         quantity: Literal["plastic_strain", "mobilised_strength"],
@@ -3276,6 +3282,16 @@ class BeamSections:
         (N); in space also "curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate" (rad/m) and "torque".
         """
 
+@final
+class BilinearMoment:
+    """Moment of a hinge with two straight branches and kinematic hardening, a moment–rotation law.
+
+    ``plastic_moment`` (N m) and rotational ``stiffness`` (N m/rad), in the plane per metre of thickness; ``hardening_ratio``:
+    ratio of the stiffness beyond the plastic moment to it, from 0 to below 1.
+    """
+
+    def __new__(cls, plastic_moment: float, stiffness: float, hardening_ratio: float) -> Self: ...
+
 @disjoint_base
 class Structure:
     """A structure with n degrees of freedom, which only the ground supports.
@@ -4001,6 +4017,65 @@ class Grid:
         `Mesh.add_bricks`.
         """
 
+@final
+class AxialMomentSurface:
+    """Axial forces N (tension is positive) and moments M that a section can carry together: a convex set about zero."""
+
+    @staticmethod
+    def rectangle(axial_strength: float, plastic_moment: float) -> AxialMomentSurface:
+        """Rectangular section of a ductile material: |M|/M_p + (N/N_p)² ≤ 1 with ``axial_strength`` N_p (N) and
+        ``plastic_moment`` M_p (N m), in the plane per metre of thickness.
+        """
+    @staticmethod
+    def ellipse(axial_strength: float, plastic_moment: float) -> AxialMomentSurface:
+        """Ellipse: (M/M_p)² + (N/N_p)² ≤ 1 with ``axial_strength`` N_p (N) and ``plastic_moment`` M_p (N m), in the plane per
+        metre of thickness.
+        """
+    @staticmethod
+    def polygon(corners: ArrayLike) -> AxialMomentSurface:
+        """Convex polygon with these ``corners`` [N, M] around zero, in either sense: array of shape (n, 2), N and N m, in the
+        plane per metre of thickness.
+        """
+    def moments_at(self, axial_force: float) -> list[float] | None:
+        """Least and largest moment (N m) beside an ``axial_force`` (N); None for a force beyond the strength."""
+
+@final
+class HingeState:
+    """Deformation and forces of a hinge.
+
+    `Simulation.hinge_state` returns it. Vectors have components along ``axes``: along the member, and at right angles to it.
+    A deformation is the motion of the second node relative to the first; a positive deformation causes a positive force. In
+    the plane rotation and moment are about the third axis, forces are per metre of thickness, and other components are zero.
+    """
+
+    @property
+    def element(self) -> int:
+        """Number of the element."""
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """Position x, y and z of the undeformed hinge: array of shape (3,), m."""
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors along the member and at right angles to it: array of shape (3, 3)."""
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Elongation and displacements at right angles to the member: array of shape (3,), m."""
+    @property
+    def force(self) -> NDArray[np.float64]:
+        """Axial force (tension is positive) and shear forces: array of shape (3,), N."""
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Rotation vector, twist first: array of shape (3,), rad."""
+    @property
+    def moment(self) -> NDArray[np.float64]:
+        """Torque and bending moments: array of shape (3,), N m."""
+    @property
+    def plastic_displacement(self) -> NDArray[np.float64]:
+        """Displacement that remains if the force is unloaded elastically: array of shape (3,), m."""
+    @property
+    def plastic_rotation(self) -> NDArray[np.float64]:
+        """Rotation that remains if the moment is unloaded elastically: array of shape (3,), rad."""
+
 @disjoint_base
 class Hysteresis:
     """A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
@@ -4256,6 +4331,60 @@ class Mesh:
         ``axis``: x and y (m) of the vertical axis. ``meridian``: radius and height (m) of each row of nodes, array of shape
         (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of
         x towards y.
+        """
+    def add_hinges(
+        self,
+        nodes: ArrayLike,
+        moment_law: _FiberLaw,
+        displacement_stiffness: ArrayLike,
+        *,
+        rigid_arm: bool = False,
+    ) -> list[int]:
+        """Adds hinges in the plane between ``nodes`` at one place (array of shape (hinges, 2)), whose moment yields by
+        ``moment_law``: a `BilinearMoment`, or a law of fibres with the moment in place of the stress and the rotation in
+        place of the strain, such as a `MenegottoPinto`.
+
+        ``displacement_stiffness`` (N/m per metre; one number or an array of one per hinge): stiffness of the springs between
+        the displacements of the nodes, 10² to 10⁴ times that of the members. ``rigid_arm``: whether the nodes may lie at a
+        distance, which a rigid arm from the first node bridges; False by default. The stiffness of hinges does not count in
+        Rayleigh damping. `Simulation.hinge_state` returns rotation and moment.
+        """
+    def add_interaction_hinges(
+        self,
+        nodes: ArrayLike,
+        axis: Sequence[float],
+        displacement_stiffness: Sequence[float],
+        rotational_stiffness: float,
+        surface: AxialMomentSurface,
+        *,
+        hardening_ratio: float = 0.0,
+        rigid_arm: bool = False,
+    ) -> list[int]:
+        """Adds hinges in the plane between ``nodes`` at one place (array of shape (hinges, 2)), whose axial force and moment yield
+        together on a ``surface``, an `AxialMomentSurface`, by associated flow.
+
+        ``axis``: direction [x, y] of the member from the first to the second node. ``displacement_stiffness``: stiffness along
+        and across the axis (two numbers, N/m per metre); ``rotational_stiffness``: N m/rad per metre. ``hardening_ratio``: ratio
+        of the stiffness beyond the surface to that within, from 0 (default) to below 1. ``rigid_arm``: as for `add_hinges`.
+        """
+    def add_space_hinges(
+        self,
+        nodes: ArrayLike,
+        axis: Sequence[float],
+        orientation: Sequence[float],
+        displacement_stiffness: float,
+        rotational_stiffness: Sequence[float],
+        plastic_moments: Sequence[float],
+        *,
+        hardening_ratio: float = 0.0,
+        rigid_arm: bool = False,
+    ) -> list[int]:
+        """Adds hinges in space between ``nodes`` at one place (array of shape (hinges, 2)), whose bending moments yield together:
+        (M_y/M_py)² + (M_z/M_pz)² ≤ 1 with ``plastic_moments`` M_py and M_pz (two numbers, N m).
+
+        ``axis``: direction [x, y, z] of the member from the first to the second node; y of the section lies in the plane of the
+        axis and ``orientation``. ``displacement_stiffness``: N/m; ``rotational_stiffness``: in torsion and in bending about y
+        and z (three numbers, N m/rad). ``hardening_ratio`` (0 by default) and ``rigid_arm``: as for `add_interaction_hinges`.
         """
     @staticmethod
     def in_space(nodes: ArrayLike | None = None) -> Mesh:

@@ -6,7 +6,7 @@
 //! | s | stress of the part (1 − b) E that yields: elastic and perfectly plastic, \|s\| ≤ (1 − b) f_y |
 //! | ε^p | plastic strain of this part |
 
-use super::{UniaxialMaterial, UniaxialResponse};
+use super::{UniaxialMaterial, UniaxialResponse, check_variables};
 use crate::error::{Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
 
@@ -94,6 +94,7 @@ impl UniaxialMaterial for BilinearSteel {
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
+        check_variables(variables, self.variable_count())?;
         let part = self.yielding_part(strain, variables[0]);
         let hardening_modulus = self.hardening_ratio * self.modulus;
         Ok(UniaxialResponse {
@@ -103,6 +104,7 @@ impl UniaxialMaterial for BilinearSteel {
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
+        check_variables(variables, self.variable_count())?;
         let part = self.yielding_part(strain, variables[0]);
         let hardening_energy = 0.5 * self.hardening_ratio * self.modulus * strain * strain;
         let yielding_energy = 0.5 * part.stress * part.stress / self.yielding_modulus();
@@ -114,6 +116,7 @@ impl UniaxialMaterial for BilinearSteel {
 
     /// From s at the start, at mid-step and at the end: (s_m − s_1) Δε + Δs²/(2 (1 − b) E), and ½ b E Δε (2 ε_m − ε_0 − ε_1).
     fn remainder(&self, strains: [f64; 3], variables: &[f64]) -> Result<f64> {
+        check_variables(variables, self.variable_count())?;
         let [start, midstep, end] = strains;
         let stresses = strains.map(|strain| self.yielding_part(strain, variables[0]).stress);
         let stress_change = stresses[2] - stresses[0];
@@ -124,7 +127,11 @@ impl UniaxialMaterial for BilinearSteel {
         Ok(yielding + hardening)
     }
 
+    /// Changes nothing for a wrong number of variables.
     fn commit(&self, strain: f64, variables: &mut [f64]) {
+        if variables.len() != self.variable_count() {
+            return;
+        }
         let part = self.yielding_part(strain, variables[0]);
         variables[1] += part.stress * (part.plastic_strain - variables[0]);
         variables[0] = part.plastic_strain;

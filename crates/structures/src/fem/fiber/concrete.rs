@@ -1,6 +1,6 @@
 //! Concrete without tension: a parabola, a line, and straight unloading.
 
-use super::{UniaxialMaterial, UniaxialResponse};
+use super::{UniaxialMaterial, UniaxialResponse, check_variables};
 use crate::error::{Result, not_negative, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
 
@@ -154,6 +154,7 @@ impl UniaxialMaterial for Concrete {
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
+        check_variables(variables, self.variable_count())?;
         let compression = -strain;
         if compression >= variables[0] {
             let envelope = self.envelope(compression);
@@ -180,8 +181,9 @@ impl UniaxialMaterial for Concrete {
         Ok(InternalEnergy { stored, dissipated })
     }
 
+    /// Changes nothing for a wrong number of variables.
     fn commit(&self, strain: f64, variables: &mut [f64]) {
-        if -strain > variables[0] {
+        if variables.len() == self.variable_count() && -strain > variables[0] {
             self.write(-strain, variables);
         }
     }

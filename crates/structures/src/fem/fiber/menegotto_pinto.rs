@@ -8,7 +8,7 @@
 //! | R | exponent of the transition; it falls with the plastic excursion ξ of the last half cycle |
 
 use super::bilinear_steel::check_steel;
-use super::{UniaxialMaterial, UniaxialResponse};
+use super::{UniaxialMaterial, UniaxialResponse, check_variables};
 use crate::error::{Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
 
@@ -270,10 +270,12 @@ impl UniaxialMaterial for MenegottoPinto {
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
+        check_variables(variables, self.variable_count())?;
         Ok(self.on_branch(strain, &self.history_at(strain, variables)))
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
+        check_variables(variables, self.variable_count())?;
         let history = self.history_at(strain, variables);
         // The stress at the end of the last step is stored.
         let is_last = strain == history.last[0] && history.branch != Branch::Virgin;
@@ -283,7 +285,11 @@ impl UniaxialMaterial for MenegottoPinto {
         Ok(InternalEnergy { stored, dissipated: history.work_to(strain, stress) - stored })
     }
 
+    /// Changes nothing for a wrong number of variables.
     fn commit(&self, strain: f64, variables: &mut [f64]) {
+        if variables.len() != self.variable_count() {
+            return;
+        }
         let mut history = self.history_at(strain, variables);
         let stress = self.on_branch(strain, &history).stress;
         history.work = history.work_to(strain, stress);

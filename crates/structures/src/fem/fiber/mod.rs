@@ -25,7 +25,7 @@ use std::fmt::Debug;
 
 use super::internal_energy::InternalEnergy;
 use super::material::Material;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, same_length};
 
 pub(super) use basic_beam::BasicBeam;
 pub use basic_beam::BeamFormulation;
@@ -118,7 +118,8 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
     /// Stress and tangent at a strain.
     ///
     /// # Errors
-    /// Any: the step ends with it, and nothing of the step is committed.
+    /// Any: the step ends with it, and nothing of the step is committed. The laws of the library return
+    /// [`Error::Size`] for a wrong number of variables.
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse>;
 
     /// Overwrites `responses` by those of several fibres, whose variables follow each other.
@@ -166,6 +167,11 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
 
     /// Overwrites `variables` by those after a step that ended with `strain`.
     fn commit(&self, strain: f64, variables: &mut [f64]);
+}
+
+/// Returns an error for a wrong number of internal variables.
+fn check_variables(variables: &[f64], count: usize) -> Result<()> {
+    same_length("internal variables of a fibre", variables.len(), count)
 }
 
 /// Linear elastic, with Young's modulus.

@@ -1,6 +1,7 @@
 //! Laws of fibres against closed forms, differences, and the energy balance.
 
 use super::{BilinearSteel, Concrete, MenegottoPinto, UniaxialMaterial};
+use crate::error::Error;
 use basemat_testkit::random::Random;
 
 /// Laws with their name, a strain scale, and whether they never create dissipation.
@@ -142,7 +143,8 @@ fn concrete_unloads_to_residual_strains_and_cracks() {
     for (compression, residual_ratio) in
         [(0.003, 0.145 * 2.25 + 0.13 * 1.5), (0.005, 0.707 * 0.5 + 0.834)]
     {
-        let mut variables = vec![0.0];
+        let mut variables = [0.0; 4];
+        concrete.initialize(&mut variables);
         concrete.commit(-compression, &mut variables);
         let residual = 0.002 * residual_ratio;
         let stress = concrete.response(-compression, &variables).unwrap().stress;
@@ -152,7 +154,9 @@ fn concrete_unloads_to_residual_strains_and_cracks() {
         assert_eq!(concrete.response(0.01, &variables).unwrap().stress, 0.0);
     }
     // Beyond the ultimate strain the stress is constant.
-    assert_eq!(concrete.response(-0.02, &[0.0]).unwrap().stress, -6.0e6);
+    let mut variables = [0.0; 4];
+    concrete.initialize(&mut variables);
+    assert_eq!(concrete.response(-0.02, &variables).unwrap().stress, -6.0e6);
 }
 
 /// A reversal of one unit in the last place on the asymptote gives a finite stress.
@@ -170,6 +174,24 @@ fn curved_steel_survives_reversals_by_rounding() {
             assert!(response.stress.is_finite() && response.tangent.is_finite(), "{peak}");
             assert!(response.stress > 200.0e6 && response.stress < 700.0e6, "{response:?}");
         }
+    }
+}
+
+/// A wrong number of internal variables is an error, and commits nothing.
+#[test]
+fn wrong_numbers_of_variables_are_refused() {
+    let laws: [&dyn UniaxialMaterial; 3] = [
+        &BilinearSteel::new(400.0e6, 200.0e9, 0.01).unwrap(),
+        &MenegottoPinto::new(400.0e6, 200.0e9, 0.01).unwrap(),
+        &Concrete::new(30.0e6, 0.002, 6.0e6, 0.006).unwrap(),
+    ];
+    for law in laws {
+        assert!(matches!(law.response(-0.001, &[]), Err(Error::Size { .. })), "{law:?}");
+        assert!(matches!(law.energy(-0.001, &[0.0; 12]), Err(Error::Size { .. })), "{law:?}");
+        assert!(law.remainder([0.0, -0.001, -0.002], &[0.0]).is_err(), "{law:?}");
+        let mut variables = [0.0];
+        law.commit(-0.001, &mut variables);
+        assert_eq!(variables, [0.0], "{law:?}");
     }
 }
 
