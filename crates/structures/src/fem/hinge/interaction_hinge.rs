@@ -78,7 +78,7 @@ impl InteractionHinge {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless all stiffnesses are positive, and for an axis of no length;
-    /// [`Error::NotFinite`](crate::Error::NotFinite) for an axis that is not finite. [`Mesh::add`](super::Mesh::add)
+    /// [`Error::NotFinite`](crate::Error::NotFinite) for an axis that is not finite. [`Mesh::add`](crate::fem::Mesh::add)
     /// returns an error for nodes at a distance.
     pub fn new(
         nodes: [usize; 2],

@@ -14,7 +14,7 @@ use crate::geometry::{Direction, PLANE_DIRECTIONS};
 ///
 /// The moment follows the rotation of the second node relative to the first, both counter-clockwise, by any
 /// [`UniaxialMaterial`]: a [`BilinearMoment`](super::BilinearMoment), or a
-/// [`MenegottoPinto`](super::MenegottoPinto) with the plastic moment in place of the yield stress and the rotational
+/// [`MenegottoPinto`](crate::fem::MenegottoPinto) with the plastic moment in place of the yield stress and the rotational
 /// stiffness in place of the modulus. Stiff springs of one stiffness connect the displacements of both nodes, whatever
 /// the direction. [`FemModel::with_tied_nodes`](crate::structure::FemModel::with_tied_nodes) may tie them exactly; the springs then carry nothing.
 ///
@@ -74,7 +74,7 @@ impl Hinge {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the stiffness and the modulus of the law are positive.
-    /// [`Mesh::add`](super::Mesh::add) returns an error for nodes at a distance.
+    /// [`Mesh::add`](crate::fem::Mesh::add) returns an error for nodes at a distance.
     pub fn new(
         nodes: [usize; 2],
         displacement_stiffness: f64,
@@ -93,7 +93,7 @@ impl Hinge {
         Ok(Self { nodes, force })
     }
 
-    /// Sets the direction [x, y] of the member, along which [`HingeState`](super::HingeState) has its first axis.
+    /// Sets the direction [x, y] of the member, along which [`HingeState`](crate::fem::HingeState) has its first axis.
     ///
     /// Forces do not depend on it. Default: to the right.
     ///

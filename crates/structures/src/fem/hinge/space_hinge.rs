@@ -22,7 +22,7 @@ const YIELDING_DEFORMATIONS: [usize; 2] = [4, 5];
 /// stiffnesses it is a circle with radial return, and the same in all directions. Displacements and torsion are elastic.
 ///
 /// Axis x leads along the member from the first to the second node, and y lies in the plane of x and the orientation, as
-/// for a [`SpaceBeam`](super::SpaceBeam). Deformations are those of the second node relative to the first, by the
+/// for a [`SpaceBeam`](crate::fem::SpaceBeam). Deformations are those of the second node relative to the first, by the
 /// right-hand rule. The stiffness of the hinge does not count in stiffness-proportional damping, as for a
 /// [`Hinge`](super::Hinge).
 ///
@@ -84,7 +84,7 @@ impl SpaceHinge {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless stiffnesses and plastic moments are positive, and for axes of no
     /// length or along one line; [`Error::NotFinite`](crate::Error::NotFinite) for axes that are not finite.
-    /// [`Mesh::add`](super::Mesh::add) returns an error for nodes at a distance.
+    /// [`Mesh::add`](crate::fem::Mesh::add) returns an error for nodes at a distance.
     pub fn new(
         nodes: [usize; 2],
         axes: [[f64; 3]; 2],
