@@ -214,7 +214,7 @@ def test_the_program_of_a_page_has_the_beams_of_fibres(tmp_path: Path, monkeypat
     fibers.column("dispBeamColumn", "Steel01")
     model = opensees.structure(ops, [1], width=WIDTH)
     ground = bm.SpringGround.under(model, ELEMENTS, NORMAL, NORMAL)
-    simulation = bm.Simulation(STEP, model, ground, bm.Coulomb(0.5), motion=bm.el_centro_1940().scaled(3.0))
+    simulation = bm.Simulation(STEP, model, ground, bm.Coulomb(0.5), motion=bm.el_centro_1940().scaled(4.0))
     run = simulation.run(600, warn=False)
     assert model.fiber_beams and (run.energy_fractions or {})["hysteresis"] > 0.01
     run.report(tmp_path / "run.html", simulation)

@@ -29,7 +29,6 @@ STEEL = ("Steel01", 2.5e8, 2e11, 0.01)
     [
         (("elasticBeamColumn", 0.25, 30e9, 12e9, 1e-2, 5e-3, 5e-3, 2), "PDelta", r"ElasticBeam3d, PDeltaCrdTransf3d"),
         (("forceBeamColumn", 2, 3), "Corotational", r"ForceBeamColumn3d, CorotCrdTransf3d"),
-        (("dispBeamColumn", 2, 4), "Linear", r"DispBeamColumn3d, section 4 FiberSection3d, material 2 Steel01"),
         (("ShellNLDKGQ", 1), "Linear", "ShellNLDKGQ"),
         (("ShellMITC4", 6), "Linear", r"ShellMITC4, section 6 PlateFiber, ndMaterial 3"),
     ],

@@ -4056,7 +4056,7 @@ class HingeState:
         """Position x, y and z of the undeformed hinge: array of shape (3,), m."""
     @property
     def axes(self) -> NDArray[np.float64]:
-        """Unit vectors along the member and at right angles to it: array of shape (3, 3)."""
+        """Unit vectors along the member and at right angles to it: array of shape (3, 3), numbers without unit."""
     @property
     def displacement(self) -> NDArray[np.float64]:
         """Elongation and displacements at right angles to the member: array of shape (3,), m."""

@@ -188,7 +188,7 @@ impl PyHingeState {
         self.position.as_slice().into()
     }
 
-    /// Unit vectors along the member and at right angles to it: array of shape (3, 3).
+    /// Unit vectors along the member and at right angles to it: array of shape (3, 3), numbers without unit.
     #[getter]
     fn axes(&self) -> Rows {
         Rows(self.axes.iter().map(|axis| axis.to_vec()).collect())
