@@ -29,7 +29,7 @@ pub(crate) fn draw(
     let names = first.zip(FRICTION_COLORS.iter().cycle());
     let entries: Vec<_> = names
         .map(|(group, &color)| (format!("friction {}", group.friction), LegendSample::Line(color)))
-        .chain([("share of runs".to_owned(), LegendSample::Circle(BLACK))])
+        .chain([("fraction of runs".to_owned(), LegendSample::Circle(BLACK))])
         .collect();
     let body = key::draw(&body, 30, &entries)?;
     for (area, &width) in body.split_evenly((1, widths.len())).iter().zip(widths) {
