@@ -2,22 +2,19 @@
 
 use std::sync::Arc;
 
+use super::deformed_fibers::{BasicRows, FiberElement, fiber_element_force};
 use super::local_matrices::{AxialForce, Bending, bar_mass};
 use super::plane::local_matrix;
 use crate::error::{Error, Result, finite, not_negative, same_length};
 use crate::fem::element::{Element, MassKind};
-use crate::fem::element_matrix::add_matrix;
 use crate::fem::fiber::{
-    BasicBeam, BasicState, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, PLANE_BENDING,
+    BasicBeam, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, PLANE_BENDING,
     SolutionMemo, plane_strains,
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::line::ElementLine;
-use crate::fem::small_matrix::{add_congruent, product};
-use crate::fem::vector::add_scaled;
 use crate::geometry::{Direction, PLANE_DIRECTIONS};
-use crate::linalg::dot;
 
 /// Number of degrees of freedom.
 const DOF_COUNT: usize = 6;
@@ -59,9 +56,6 @@ pub struct FiberBeam {
     axial_force: AxialForce,
     memo: SolutionMemo<2, 3>,
 }
-
-/// Basic deformations (elongation, rotations relative to the chord) due to a unit displacement of each degree of freedom.
-type BasicRows = [[f64; DOF_COUNT]; 3];
 
 impl FiberBeam {
     /// Beam of one section and a mass per length, kg/m (in the plane per metre of thickness).
@@ -105,59 +99,6 @@ impl FiberBeam {
         Ok(Self { axial_force: AxialForce::prescribed(compression), ..self })
     }
 
-    /// The beam without its rigid motions.
-    fn basic_beam(&self, length: f64) -> BasicBeam<'_, 2, 3> {
-        BasicBeam {
-            interpolation: &PLANE_BENDING,
-            formulation: self.formulation,
-            section: &self.section,
-            points: &self.points,
-            length,
-            memo: &self.memo,
-        }
-    }
-
-    /// State at displacements of the nodes, with the beam and its basic deformations.
-    fn deformed(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<DeformedBeam<'_>> {
-        self.evaluated(coordinates, displacement, variables, BasicBeam::state)
-    }
-
-    /// As [`deformed`](FiberBeam::deformed), without forces and tangent in an element by displacements.
-    fn strained(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<DeformedBeam<'_>> {
-        self.evaluated(coordinates, displacement, variables, BasicBeam::deformed_state)
-    }
-
-    /// State by one of the methods of the basic beam.
-    fn evaluated<'a>(
-        &'a self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        evaluate: fn(&BasicBeam<'a, 2, 3>, &[f64; 3], &[f64]) -> Result<BasicState<2, 3>>,
-    ) -> Result<DeformedBeam<'a>> {
-        same_length("coordinates of a beam", coordinates.len(), 2)?;
-        same_length("displacement of a beam", displacement.len(), DOF_COUNT)?;
-        same_length("internal variables of a beam", variables.len(), self.variable_count())?;
-        let needed = "two nodes at a distance";
-        let line = ElementLine::between(coordinates)
-            .ok_or(Error::Scene { quantity: "beam of fibres", needed })?;
-        let rows = basic_rows(&line);
-        let beam = self.basic_beam(line.length);
-        let v = rows.map(|row| dot(&row, displacement));
-        let state = evaluate(&beam, &v, variables)?;
-        Ok(DeformedBeam { beam, rows, v, state })
-    }
-
     /// Bending part, for masses and geometric stiffness.
     fn bending(&self) -> Bending {
         let [[axial, coupling], [_, bending]] = self.section.elastic_stiffness(plane_strains);
@@ -170,44 +111,33 @@ impl FiberBeam {
     }
 }
 
-/// A beam in a deformed state.
-struct DeformedBeam<'a> {
-    beam: BasicBeam<'a, 2, 3>,
-    rows: BasicRows,
-    /// Basic deformations.
-    v: [f64; 3],
-    state: BasicState<2, 3>,
-}
-
-impl DeformedBeam<'_> {
-    /// Adds the nodal forces to `force`.
-    fn add_force(&self, force: &mut [f64]) {
-        for (row, basic_force) in self.rows.iter().zip(self.state.forces) {
-            for (nodal_force, entry) in force.iter_mut().zip(row) {
-                *nodal_force += basic_force * entry;
-            }
+impl FiberElement<2, 3, DOF_COUNT> for FiberBeam {
+    fn basic_beam(&self, length: f64) -> BasicBeam<'_, 2, 3> {
+        BasicBeam {
+            interpolation: &PLANE_BENDING,
+            formulation: self.formulation,
+            section: &self.section,
+            points: &self.points,
+            length,
+            memo: &self.memo,
         }
     }
-}
 
-/// Rows of elongation and rotations relative to the chord, for displacements along x and y and rotations of the nodes.
-fn basic_rows(line: &ElementLine) -> BasicRows {
-    let [cosine, sine, _] = line.tangent();
-    // Rotation of the chord due to displacements to its left.
-    let x = sine / line.length;
-    let y = cosine / line.length;
-    [
-        [-cosine, -sine, 0.0, cosine, sine, 0.0],
-        [-x, y, 1.0, x, -y, 0.0],
-        [-x, y, 0.0, x, -y, 1.0],
-    ]
-}
-
-/// Adds Rᵀ k R to a row-major `matrix`.
-fn add_stiffness(stiffness: &[[f64; 3]; 3], rows: &BasicRows, matrix: &mut [f64]) {
-    let mut sum = [[0.0; DOF_COUNT]; DOF_COUNT];
-    add_congruent(1.0, rows, stiffness, &mut sum);
-    add_matrix(matrix, &sum);
+    fn basic_rows(&self, coordinates: &[[f64; 3]]) -> Result<BasicRows<3, DOF_COUNT>> {
+        let needed = "two nodes at a distance";
+        let line = ElementLine::between(coordinates)
+            .ok_or(Error::Scene { quantity: "beam of fibres", needed })?;
+        let [cosine, sine, _] = line.tangent();
+        // Rotation of the chord due to displacements to its left.
+        let x = sine / line.length;
+        let y = cosine / line.length;
+        let rows = [
+            [-cosine, -sine, 0.0, cosine, sine, 0.0],
+            [-x, y, 1.0, x, -y, 0.0],
+            [-x, y, 0.0, x, -y, 1.0],
+        ];
+        Ok(BasicRows { length: line.length, rows, torsion: None })
+    }
 }
 
 impl Element for FiberBeam {
@@ -224,9 +154,9 @@ impl Element for FiberBeam {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let Some(line) = ElementLine::between(coordinates) else { return };
-        if let Some(stiffness) = self.basic_beam(line.length).elastic_stiffness() {
-            add_stiffness(&stiffness, &basic_rows(&line), matrix);
+        let Ok(rows) = self.basic_rows(coordinates) else { return };
+        if let Some(stiffness) = self.basic_beam(rows.length).elastic_stiffness() {
+            rows.add_stiffness(&stiffness, matrix);
         }
     }
 
@@ -248,18 +178,12 @@ impl Element for FiberBeam {
         displacement: &[f64],
         gravity: f64,
     ) -> Option<Box<dyn Element>> {
-        let line = ElementLine::between(coordinates)?;
-        if self.axial_force.is_prescribed || displacement.len() != DOF_COUNT {
+        if self.axial_force.is_prescribed {
             return None;
         }
-        let v = basic_rows(&line).map(|row| dot(&row, displacement));
-        let stiffness = self.basic_beam(line.length).elastic_stiffness()?;
-        let height_difference = coordinates[1][1] - coordinates[0][1];
-        let axial_force = AxialForce {
-            compression: -product(&stiffness, &v)[0],
-            end_difference: self.mass_per_length * gravity * height_difference,
-            is_prescribed: false,
-        };
+        let &[first, second] = coordinates else { return None };
+        let end_difference = self.mass_per_length * gravity * (second[1] - first[1]);
+        let axial_force = self.static_axial_force(coordinates, displacement, end_difference)?;
         Some(Box::new(Self { axial_force, ..self.clone() }))
     }
 
@@ -281,116 +205,7 @@ impl Element for FiberBeam {
     }
 }
 
-impl InelasticForce for FiberBeam {
-    fn has_shared_evaluation(&self) -> bool {
-        true
-    }
-
-    fn variable_count(&self) -> usize {
-        self.basic_beam(1.0).variable_count()
-    }
-
-    fn initialize(&self, _coordinates: &[[f64; 3]], variables: &mut [f64]) -> Result<()> {
-        same_length("internal variables of a beam", variables.len(), self.variable_count())?;
-        self.basic_beam(1.0).initialize(variables);
-        Ok(())
-    }
-
-    fn force(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        force: &mut [f64],
-    ) -> Result<()> {
-        self.deformed(coordinates, displacement, variables)?.add_force(force);
-        Ok(())
-    }
-
-    fn tangent(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        matrix: &mut [f64],
-    ) -> Result<()> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
-        add_stiffness(&deformed.state.stiffness, &deformed.rows, matrix);
-        Ok(())
-    }
-
-    fn force_and_tangent(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        force: &mut [f64],
-        matrix: &mut [f64],
-    ) -> Result<()> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
-        deformed.add_force(force);
-        add_stiffness(&deformed.state.stiffness, &deformed.rows, matrix);
-        Ok(())
-    }
-
-    fn energy(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<InternalEnergy> {
-        let deformed = self.strained(coordinates, displacement, variables)?;
-        deformed.beam.energy(&deformed.state, variables)
-    }
-
-    fn remainder(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacements: [&[f64]; 3],
-        variables: &[f64],
-    ) -> Result<f64> {
-        let start = self.strained(coordinates, displacements[0], variables)?;
-        let midstep = self.strained(coordinates, displacements[1], variables)?;
-        let end = self.strained(coordinates, displacements[2], variables)?;
-        let increment = std::array::from_fn(|i| end.v[i] - start.v[i]);
-        start
-            .beam
-            .remainder([&start.state, &midstep.state, &end.state], &increment, variables)
-    }
-
-    fn sections(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<Vec<BeamSectionState>> {
-        let deformed = self.strained(coordinates, displacement, variables)?;
-        let states = deformed.beam.section_states(&deformed.state, variables)?;
-        let &[first, second] = coordinates else { return Ok(Vec::new()) };
-        let along = add_scaled(second, -1.0, first);
-        let end_moments = deformed.state.forces[1] + deformed.state.forces[2];
-        let shear = -end_moments / deformed.beam.length;
-        let sections = states.into_iter().map(|section| BeamSectionState {
-            position: add_scaled(first, section.point.position, along),
-            length: section.point.weight * deformed.beam.length,
-            axial_strain: section.deformations[0],
-            curvature: section.deformations[1],
-            axial_force: section.forces[0],
-            moment: section.forces[1],
-            shear,
-            fibers: section.fibers,
-            ..BeamSectionState::default()
-        });
-        Ok(sections.collect())
-    }
-
-    /// Changes nothing in a state that a beam by forces cannot have.
-    fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]) {
-        if let Ok(deformed) = self.strained(coordinates, displacement, variables) {
-            deformed.beam.commit(&deformed.state, &deformed.v, variables);
-        }
-    }
-}
+fiber_element_force!(FiberBeam);
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! Straight beams and columns, in the plane and in space.
 
 mod axes;
-mod basic_rows;
+mod deformed_fibers;
 mod fiber_beam;
 mod local_matrices;
 mod plane;

@@ -1,14 +1,12 @@
 //! Beam of fibres in space.
 
-mod deformed;
-
 use std::sync::Arc;
 
 use super::axes::BeamAxes;
-use super::basic_rows::{BASIC_COUNT, BasicRows, DOF_COUNT};
+use super::deformed_fibers::{BasicRows, FiberElement, Torsion, fiber_element_force};
 use super::local_matrices::{AxialForce, BarMatrix, Bending, bar_mass};
 use super::space::{local_matrix, within_beam};
-use crate::error::{Result, all_finite, finite, not_negative, positive, same_length};
+use crate::error::{Error, Result, all_finite, finite, not_negative, positive, same_length};
 use crate::fem::element::{Element, MassKind};
 use crate::fem::element_matrix::add_transformed;
 use crate::fem::fiber::{
@@ -17,10 +15,13 @@ use crate::fem::fiber::{
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
-use crate::fem::small_matrix::product;
-use crate::fem::vector::{add_scaled, norm};
+use crate::fem::vector::norm;
 use crate::geometry::{Direction, SPACE_DIRECTIONS};
-use crate::linalg::dot;
+
+/// Number of degrees of freedom.
+const DOF_COUNT: usize = 12;
+/// Number of basic deformations of stretching and bending.
+const BASIC_COUNT: usize = 5;
 
 /// Bending of one plane for masses and geometric stiffness: without shear deformation its shapes have no stiffness in them.
 const SLENDER_BENDING: Bending = Bending {
@@ -146,7 +147,15 @@ impl SpaceFiberBeam {
         BeamAxes::new(coordinates.try_into().ok()?, self.orientation).ok()
     }
 
-    /// Stretching and bending of the beam without its rigid motions.
+    /// Rotary inertia about the line of the nodes per length, kg m: of mass spread as the stiffness of the fibres.
+    fn polar_inertia(&self) -> f64 {
+        let [[axial, ..], [_, bending_y, _], [.., bending_z]] =
+            self.section.elastic_stiffness(space_strains);
+        self.mass_per_length * (bending_y + bending_z) / axial
+    }
+}
+
+impl FiberElement<3, BASIC_COUNT, DOF_COUNT> for SpaceFiberBeam {
     fn basic_beam(&self, length: f64) -> BasicBeam<'_, 3, BASIC_COUNT> {
         BasicBeam {
             interpolation: &SPACE_BENDING,
@@ -158,11 +167,33 @@ impl SpaceFiberBeam {
         }
     }
 
-    /// Rotary inertia about the line of the nodes per length, kg m: of mass spread as the stiffness of the fibres.
-    fn polar_inertia(&self) -> f64 {
-        let [[axial, ..], [_, bending_y, _], [.., bending_z]] =
-            self.section.elastic_stiffness(space_strains);
-        self.mass_per_length * (bending_y + bending_z) / axial
+    /// Rotations relative to the chord are about z, then about y.
+    fn basic_rows(&self, coordinates: &[[f64; 3]]) -> Result<BasicRows<BASIC_COUNT, DOF_COUNT>> {
+        let needed = "two nodes at a distance, and an orientation that is not along the beam";
+        let BeamAxes { axes: [x, y, z], length } = self
+            .axes(coordinates)
+            .ok_or(Error::Scene { quantity: "beam of fibres in space", needed })?;
+        let mut rows = [[0.0; DOF_COUNT]; BASIC_COUNT];
+        let mut twist = [0.0; DOF_COUNT];
+        for k in 0..3 {
+            rows[0][k] = -x[k];
+            rows[0][6 + k] = x[k];
+            // The chord turns about z by displacements along y, and about y by those against z.
+            let about_z = y[k] / length;
+            let about_y = -z[k] / length;
+            for (first_row, chord_rotation, axis) in [(1, about_z, z), (3, about_y, y)] {
+                for row in first_row..first_row + 2 {
+                    rows[row][k] = chord_rotation;
+                    rows[row][6 + k] = -chord_rotation;
+                }
+                rows[first_row][3 + k] = axis[k];
+                rows[first_row + 1][9 + k] = axis[k];
+            }
+            twist[3 + k] = -x[k];
+            twist[9 + k] = x[k];
+        }
+        let torsion = Torsion { row: twist, stiffness: self.torsional_stiffness / length };
+        Ok(BasicRows { length, rows, torsion: Some(torsion) })
     }
 }
 
@@ -180,10 +211,9 @@ impl Element for SpaceFiberBeam {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let Some(axes) = self.axes(coordinates) else { return };
-        if let Some(stiffness) = self.basic_beam(axes.length).elastic_stiffness() {
-            let torsional_stiffness = self.torsional_stiffness / axes.length;
-            BasicRows::new(&axes).add_stiffness(&stiffness, torsional_stiffness, matrix);
+        let Ok(rows) = self.basic_rows(coordinates) else { return };
+        if let Some(stiffness) = self.basic_beam(rows.length).elastic_stiffness() {
+            rows.add_stiffness(&stiffness, matrix);
         }
     }
 
@@ -207,18 +237,12 @@ impl Element for SpaceFiberBeam {
         displacement: &[f64],
         gravity: f64,
     ) -> Option<Box<dyn Element>> {
-        let axes = self.axes(coordinates)?;
-        if self.axial_force.is_prescribed || displacement.len() != DOF_COUNT {
+        if self.axial_force.is_prescribed {
             return None;
         }
-        let v = BasicRows::new(&axes).bending.map(|row| dot(&row, displacement));
-        let stiffness = self.basic_beam(axes.length).elastic_stiffness()?;
-        let height_difference = coordinates[1][2] - coordinates[0][2];
-        let axial_force = AxialForce {
-            compression: -product(&stiffness, &v)[0],
-            end_difference: self.mass_per_length * gravity * height_difference,
-            is_prescribed: false,
-        };
+        let &[first, second] = coordinates else { return None };
+        let end_difference = self.mass_per_length * gravity * (second[2] - first[2]);
+        let axial_force = self.static_axial_force(coordinates, displacement, end_difference)?;
         Some(Box::new(Self { axial_force, ..self.clone() }))
     }
 
@@ -248,124 +272,7 @@ impl Element for SpaceFiberBeam {
     }
 }
 
-impl InelasticForce for SpaceFiberBeam {
-    fn has_shared_evaluation(&self) -> bool {
-        true
-    }
-
-    fn variable_count(&self) -> usize {
-        self.basic_beam(1.0).variable_count()
-    }
-
-    fn initialize(&self, _coordinates: &[[f64; 3]], variables: &mut [f64]) -> Result<()> {
-        same_length("internal variables of a beam", variables.len(), self.variable_count())?;
-        self.basic_beam(1.0).initialize(variables);
-        Ok(())
-    }
-
-    fn force(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        force: &mut [f64],
-    ) -> Result<()> {
-        self.deformed(coordinates, displacement, variables)?.add_force(force);
-        Ok(())
-    }
-
-    fn tangent(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        matrix: &mut [f64],
-    ) -> Result<()> {
-        self.deformed(coordinates, displacement, variables)?.add_tangent(matrix);
-        Ok(())
-    }
-
-    fn force_and_tangent(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-        force: &mut [f64],
-        matrix: &mut [f64],
-    ) -> Result<()> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
-        deformed.add_force(force);
-        deformed.add_tangent(matrix);
-        Ok(())
-    }
-
-    fn energy(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<InternalEnergy> {
-        let deformed = self.strained(coordinates, displacement, variables)?;
-        let mut energy = deformed.beam.energy(&deformed.state, variables)?;
-        energy.stored += deformed.torsion.energy();
-        Ok(energy)
-    }
-
-    fn remainder(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacements: [&[f64]; 3],
-        variables: &[f64],
-    ) -> Result<f64> {
-        let start = self.strained(coordinates, displacements[0], variables)?;
-        let midstep = self.strained(coordinates, displacements[1], variables)?;
-        let end = self.strained(coordinates, displacements[2], variables)?;
-        let increment = std::array::from_fn(|i| end.v[i] - start.v[i]);
-        let states = [&start.state, &midstep.state, &end.state];
-        let bending = start.beam.remainder(states, &increment, variables)?;
-        // Work of the torque at mid-step less that of the mean torque, which the torsion stores.
-        let mean_twist = 0.5 * (start.torsion.twist + end.torsion.twist);
-        let torque_difference = midstep.torsion.stiffness * (midstep.torsion.twist - mean_twist);
-        Ok(bending + torque_difference * (end.torsion.twist - start.torsion.twist))
-    }
-
-    fn sections(
-        &self,
-        coordinates: &[[f64; 3]],
-        displacement: &[f64],
-        variables: &[f64],
-    ) -> Result<Vec<BeamSectionState>> {
-        let deformed = self.deformed(coordinates, displacement, variables)?;
-        let states = deformed.beam.section_states(&deformed.state, variables)?;
-        let &[first, second] = coordinates else { return Ok(Vec::new()) };
-        let along = add_scaled(second, -1.0, first);
-        let length = deformed.beam.length;
-        let end_forces = deformed.state.forces;
-        let sections = states.into_iter().map(|section| BeamSectionState {
-            position: add_scaled(first, section.point.position, along),
-            length: section.point.weight * length,
-            axial_strain: section.deformations[0],
-            curvature: section.deformations[1],
-            curvature_about_y: section.deformations[2],
-            twist_rate: deformed.torsion.twist / length,
-            axial_force: section.forces[0],
-            moment: section.forces[1],
-            moment_about_y: section.forces[2],
-            torque: deformed.torsion.torque(),
-            shear: -(end_forces[1] + end_forces[2]) / length,
-            shear_along_z: (end_forces[3] + end_forces[4]) / length,
-            fibers: section.fibers,
-        });
-        Ok(sections.collect())
-    }
-
-    /// Changes nothing in a state that a beam by forces cannot have.
-    fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]) {
-        if let Ok(deformed) = self.strained(coordinates, displacement, variables) {
-            deformed.beam.commit(&deformed.state, &deformed.v, variables);
-        }
-    }
-}
+fiber_element_force!(SpaceFiberBeam);
 
 #[cfg(test)]
 mod tests;

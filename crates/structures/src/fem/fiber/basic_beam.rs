@@ -20,7 +20,7 @@ use super::basic_state::{BasicState, LastState, MAX_SECTIONS, SectionState};
 use super::interpolation::Interpolation;
 use super::quadrature::BeamPoint;
 use super::section::{FiberSection, SectionResponse};
-use super::solution_memo::{SolutionKey, SolutionMemo, next_history};
+use super::solution_memo::{SolutionKey, SolutionMemo};
 use crate::error::{Error, Result};
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
@@ -61,11 +61,11 @@ pub(in crate::fem) struct BasicBeam<'a, const N: usize, const B: usize> {
 }
 
 impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
-    /// Number of internal variables: those of all fibres, then e, q, v and the number of the history of a force-based element.
+    /// Number of internal variables: those of all fibres, then e, q and v of a force-based element.
     pub(in crate::fem) fn variable_count(&self) -> usize {
         let state_count = match self.formulation {
             BeamFormulation::DisplacementBased => 0,
-            BeamFormulation::ForceBased => N * self.points.len() + B + B + 1,
+            BeamFormulation::ForceBased => N * self.points.len() + B + B,
         };
         self.points.len() * self.section.variable_count() + state_count
     }
@@ -95,7 +95,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
         let forces = std::array::from_fn(|_| next());
         let basic_deformations = std::array::from_fn(|_| next());
-        LastState { deformations, forces, basic_deformations, history: next() }
+        LastState { deformations, forces, basic_deformations }
     }
 
     /// Stiffness of small strains.
@@ -151,8 +151,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         variables: &[f64],
     ) -> Result<BasicState<N, B>> {
         if self.formulation == BeamFormulation::ForceBased {
-            let LastState { deformations, forces, basic_deformations, .. } =
-                self.last_state(variables);
+            let LastState { deformations, forces, basic_deformations } = self.last_state(variables);
             // At the end of the last step nothing has to be solved.
             if *v == basic_deformations {
                 return Ok(BasicState { forces, deformations, ..BasicState::zero() });
@@ -162,9 +161,14 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         let mut state = BasicState::zero();
         for (deformations, point) in state.deformations.iter_mut().zip(self.points) {
             let a = (self.interpolation.deformations)(point.position);
-            *deformations = product(&a, v).map(|deformation| deformation / self.length);
+            *deformations = self.interpolated(&a, v);
         }
         Ok(state)
+    }
+
+    /// Deformations e = a v of a section of an element by displacements.
+    fn interpolated(&self, a: &[[f64; B]; N], v: &[f64; B]) -> [f64; N] {
+        product(a, v).map(|deformation| deformation / self.length)
     }
 
     fn displacement_based_state(
@@ -175,7 +179,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         let mut state = BasicState::zero();
         for (index, point) in self.points.iter().enumerate() {
             let a = (self.interpolation.deformations)(point.position);
-            let deformations = product(&a, v).map(|deformation| deformation / self.length);
+            let deformations = self.interpolated(&a, v);
             let response = self.response(index, &deformations, variables)?;
             add_transposed(point.weight, &a, &response.forces, &mut state.forces);
             let factor = point.weight / self.length;
@@ -198,8 +202,8 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
 
     fn force_based_state(&self, v: &[f64; B], variables: &[f64]) -> Result<BasicState<N, B>> {
         let last = self.last_state(variables);
-        let key = SolutionKey { history: last.history, length: self.length, v: *v };
-        if let Some(state) = self.memo.find(&key) {
+        let key = SolutionKey { length: self.length, v: *v };
+        if let Some(state) = self.memo.find(&key, variables) {
             return Ok(state);
         }
         let mut part_count = 1;
@@ -218,7 +222,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
                 }
             }
             if is_found {
-                self.memo.store(key, state);
+                self.memo.store(key, variables, state);
                 return Ok(state);
             }
             part_count *= PART_FACTOR;
@@ -370,9 +374,8 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
         if self.formulation == BeamFormulation::ForceBased {
             let first = self.points.len() * self.section.variable_count();
-            let history = next_history(self.last_state(variables).history, v);
             let sections = state.deformations.iter().take(self.points.len()).flatten();
-            let values = sections.chain(&state.forces).chain(v).chain([&history]);
+            let values = sections.chain(&state.forces).chain(v);
             for (variable, value) in variables[first..].iter_mut().zip(values) {
                 *variable = *value;
             }

@@ -29,8 +29,6 @@ pub(super) struct LastState<const N: usize, const B: usize> {
     pub(super) deformations: [[f64; N]; MAX_SECTIONS],
     pub(super) forces: [f64; B],
     pub(super) basic_deformations: [f64; B],
-    /// Number of the committed deformations so far.
-    pub(super) history: f64,
 }
 
 impl<const N: usize, const B: usize> BasicState<N, B> {

@@ -38,6 +38,33 @@ fn beam(section: &FiberSection, formulation: BeamFormulation) -> FiberBeam {
         .with_formulation(formulation)
 }
 
+/// Shear forces of sections are those of the second node, by both formulations.
+#[test]
+fn sections_have_the_shear_force_of_the_nodes() {
+    let section = plastic_section(0.1);
+    let axes = [[0.6, 0.8], [-0.8, 0.6]];
+    for formulation in ALL_FORMULATIONS {
+        let fibres = beam(&section, formulation);
+        let mut variables = vec![0.0; fibres.variable_count()];
+        fibres.initialize(&INCLINED_ENDS, &mut variables).unwrap();
+        let u = [0.0, 0.0, 0.0, 0.03, -0.02, 0.01];
+        let mut force = vec![0.0; 6];
+        fibres.force(&INCLINED_ENDS, &u, &variables, &mut force).unwrap();
+        let [axial, shear] = axes.map(|axis| axis[0] * force[3] + axis[1] * force[4]);
+        let mut committed = variables.clone();
+        fibres.commit(&INCLINED_ENDS, &u, &mut committed);
+        for variables in [&variables, &committed] {
+            let sections = fibres.sections(&INCLINED_ENDS, &u, variables).unwrap();
+            for state in &sections {
+                assert!((state.shear / shear - 1.0).abs() < 1e-9, "{formulation:?}: {state:?}");
+                assert_eq!([state.shear_along_z, state.torque, state.moment_about_y], [0.0; 3]);
+            }
+            let mean_force: f64 = sections.iter().map(|s| s.axial_force * s.length / 5.0).sum();
+            assert!((mean_force / axial - 1.0).abs() < 1e-9, "{formulation:?}: {mean_force}");
+        }
+    }
+}
+
 /// Elastic fibres have the matrices of a linear beam with their area and second moment.
 #[test]
 fn elastic_fibres_are_the_linear_beam() {

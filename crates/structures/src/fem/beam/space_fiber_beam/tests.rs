@@ -5,6 +5,7 @@ use basemat_testkit::random::Random;
 use super::*;
 use crate::fem::beam::{BeamSection, SpaceBeam};
 use crate::fem::{BilinearSteel, Concrete, Material, MenegottoPinto};
+use crate::linalg::dot;
 
 const ALL_FORMULATIONS: [BeamFormulation; 2] =
     [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased];
