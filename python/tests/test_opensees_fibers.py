@@ -87,7 +87,7 @@ def column(element: str, steel: str, *, offset: float = 0.0, integration: str = 
     ops.rayleigh(0.0, 0.0, 2e-3, 0.0)
 
 
-def found(model: opensees.OpenSeesModel) -> tuple[np.ndarray, bm.Simulation]:
+def on_springs(structure: Any, model: opensees.OpenSeesModel, min_uplift: float) -> tuple[np.ndarray, bm.Simulation]:
     """Displacements of the top and rotations of the base on springs that uplift, a couple of forces apart."""
     strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
     # Tractions that end a step belong to its end, as in OpenSees.
@@ -96,7 +96,7 @@ def found(model: opensees.OpenSeesModel) -> tuple[np.ndarray, bm.Simulation]:
     rows = {"top": model.row(4), "rotation": model.row(1, "rotation")}
     simulation = bm.Simulation(
         STEP,
-        model,
+        structure,
         ground,
         bm.Coulomb(0.0),
         loads=loads,
@@ -104,23 +104,23 @@ def found(model: opensees.OpenSeesModel) -> tuple[np.ndarray, bm.Simulation]:
         solver=bm.SolverOptions(scheme=bm.TimeScheme.newmark()),
     )
     run = simulation.run(STEPS, warn=False)
-    assert run.uplifted_fraction.value > 0.2
+    assert run.uplifted_fraction.value > min_uplift
     return np.array([run[name] for name in rows]), simulation
 
 
-def analysis(integrator: tuple[object, ...], kind: str) -> None:
+def analysis(integrator: tuple[object, ...], kind: str, tolerance: float, iterations: int) -> None:
     ops.wipeAnalysis()
     ops.constraints("Transformation")
     ops.numberer("Plain")
     ops.system("FullGeneral")
-    ops.test("NormDispIncr", 1e-14, 100, 0)
+    ops.test("NormDispIncr", tolerance, iterations, 0)
     ops.algorithm("Newton")
     ops.integrator(*integrator)
     ops.analysis(kind)
 
 
-def expected() -> tuple[np.ndarray, np.ndarray]:
-    """The same by OpenSees alone, on springs without tension; also moments of the lowest column's sections at the end."""
+def motion_of_opensees(masses: dict[int, float], tolerance: float, iterations: int) -> np.ndarray:
+    """The same by OpenSees alone, on springs without tension; ``masses``: of the nodes, for their weights."""
     length = WIDTH / ELEMENTS
     ops.uniaxialMaterial("ENT", 10, NORMAL * length)
     for k in range(ELEMENTS):
@@ -132,12 +132,12 @@ def expected() -> tuple[np.ndarray, np.ndarray]:
         ops.element("zeroLength", tag, tag + 100, tag, "-mat", 10, "-dir", 2, "-doRayleigh", 0)
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
-    # The mass of the elements is in the halves at their nodes.
-    weights = {tag: mass + 1234.5 * 2.0 * (1.0 if tag in (2, 3) else 0.5) for tag, mass in MASSES.items()}
-    for tag, mass in weights.items():
+    for tag, mass in masses.items():
         ops.load(tag, 0.0, -bm.STANDARD_GRAVITY * mass, 0.0)
     ops.fix(1, 1, 0, 0)
-    analysis(("LoadControl", 1.0), "Static")
+    # In several steps OpenSees moves a fixed node that others are tied to once more by all that it has moved so far:
+    # the hinge of a braced column with P-Delta would begin with a wrong rotation.
+    analysis(("LoadControl", 1.0), "Static", tolerance, iterations)
     assert ops.analyze(1) == 0
     ops.loadConst("-time", 0.0)
     ops.remove("sp", 1, 1)
@@ -145,13 +145,20 @@ def expected() -> tuple[np.ndarray, np.ndarray]:
     ops.pattern("Plain", 2, 2, "-fact", FORCE)
     ops.load(4, 1.0, 0.0, 0.0)
     ops.load(1, -1.0, 0.0, 0.0)
-    analysis(("Newmark", 0.5, 0.25), "Transient")
+    analysis(("Newmark", 0.5, 0.25), "Transient", tolerance, iterations)
     rows = [(ops.nodeDisp(4, 1), ops.nodeDisp(1, 3))]
     for _ in range(STEPS):
         assert ops.analyze(1, STEP) == 0
         rows.append((ops.nodeDisp(4, 1), ops.nodeDisp(1, 3)))
-    moments = [ops.eleResponse(2, "section", k, "force")[1] for k in range(1, 5)]
-    return (np.array(rows) - rows[0]).T, np.array(moments)
+    return (np.array(rows) - rows[0]).T
+
+
+def expected() -> tuple[np.ndarray, np.ndarray]:
+    """Motion by OpenSees alone, and moments of the lowest column's sections at the end."""
+    # The mass of the elements is in the halves at their nodes.
+    masses = {tag: mass + 1234.5 * 2.0 * (1.0 if tag in (2, 3) else 0.5) for tag, mass in MASSES.items()}
+    motion = motion_of_opensees(masses, 1e-14, 100)
+    return motion, np.array([ops.eleResponse(2, "section", k, "force")[1] for k in range(1, 5)])
 
 
 @pytest.mark.parametrize("steel", ["Steel01", "Steel02"])
@@ -169,9 +176,11 @@ def test_fibres_yield_as_in_opensees(element: str, integration: str, offset: flo
     column(element, steel, offset=offset, integration=integration)
     model = opensees.structure(ops, [1], width=WIDTH)
     assert model.fiber_beams == {2: 0, 3: 1, 4: 2}
-    own, simulation = found(pickle.loads(pickle.dumps(model)))
+    pickled = pickle.loads(pickle.dumps(model))
+    own, simulation = on_springs(pickled, pickled, 0.2)
     with pytest.warns(bm.BasematWarning, match="not linear: elements 2, 3, 4"):
-        linear, _ = found(opensees.structure(ops, [1], width=WIDTH, fibers="linear"))
+        linear_model = opensees.structure(ops, [1], width=WIDTH, fibers="linear")
+    linear, _ = on_springs(linear_model, linear_model, 0.2)
     column(element, steel, offset=offset, integration=integration)
     reference, moments = expected()
     for one, other in zip(own, reference):
@@ -246,7 +255,7 @@ def test_fibres_begin_without_stress() -> None:
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
     ops.load(4, 0.0, -1e4, 0.0)
-    analysis(("LoadControl", 1.0), "Static")
+    analysis(("LoadControl", 1.0), "Static", 1e-14, 100)
     assert ops.analyze(1) == 0
     for direction in (1, 2, 3):
         ops.remove("sp", 1, direction)
@@ -268,4 +277,4 @@ def test_large_models_are_sparse(monkeypatch: pytest.MonkeyPatch) -> None:
     model = opensees.structure(ops, [1], width=WIDTH)
     assert sparse.issparse(model.stiffness())
     np.testing.assert_allclose(model.stiffness().toarray(), dense.stiffness(), atol=1e-9 * np.abs(dense.stiffness()).max())
-    assert np.array_equal(found(model)[0][0] != 0.0, found(dense)[0][0] != 0.0)
+    assert np.array_equal(on_springs(model, model, 0.2)[0][0] != 0.0, on_springs(dense, dense, 0.2)[0][0] != 0.0)

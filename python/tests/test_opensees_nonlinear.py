@@ -25,9 +25,8 @@ except (ImportError, RuntimeError):
 import test_opensees_fibers as fibers  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::basemat.BasematWarning")
-WIDTH, ELEMENTS, NORMAL, STEP, STEPS = 4.0, 8, 60e6, 0.005, 1200
-FORCE, RECORD = 40e3, bm.el_centro_1940().resampled(STEP)
-MASSES = {1: 30e3, 2: 3e3, 3: 3e3, 4: 40e3}
+WIDTH, ELEMENTS, NORMAL, STEP, STEPS = fibers.WIDTH, fibers.ELEMENTS, fibers.NORMAL, fibers.STEP, fibers.STEPS
+FORCE, RECORD, MASSES = fibers.FORCE, fibers.RECORD, fibers.MASSES
 
 
 @pytest.fixture(autouse=True)
@@ -75,80 +74,14 @@ def column(kind: str) -> None:
     ops.rayleigh(0.0, 0.0, 2e-3, 0.0)
 
 
-def found(structure: Any, model: opensees.OpenSeesModel) -> np.ndarray:
-    """Displacements of the top and rotations of the base on springs that uplift, a couple of forces apart."""
-    strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
-    # Tractions that end a step belong to its end, as in OpenSees.
-    ground = bm.SpringGround(strip, NORMAL, 1e3, theta=1.0)
-    loads = [bm.Load.record(model.row(tag), RECORD, force) for tag, force in ((4, FORCE), (1, -FORCE))]
-    rows = {"top": model.row(4), "rotation": model.row(1, "rotation")}
-    simulation = bm.Simulation(
-        STEP,
-        structure,
-        ground,
-        bm.Coulomb(0.0),
-        loads=loads,
-        probes=[bm.Probe.displacement(name, row) for name, row in rows.items()],
-        solver=bm.SolverOptions(scheme=bm.TimeScheme.newmark()),
-    )
-    run = simulation.run(STEPS, warn=False)
-    assert run.uplifted_fraction.value > 0.3
-    return np.array([run[name] for name in rows])
-
-
-def analysis(integrator: tuple[object, ...], kind: str) -> None:
-    ops.wipeAnalysis()
-    ops.constraints("Transformation")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.test("NormDispIncr", 1e-12, 50, 0)
-    ops.algorithm("Newton")
-    ops.integrator(*integrator)
-    ops.analysis(kind)
-
-
-def expected() -> np.ndarray:
-    """The same by OpenSees alone, on springs without tension."""
-    length = WIDTH / ELEMENTS
-    ops.uniaxialMaterial("ENT", 10, NORMAL * length)
-    for k in range(ELEMENTS):
-        x, tag = (k + 0.5) * length - 0.5 * WIDTH, 100 + k
-        ops.node(tag, x, 0.0)
-        ops.rigidLink("beam", 1, tag)
-        ops.node(tag + 100, x, 0.0)
-        ops.fix(tag + 100, 1, 1, 1)
-        ops.element("zeroLength", tag, tag + 100, tag, "-mat", 10, "-dir", 2, "-doRayleigh", 0)
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
-    for tag, mass in MASSES.items():
-        ops.load(tag, 0.0, -bm.STANDARD_GRAVITY * mass, 0.0)
-    ops.fix(1, 1, 0, 0)
-    # In several steps OpenSees moves a fixed node that others are tied to once more by all that it has moved so far:
-    # the hinge of a braced column with P-Delta would begin with a wrong rotation.
-    analysis(("LoadControl", 1.0), "Static")
-    assert ops.analyze(1) == 0
-    ops.loadConst("-time", 0.0)
-    ops.remove("sp", 1, 1)
-    ops.timeSeries("Path", 2, "-dt", STEP, "-values", *RECORD.accelerations)
-    ops.pattern("Plain", 2, 2, "-fact", FORCE)
-    ops.load(4, 1.0, 0.0, 0.0)
-    ops.load(1, -1.0, 0.0, 0.0)
-    analysis(("Newmark", 0.5, 0.25), "Transient")
-    rows = [(ops.nodeDisp(4, 1), ops.nodeDisp(1, 3))]
-    for _ in range(STEPS):
-        assert ops.analyze(1, STEP) == 0
-        rows.append((ops.nodeDisp(4, 1), ops.nodeDisp(1, 3)))
-    return (np.array(rows) - rows[0]).T
-
-
 @pytest.mark.parametrize("kind", ["dispBeamColumn", "hinge"])
 def test_a_column_yields_and_uplifts_as_in_opensees(kind: str) -> None:
     column(kind)
     model = opensees.structure(ops, [1], width=WIDTH)
-    linear = found(model, model)
-    own = found(opensees.nonlinear_structure(ops, [1], width=WIDTH), model)
+    linear, _ = fibers.on_springs(model, model, 0.3)
+    own, _ = fibers.on_springs(opensees.nonlinear_structure(ops, [1], width=WIDTH), model, 0.3)
     column(kind)
-    reference = expected()
+    reference = fibers.motion_of_opensees(fibers.MASSES, 1e-12, 50)
     for one, elastic, other in zip(own, linear, reference):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-9 * np.abs(other).max())
         assert np.abs(elastic - other).max() > 0.2 * np.abs(other).max()
@@ -292,7 +225,7 @@ def expected_in_space() -> np.ndarray:
     for tag, mass in MASSES.items():
         ops.load(tag, 0.0, 0.0, -bm.STANDARD_GRAVITY * mass, 0.0, 0.0, 0.0)
     ops.fix(1, 1, 1, 0, 0, 0, 1)
-    analysis(("LoadControl", 1.0), "Static")
+    fibers.analysis(("LoadControl", 1.0), "Static", 1e-12, 50)
     assert ops.analyze(1) == 0
     ops.loadConst("-time", 0.0)
     for k, record in enumerate(RECORDS, 1):
@@ -303,7 +236,7 @@ def expected_in_space() -> np.ndarray:
         ops.load(1, *(-component for component in direction))
     for k in (1, 2, 6):
         ops.remove("sp", 1, k)
-    analysis(("Newmark", 0.5, 0.25), "Transient")
+    fibers.analysis(("Newmark", 0.5, 0.25), "Transient", 1e-12, 50)
 
     def state() -> list[float]:
         return [ops.nodeDisp(4, 1), ops.nodeDisp(4, 2), ops.nodeDisp(1, 4), ops.nodeDisp(1, 5)]

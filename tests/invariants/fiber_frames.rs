@@ -11,7 +11,7 @@ use basemat_problems::yielding_blocks::block_energies;
 const BALANCE_TOLERANCE: f64 = 1e-9;
 /// Largest decrease of the dissipation in a step, relative to the largest energy: rounding.
 const DECREASE_TOLERANCE: f64 = 1e-12;
-/// The same of laws whose stored energy is that of an unloading line, from which they depart.
+/// Largest decrease of the dissipation of laws whose stored energy assumes a straight unloading line.
 const CURVED_DECREASE_TOLERANCE: f64 = 1e-2;
 
 /// Counts over random frames.

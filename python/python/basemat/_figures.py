@@ -63,8 +63,7 @@ def axes_for(axes: Axes | Iterable[Axes] | None, count: int, title: str | None =
     if axes is None:
         size = (8.0, 1.0 + 2.2 * count)
         options = {"sharex": True, "figsize": size, "layout": "constrained", **options}
-        if "nrows" not in options:
-            options["nrows"] = count
+        options.setdefault("nrows", count)
         axes = pyplot().subplots(ncols=count // options["nrows"], **options)[1]
     found: list[Axes] = list(np.ravel(axes))  # type: ignore[arg-type]
     if len(found) != count:

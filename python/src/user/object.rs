@@ -7,10 +7,14 @@ use basemat::structure::InternalEnergy;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-use crate::array::Numbers;
+use crate::array::{Count, Numbers};
 use crate::error::{
-    call_user_code, extract_returned, has_stored_exception, input_error, user_code_error,
+    call_user_code, extract_returned, has_stored_exception, input_error, store_exception,
+    user_code_error,
 };
+
+/// Largest number of internal variables at a point, or of a fibre.
+const MAX_VARIABLE_COUNT: usize = 10_000;
 
 /// An object with the methods of a part, some of which may be missing.
 #[derive(Clone)]
@@ -23,6 +27,21 @@ pub(super) struct UserObject {
 }
 
 impl UserObject {
+    /// Object that must have all `required` methods.
+    pub(super) fn with_required(
+        object: &Bound<'_, PyAny>,
+        part: &'static str,
+        required: &[&'static str],
+        optional: &[&'static str],
+    ) -> PyResult<Self> {
+        for method in required {
+            if !object.hasattr(*method)? {
+                return Err(input_error(format!("the {part} has no method `{method}`")));
+            }
+        }
+        Self::new(object, part, optional)
+    }
+
     pub(super) fn new(
         object: &Bound<'_, PyAny>,
         part: &'static str,
@@ -85,6 +104,79 @@ impl UserObject {
             "returned {value_kind} of shape {shape}, but must return one of {expected_shape}"
         );
         Err(input_error(format!("{method} of the {} {text}", self.part)))
+    }
+
+    /// Attribute `variable_count`, the number of internal variables; zero without it.
+    ///
+    /// Returns an error for an object that has `commit`, but no variables.
+    pub(super) fn variable_count(&self, py: Python<'_>) -> PyResult<usize> {
+        let name = format!("variable_count of the {}", self.part);
+        let variable_count = match self.bind(py).getattr_opt("variable_count")? {
+            Some(count) => extract_returned::<Count>(&name, &count)?.0,
+            None => 0,
+        };
+        if variable_count > MAX_VARIABLE_COUNT {
+            return Err(input_error(format!(
+                "{name} is {variable_count}, but must be {MAX_VARIABLE_COUNT} or less"
+            )));
+        }
+        if variable_count == 0 && self.has("commit") {
+            let text = "but no `variable_count`, the number of values that it returns";
+            return Err(input_error(format!("the {} has `commit`, {text}", self.part)));
+        }
+        Ok(variable_count)
+    }
+
+    /// Numbers that a method returned, as many as `expected_count` and finite.
+    pub(super) fn numbers(
+        &self,
+        method: &str,
+        value: &Bound<'_, PyAny>,
+        expected_count: usize,
+    ) -> PyResult<Vec<f64>> {
+        let Numbers(numbers) = extract_returned(&format!("{method} of the {}", self.part), value)?;
+        let shape = format!("({},)", numbers.len());
+        let expected_shape = format!("({expected_count},)");
+        let numbers = self.checked_shape(method, "an array", numbers, &shape, &expected_shape)?;
+        self.check_finite(method, numbers.iter())?;
+        Ok(numbers)
+    }
+
+    /// Returns an error for numbers that a method returned unless all are finite.
+    pub(super) fn check_finite<'a>(
+        &self,
+        method: &str,
+        mut numbers: impl Iterator<Item = &'a f64>,
+    ) -> PyResult<()> {
+        match numbers.find(|number| !number.is_finite()) {
+            Some(number) => Err(input_error(format!(
+                "{method} of the {} returned {number}, but must return finite numbers",
+                self.part
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Overwrites internal variables by the value of `commit` for these arguments, if the object has this method.
+    ///
+    /// After an exception the variables are unchanged.
+    pub(super) fn commit_variables(
+        &self,
+        variables: &mut [f64],
+        call: impl for<'py> FnOnce(Python<'py>, &[f64]) -> PyResult<Bound<'py, PyAny>>,
+    ) {
+        if !self.has("commit") {
+            return;
+        }
+        let committed_variables = Python::attach(|py| {
+            let value = call(py, variables)?;
+            self.numbers("commit", &value, variables.len())
+        });
+        match committed_variables {
+            Ok(committed_variables) => variables.copy_from_slice(&committed_variables),
+            // The step is already accepted: the exception ends the run after it.
+            Err(exception) => store_exception(exception),
+        }
     }
 
     /// Stored and dissipated energy that the method `energy` returns; `None` without this method.

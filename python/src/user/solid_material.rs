@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use super::object::{UserObject, call_unless_raised};
-use crate::array::{Count, Numbers, Table, real_number};
-use crate::error::{extract_returned, input_error, store_exception};
+use crate::array::{Table, real_number};
+use crate::error::{extract_returned, input_error};
 
 /// Name of this kind of part in errors.
 const PART_NAME: &str = "material";
@@ -19,8 +19,6 @@ const PART_NAME: &str = "material";
 const REQUIRED_METHODS: [&str; 4] = ["elasticity", "stress", "tangent", "energy"];
 /// Methods that a material may lack.
 const OPTIONAL_METHODS: [&str; 3] = ["initialize", "commit", "state"];
-/// Largest number of internal variables at a point.
-const MAX_VARIABLE_COUNT: usize = 10_000;
 /// Largest difference of the stress at zero strain from the initial stress, relative to the initial stress.
 const INITIAL_STRESS_TOLERANCE: f64 = 1e-6;
 /// Largest difference of these stresses that counts as rounding, relative to the largest modulus of the material.
@@ -60,12 +58,8 @@ impl fmt::Debug for UserMaterial {
 
 impl UserMaterial {
     fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        for method in REQUIRED_METHODS {
-            if !object.hasattr(method)? {
-                return Err(input_error(format!("the material has no method `{method}`")));
-            }
-        }
-        let user_object = UserObject::new(object, PART_NAME, &OPTIONAL_METHODS)?;
+        let user_object =
+            UserObject::with_required(object, PART_NAME, &REQUIRED_METHODS, &OPTIONAL_METHODS)?;
         let density = object
             .getattr_opt("density")?
             .ok_or_else(|| input_error("the material has no `density` (kg/m³)"))?;
@@ -76,19 +70,7 @@ impl UserMaterial {
                 "density of the material is {density}, but {requirement}"
             )));
         }
-        let variable_count = match object.getattr_opt("variable_count")? {
-            Some(count) => extract_returned::<Count>("variable_count of the material", &count)?.0,
-            None => 0,
-        };
-        if variable_count > MAX_VARIABLE_COUNT {
-            return Err(input_error(format!(
-                "variable_count of the material is {variable_count}, but must be {MAX_VARIABLE_COUNT} or less"
-            )));
-        }
-        if variable_count == 0 && user_object.has("commit") {
-            let text = "but no `variable_count`, the number of values that it returns";
-            return Err(input_error(format!("the material has `commit`, {text}")));
-        }
+        let variable_count = user_object.variable_count(object.py())?;
         let has_symmetric_tangent = match object.getattr_opt("symmetric_tangent")? {
             Some(flag) => flag.is_truthy()?,
             None => true,
@@ -117,29 +99,13 @@ impl UserMaterial {
         self.object.bind(py).call_method1(method, (strain, variables))
     }
 
-    /// Numbers that a method returned, as many as `expected_count` and finite.
-    fn numbers(
-        &self,
-        method: &str,
-        value: &Bound<'_, PyAny>,
-        expected_count: usize,
-    ) -> PyResult<Vec<f64>> {
-        let Numbers(numbers) = extract_returned(&format!("{method} of the {PART_NAME}"), value)?;
-        let shape = format!("({},)", numbers.len());
-        let expected_shape = format!("({expected_count},)");
-        let numbers =
-            self.object.checked_shape(method, "an array", numbers, &shape, &expected_shape)?;
-        check_finite(method, numbers.iter())?;
-        Ok(numbers)
-    }
-
     /// Matrix of shape (4, 4) that a method returned, with finite entries.
     fn matrix(&self, method: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; 4]; 4]> {
         let name = format!("{method} of the {PART_NAME}");
         let ReturnedTable(Table { column_count, rows }) = extract_returned(&name, value)?;
         let shape = format!("({}, {column_count})", rows.len());
         let rows = self.object.checked_shape(method, "an array", rows, &shape, "(4, 4)")?;
-        check_finite(method, rows.iter().flatten())?;
+        self.object.check_finite(method, rows.iter().flatten())?;
         let mut matrix = [[0.0; 4]; 4];
         for (entries, row) in matrix.iter_mut().zip(&rows) {
             entries.copy_from_slice(row);
@@ -154,7 +120,7 @@ impl UserMaterial {
         variables: &[f64],
     ) -> PyResult<[f64; 4]> {
         let value = self.call(py, "stress", strain, variables)?;
-        let numbers = self.numbers("stress", &value, 4)?;
+        let numbers = self.object.numbers("stress", &value, 4)?;
         Ok([numbers[0], numbers[1], numbers[2], numbers[3]])
     }
 
@@ -170,7 +136,11 @@ impl UserMaterial {
         if self.object.has("initialize") {
             let argument = (PyArray1::from_slice(py, &initial_stress),);
             let value = self.object.bind(py).call_method1("initialize", argument)?;
-            variables.copy_from_slice(&self.numbers("initialize", &value, self.variable_count)?);
+            variables.copy_from_slice(&self.object.numbers(
+                "initialize",
+                &value,
+                self.variable_count,
+            )?);
         } else {
             variables.fill(0.0);
         }
@@ -195,16 +165,6 @@ impl UserMaterial {
 struct ReturnedTable(Table);
 
 extracts!(ReturnedTable, object => Ok(Self(Table::read(&object, "(4, 4)")?)));
-
-/// Error for numbers that a method returned unless all are finite.
-fn check_finite<'a>(method: &str, mut numbers: impl Iterator<Item = &'a f64>) -> PyResult<()> {
-    match numbers.find(|number| !number.is_finite()) {
-        Some(number) => Err(input_error(format!(
-            "{method} of the {PART_NAME} returned {number}, but must return finite numbers"
-        ))),
-        None => Ok(()),
-    }
-}
 
 fn largest_magnitude(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0_f64, |max, number| max.max(number.abs()))
@@ -243,25 +203,15 @@ impl SolidMaterial for UserMaterial {
     fn energy(&self, strain: [f64; 4], variables: &[f64]) -> Result<InternalEnergy> {
         self.object.try_call(|py| {
             let value = self.call(py, "energy", strain, variables)?;
-            let numbers = self.numbers("energy", &value, 2)?;
+            let numbers = self.object.numbers("energy", &value, 2)?;
             Ok(InternalEnergy { stored: numbers[0], dissipated: numbers[1] })
         })
     }
 
-    /// After an exception the variables are unchanged.
     fn commit(&self, strain: [f64; 4], variables: &mut [f64]) {
-        if !self.object.has("commit") {
-            return;
-        }
-        let committed_variables = Python::attach(|py| {
-            let value = self.call(py, "commit", strain, variables)?;
-            self.numbers("commit", &value, variables.len())
+        self.object.commit_variables(variables, |py, previous_variables| {
+            self.call(py, "commit", strain, previous_variables)
         });
-        match committed_variables {
-            Ok(committed_variables) => variables.copy_from_slice(&committed_variables),
-            // The step is already accepted: the exception ends the run after it.
-            Err(exception) => store_exception(exception),
-        }
     }
 
     fn state(&self, strain: [f64; 4], variables: &[f64]) -> SolidState {
@@ -270,7 +220,7 @@ impl SolidMaterial for UserMaterial {
         }
         call_unless_raised(SolidState::default(), |py| {
             let value = self.call(py, "state", strain, variables)?;
-            let numbers = self.numbers("state", &value, 2)?;
+            let numbers = self.object.numbers("state", &value, 2)?;
             Ok(SolidState { plastic_strain: numbers[0], mobilised_strength: numbers[1] })
         })
     }

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use super::object::UserObject;
-use crate::array::{Count, Numbers, real_number};
-use crate::error::{extract_returned, input_error, store_exception};
+use crate::array::real_number;
+use crate::error::input_error;
 
 /// Name of this kind of part in errors.
 const PART_NAME: &str = "law of a fibre";
@@ -20,8 +20,6 @@ const PART_NAME: &str = "law of a fibre";
 const REQUIRED_METHODS: [&str; 2] = ["response", "energy"];
 /// Methods that a law may lack.
 const OPTIONAL_METHODS: [&str; 2] = ["initialize", "commit"];
-/// Largest number of internal variables of a fibre.
-const MAX_VARIABLE_COUNT: usize = 10_000;
 
 /// The law of a Python object with `response(strain, variables)`.
 pub(crate) fn uniaxial_material(object: &Bound<'_, PyAny>) -> PyResult<Arc<dyn UniaxialMaterial>> {
@@ -55,71 +53,45 @@ impl fmt::Debug for UserUniaxialMaterial {
 
 impl UserUniaxialMaterial {
     fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        for method in REQUIRED_METHODS {
-            if !object.hasattr(method)? {
-                return Err(input_error(format!("the {PART_NAME} has no method `{method}`")));
-            }
-        }
-        let user_object = UserObject::new(object, PART_NAME, &OPTIONAL_METHODS)?;
+        let user_object =
+            UserObject::with_required(object, PART_NAME, &REQUIRED_METHODS, &OPTIONAL_METHODS)?;
         let modulus = object
             .getattr_opt("modulus")?
             .ok_or_else(|| input_error(format!("the {PART_NAME} has no `modulus` (Pa)")))?;
         let modulus = real_number("modulus of the law of a fibre", &modulus)?;
-        let name = "variable_count of the law of a fibre";
-        let variable_count = match object.getattr_opt("variable_count")? {
-            Some(count) => extract_returned::<Count>(name, &count)?.0,
-            None => 0,
-        };
-        if variable_count > MAX_VARIABLE_COUNT {
-            return Err(input_error(format!(
-                "{name} is {variable_count}, but must be {MAX_VARIABLE_COUNT} or less"
-            )));
-        }
-        if variable_count == 0 && user_object.has("commit") {
-            let text = "but no `variable_count`, the number of values that it returns";
-            return Err(input_error(format!("the {PART_NAME} has `commit`, {text}")));
-        }
+        let variable_count = user_object.variable_count(object.py())?;
         let mut law =
             Self { object: user_object, modulus, initial_variables: vec![0.0; variable_count] };
         if law.object.has("initialize") {
             let value = object.call_method0("initialize")?;
-            law.initial_variables = law.numbers("initialize", &value, variable_count)?;
+            law.initial_variables = law.object.numbers("initialize", &value, variable_count)?;
         }
         Ok(law)
     }
 
-    /// Numbers that a method returned for a strain and internal variables, as many as `expected_count` and finite.
-    fn call(
+    /// Value that a method returns for a strain and internal variables.
+    fn call<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        strain: f64,
+        variables: &[f64],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let variables = PyArray1::from_slice(py, variables);
+        self.object.bind(py).call_method1(method, (strain, variables))
+    }
+
+    /// Two finite numbers that a method returns for a strain and internal variables.
+    fn call_pair(
         &self,
         py: Python<'_>,
         method: &str,
         strain: f64,
         variables: &[f64],
-        expected_count: usize,
-    ) -> PyResult<Vec<f64>> {
-        let variables = PyArray1::from_slice(py, variables);
-        let value = self.object.bind(py).call_method1(method, (strain, variables))?;
-        self.numbers(method, &value, expected_count)
-    }
-
-    /// Numbers that a method returned, as many as `expected_count` and finite.
-    fn numbers(
-        &self,
-        method: &str,
-        value: &Bound<'_, PyAny>,
-        expected_count: usize,
-    ) -> PyResult<Vec<f64>> {
-        let Numbers(numbers) = extract_returned(&format!("{method} of the {PART_NAME}"), value)?;
-        let shape = format!("({},)", numbers.len());
-        let expected_shape = format!("({expected_count},)");
-        let numbers =
-            self.object.checked_shape(method, "an array", numbers, &shape, &expected_shape)?;
-        match numbers.iter().find(|number| !number.is_finite()) {
-            Some(number) => Err(input_error(format!(
-                "{method} of the {PART_NAME} returned {number}, but must return finite numbers"
-            ))),
-            None => Ok(numbers),
-        }
+    ) -> PyResult<[f64; 2]> {
+        let value = self.call(py, method, strain, variables)?;
+        let numbers = self.object.numbers(method, &value, 2)?;
+        Ok([numbers[0], numbers[1]])
     }
 }
 
@@ -138,30 +110,21 @@ impl UniaxialMaterial for UserUniaxialMaterial {
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
         self.object.try_call(|py| {
-            let numbers = self.call(py, "response", strain, variables, 2)?;
-            Ok(UniaxialResponse { stress: numbers[0], tangent: numbers[1] })
+            let [stress, tangent] = self.call_pair(py, "response", strain, variables)?;
+            Ok(UniaxialResponse { stress, tangent })
         })
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
         self.object.try_call(|py| {
-            let numbers = self.call(py, "energy", strain, variables, 2)?;
-            Ok(InternalEnergy { stored: numbers[0], dissipated: numbers[1] })
+            let [stored, dissipated] = self.call_pair(py, "energy", strain, variables)?;
+            Ok(InternalEnergy { stored, dissipated })
         })
     }
 
-    /// After an exception the variables are unchanged.
     fn commit(&self, strain: f64, variables: &mut [f64]) {
-        if !self.object.has("commit") {
-            return;
-        }
-        let variable_count = variables.len();
-        let committed_variables =
-            Python::attach(|py| self.call(py, "commit", strain, variables, variable_count));
-        match committed_variables {
-            Ok(committed_variables) => variables.copy_from_slice(&committed_variables),
-            // The step is already accepted: the exception ends the run after it.
-            Err(exception) => store_exception(exception),
-        }
+        self.object.commit_variables(variables, |py, previous_variables| {
+            self.call(py, "commit", strain, previous_variables)
+        });
     }
 }

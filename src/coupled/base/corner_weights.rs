@@ -1,6 +1,7 @@
 //! Weights of the corners of a face in the displacement of a point.
 
 use crate::bem::plan::faces::side;
+use crate::geometry::cross_in_plane;
 
 /// Largest number of Newton steps to the coordinates of a point in a quadrilateral.
 ///
@@ -118,9 +119,9 @@ impl Quadrilateral {
         let [b, c, d] = self.0;
         let twist = [0, 1].map(|k| c[k] - b[k] - d[k]);
         // Coefficients of t², t and 1.
-        let quadratic = -cross(d, twist);
-        let linear = cross(p, twist) - cross(d, b);
-        let constant = cross(p, b);
+        let quadratic = -cross_in_plane(d, twist);
+        let linear = cross_in_plane(p, twist) - cross_in_plane(d, b);
+        let constant = cross_in_plane(p, b);
         let root = linear.mul_add(linear, -4.0 * quadratic * constant).max(0.0).sqrt();
         // The two roots are q/quadratic and constant/q, without cancellation (Press et al. 2007, § 5.6).
         let q = -0.5 * (linear + root.copysign(linear));
@@ -139,11 +140,6 @@ impl Quadrilateral {
         let is_finite = coordinates.iter().all(|x| x.is_finite());
         is_finite.then(|| coordinates.map(|x| x.clamp(0.0, 1.0)))
     }
-}
-
-/// Cross product of two vectors in a plane.
-fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 /// Derivatives of [`bilinear_weights`] with respect to s and to t.

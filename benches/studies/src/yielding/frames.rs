@@ -1,27 +1,22 @@
 //! Checks of frames of fibres: energies of random ones.
 
 use basemat_problems::fiber_frames::{FrameLaw, RandomFrame, random_frame};
-use basemat_problems::yielding_blocks::block_energies;
 
 use super::check::{Check, Limit};
+use super::run_counts::{RunCounts, larger};
 
 const FRAME_COUNT: u64 = 100;
 const SHORT_FRAME_COUNT: u64 = 10;
 const BALANCE_LIMIT: f64 = 1e-9;
 /// Largest decrease of the dissipation of bilinear steel, relative to the largest energy.
 const DECREASE_LIMIT: f64 = 1e-12;
-/// The same of other laws, whose stored energy is that of a straight unloading line.
+/// Largest decrease of the dissipation of other laws, whose stored energy assumes a straight unloading line.
 const CURVED_DECREASE_LIMIT: f64 = 1e-2;
 
 /// Counts and largest errors of random frames.
 #[derive(Debug, Default)]
 struct RandomFrameCounts {
-    refused: usize,
-    failed: usize,
-    yielded: usize,
-    /// Runs whose second half is not the same after resuming.
-    changed: usize,
-    residual: f64,
+    runs: RunCounts,
     /// Largest decreases of the dissipation in a step, of bilinear steel and of other laws.
     decrease: f64,
     curved_decrease: f64,
@@ -30,37 +25,15 @@ struct RandomFrameCounts {
 impl RandomFrameCounts {
     fn add(&mut self, frame: RandomFrame) {
         let RandomFrame { simulation, law, text } = frame;
-        let mut simulation = match simulation {
-            Ok(simulation) => simulation,
-            Err(error) => {
-                println!("refused: {text}: {error}");
-                self.refused += 1;
-                return;
-            }
-        };
-        match block_energies(&mut simulation) {
-            Ok(energies) => {
-                self.residual = larger(self.residual, energies.residual);
-                let decrease = if law == FrameLaw::Bilinear {
-                    &mut self.decrease
-                } else {
-                    &mut self.curved_decrease
-                };
-                *decrease = larger(*decrease, -energies.min_dissipation);
-                self.yielded += usize::from(energies.yields);
-                self.changed += usize::from(!energies.resumes);
-            }
-            Err(error) => {
-                println!("failed: {text}: {error}");
-                self.failed += 1;
-            }
+        if let Some(energies) = self.runs.energies(simulation, &text) {
+            let decrease = if law == FrameLaw::Bilinear {
+                &mut self.decrease
+            } else {
+                &mut self.curved_decrease
+            };
+            *decrease = larger(*decrease, -energies.min_dissipation);
         }
     }
-}
-
-/// The larger of two numbers, or NaN if the second one is NaN.
-fn larger(one: f64, other: f64) -> f64 {
-    if other.is_nan() || other > one { other } else { one }
 }
 
 /// Energies of random frames that yield, lift off and slide.
@@ -70,13 +43,13 @@ pub(super) fn checks(is_short: bool) -> Vec<Check> {
     for seed in 0..frame_count {
         counts.add(random_frame(seed));
     }
-    let RandomFrameCounts { refused, failed, yielded, changed, .. } = counts;
+    let RunCounts { refused, failed, yielded, changed, residual } = counts.runs;
     let name = format!("{frame_count} random frames of fibres that yield, lift off and slide");
     vec![
         Check::new(
             format!("{name}: residual of the energy balance"),
             "remainder by fibres, or of the whole element",
-            counts.residual,
+            residual,
             Limit::AtMost(BALANCE_LIMIT),
         )
         .with_remark(format!("{yielded} yield")),

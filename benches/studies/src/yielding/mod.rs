@@ -11,6 +11,7 @@ mod elements;
 mod frames;
 mod laws;
 mod rotations;
+mod run_counts;
 mod runs;
 mod strips;
 

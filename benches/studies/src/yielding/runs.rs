@@ -1,11 +1,12 @@
 //! Checks of runs: a soil column, energies of random scenes, and errors by the time step.
 
 use basemat::Result;
-use basemat_problems::yielding_blocks::{YieldingScene, block_energies, random_scene};
+use basemat_problems::yielding_blocks::{YieldingScene, random_scene};
 use basemat_problems::yielding_column::{clay, response};
 use basemat_problems::yielding_convergence::step_errors;
 
 use super::check::{Check, Limit};
+use super::run_counts::{RunCounts, larger};
 
 const COLUMN_ROWS: usize = 40;
 const COLUMN_TIME_STEP: f64 = 0.005;
@@ -80,13 +81,8 @@ fn column_checks() -> Result<Vec<Check>> {
 /// Counts and largest errors of random scenes.
 #[derive(Debug, Default)]
 struct RandomBlockCounts {
-    refused: usize,
-    failed: usize,
-    yielded: usize,
+    runs: RunCounts,
     associated: usize,
-    /// Runs whose second half is not the same after resuming.
-    changed: usize,
-    residual: f64,
     /// Largest decreases of dissipation and of the remainder (ψ = φ) in a step, relative to the largest energy.
     dissipation_decrease: f64,
     remainder_decrease: f64,
@@ -95,38 +91,15 @@ struct RandomBlockCounts {
 impl RandomBlockCounts {
     fn add(&mut self, scene: YieldingScene) {
         let YieldingScene { simulation, is_associated, text } = scene;
-        let mut simulation = match simulation {
-            Ok(simulation) => simulation,
-            Err(error) => {
-                println!("refused: {text}: {error}");
-                self.refused += 1;
-                return;
-            }
-        };
-        match block_energies(&mut simulation) {
-            Ok(energies) => {
-                self.residual = larger(self.residual, energies.residual);
-                self.dissipation_decrease =
-                    larger(self.dissipation_decrease, -energies.min_dissipation);
-                if is_associated {
-                    self.associated += 1;
-                    self.remainder_decrease =
-                        larger(self.remainder_decrease, -energies.min_remainder);
-                }
-                self.yielded += usize::from(energies.yields);
-                self.changed += usize::from(!energies.resumes);
-            }
-            Err(error) => {
-                println!("failed: {text}: {error}");
-                self.failed += 1;
+        if let Some(energies) = self.runs.energies(simulation, &text) {
+            self.dissipation_decrease =
+                larger(self.dissipation_decrease, -energies.min_dissipation);
+            if is_associated {
+                self.associated += 1;
+                self.remainder_decrease = larger(self.remainder_decrease, -energies.min_remainder);
             }
         }
     }
-}
-
-/// The larger of two numbers, or NaN if the second one is NaN.
-fn larger(one: f64, other: f64) -> f64 {
-    if other.is_nan() || other > one { other } else { one }
 }
 
 /// Energies of random blocks that yield, lift off and slide.
@@ -135,13 +108,14 @@ fn scene_checks(scene_count: u64) -> Vec<Check> {
     for seed in 0..scene_count {
         counts.add(random_scene(seed));
     }
-    let RandomBlockCounts { refused, yielded, associated, .. } = counts;
+    let RunCounts { refused, failed, yielded, changed, residual } = counts.runs;
+    let associated = counts.associated;
     let name = format!("{scene_count} random blocks that yield, lift off and slide");
     vec![
         Check::new(
             format!("{name}: residual of the energy balance"),
             "remainder from its formula",
-            counts.residual,
+            residual,
             Limit::AtMost(BALANCE_LIMIT),
         )
         .with_remark(format!("{yielded} yield")),
@@ -161,7 +135,7 @@ fn scene_checks(scene_count: u64) -> Vec<Check> {
         Check::new(
             format!("{name}: runs that fail, or differ after resuming"),
             "none",
-            (counts.failed + counts.changed) as f64,
+            (failed + changed) as f64,
             Limit::AtMost(0.0),
         ),
         Check::new(

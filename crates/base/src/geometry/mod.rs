@@ -20,6 +20,11 @@ pub const COMPONENTS_IN_PLANE: usize = 2;
 /// Number of components of a traction on an element in plan: down, along x, along y.
 pub const COMPONENTS_IN_SPACE: usize = 3;
 
+/// Cross product of two vectors in a plane: the component along its normal.
+pub fn cross_in_plane(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
 /// Order of the entries of a contact vector: component by component, each over all elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ContactLayout {

@@ -2,7 +2,7 @@
 
 use super::DofCombination;
 use crate::error::{Result, at_least, finite, in_bounds, require};
-use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, span};
+use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, cross_in_plane, span};
 
 /// Largest relative difference of displacements, heights or distances from a line because of rounding.
 const FLATNESS_TOLERANCE: f64 = 1e-9;
@@ -199,7 +199,7 @@ impl BaseNode {
         }
         let axis = offsets[second].map(|x| x / length);
         let LargestValue { value: width, index: third } =
-            largest_value(offsets.iter().map(|offset| cross_product(axis, *offset).abs()));
+            largest_value(offsets.iter().map(|offset| cross_in_plane(axis, *offset).abs()));
         let is_line = width <= FLATNESS_TOLERANCE * length;
         let corners = [first_corner, &nodes[second], &nodes[third]];
         nodes.iter().zip(&offsets).all(|(node, offset)| {
@@ -207,7 +207,7 @@ impl BaseNode {
             let third_weight = if is_line {
                 0.0
             } else {
-                cross_product(axis, *offset) / cross_product(axis, third_offset)
+                cross_in_plane(axis, *offset) / cross_in_plane(axis, third_offset)
             };
             let x = offset[0] - third_weight * third_offset[0];
             let y = offset[1] - third_weight * third_offset[1];
@@ -305,11 +305,6 @@ fn largest_value(values: impl Iterator<Item = f64>) -> LargestValue {
 struct LargestValue {
     value: f64,
     index: usize,
-}
-
-/// Cross product of two vectors in a plane: the component along its normal.
-fn cross_product(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 /// Largest magnitude of a weight.

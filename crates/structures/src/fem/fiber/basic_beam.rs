@@ -127,7 +127,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     /// Basic forces and tangent at basic deformations v.
     ///
     /// # Errors
-    /// Those of fibres, and [`Error::Scene`] for a force-based element whose iterations do not converge.
+    /// Errors of fibres, and [`Error::Scene`] for a force-based element whose iterations do not converge.
     pub(in crate::fem) fn state(
         &self,
         v: &[f64; B],
@@ -287,7 +287,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     /// Energy of a state, J.
     ///
     /// # Errors
-    /// Those of fibres.
+    /// Errors of fibres.
     pub(in crate::fem) fn energy(
         &self,
         state: &BasicState<N, B>,
@@ -309,10 +309,10 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     /// Work inside a step that is neither stored nor dissipated, J; `states` at its start, mid-step and end.
     ///
     /// `increment`: change of the basic deformations from start to end. Sections of a force-based element do not follow
-    /// straight paths, so that their remainder is that of the whole element, by its definition.
+    /// straight paths. Its remainder is therefore that of the whole element, by the definition.
     ///
     /// # Errors
-    /// Those of fibres.
+    /// Errors of fibres.
     pub(in crate::fem) fn remainder(
         &self,
         states: [&BasicState<N, B>; 3],
@@ -339,7 +339,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     /// Deformations, resultants and fibres of each section.
     ///
     /// # Errors
-    /// Those of fibres.
+    /// Errors of fibres.
     pub(in crate::fem) fn section_states(
         &self,
         state: &BasicState<N, B>,

@@ -120,7 +120,7 @@ impl Concrete {
         }
     }
 
-    /// Overwrites the variables by those of a largest compressive strain.
+    /// Overwrites the variables by their values at a largest compressive strain.
     fn write(&self, max_compression: f64, variables: &mut [f64]) {
         let Unloading { residual_strain, slope } = self.unloading(max_compression);
         let dissipated = self.dissipated(max_compression);

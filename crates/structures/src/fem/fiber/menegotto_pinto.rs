@@ -48,7 +48,7 @@ pub struct MenegottoPinto {
     isotropic_hardening: [f64; 4],
 }
 
-/// Logarithm of a power below which its sum with one is one.
+/// Smallest logarithm of a power that changes its sum with one; smaller powers count as zero.
 const MIN_POWER_LOGARITHM: f64 = -40.0;
 
 /// Direction of loading since the last reversal.

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use super::convex_set::{ClosestPoint, ConvexSet};
 use super::ellipse::Ellipse;
 use super::parabola::DoubleParabola;
-use super::polygon::{Polygon, cross, difference};
+use super::polygon::{Polygon, difference};
 use crate::error::{Result, at_least, first_not_finite, positive, require, require_part};
+use crate::geometry::cross_in_plane;
 
 /// Sine of the angle by which rounding may bend a straight corner of a polygon inwards.
 const MAX_INWARD_SINE: f64 = 1e-12;
@@ -104,9 +105,9 @@ impl AxialMomentSurface {
         let unit_corners: Vec<[f64; 2]> =
             corners.iter().map(|corner| [0, 1].map(|k| corner[k] / largest[k])).collect();
         let unit_polygon = Polygon { corners: unit_corners };
-        let angles = unit_polygon
-            .sides()
-            .map(|[start, end]| cross(start, end).atan2(start[0] * end[0] + start[1] * end[1]));
+        let angles = unit_polygon.sides().map(|[start, end]| {
+            cross_in_plane(start, end).atan2(start[0] * end[0] + start[1] * end[1])
+        });
         let total_angle: f64 = angles.sum();
         let is_once_around = (total_angle.abs() - TAU).abs() < MAX_ANGLE_ERROR;
         let needed = "a polygon once around N = 0, M = 0";
@@ -118,7 +119,7 @@ impl AxialMomentSurface {
             let before = sides[(index + sides.len() - 1) % sides.len()];
             let along_before = difference(before[1], before[0]);
             let lengths = along[0].hypot(along[1]) * along_before[0].hypot(along_before[1]);
-            let bend = sense * cross(along_before, along) / lengths;
+            let bend = sense * cross_in_plane(along_before, along) / lengths;
             require(
                 "sine of the outward bend",
                 bend,
@@ -126,7 +127,7 @@ impl AxialMomentSurface {
                 "not negative (a convex polygon)",
             )
             .map_err(|fault| fault.within(item(index)))?;
-            let surrounds_zero = sense * cross(*start, *end) > 0.0;
+            let surrounds_zero = sense * cross_in_plane(*start, *end) > 0.0;
             require_part("yield surface of the hinge", surrounds_zero, needed)?;
         }
         let mut corners = corners.to_vec();

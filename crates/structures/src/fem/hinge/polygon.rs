@@ -1,6 +1,7 @@
 //! Convex polygon about zero.
 
 use super::convex_set::{BOUNDARY_ROUNDING, ClosestPoint, ConvexSet, curve_derivative};
+use crate::geometry::cross_in_plane;
 
 /// Convex polygon with its corners counter-clockwise.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +22,7 @@ impl ConvexSet<2> for Polygon {
         let size = self.corners.as_flattened().iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         let is_outside = self.sides().any(|[start, end]| {
             let along = difference(end, start);
-            cross(along, difference(*trial, start))
+            cross_in_plane(along, difference(*trial, start))
                 < -BOUNDARY_ROUNDING * size * along[0].hypot(along[1])
         });
         if !is_outside {
@@ -56,9 +57,4 @@ impl ConvexSet<2> for Polygon {
 
 pub(super) fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
-}
-
-/// Positive if `b` lies to the left of `a`.
-pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
