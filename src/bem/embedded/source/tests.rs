@@ -2,6 +2,7 @@ use super::*;
 use crate::bem::embedded::Trench;
 use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
+use crate::error::ProgressReporter;
 use crate::history::PairClasses;
 use crate::soil::{GeneralizedMaxwell, KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
@@ -276,5 +277,35 @@ fn rigid_body_has_the_static_impedance() {
         (stiffness[2][0], expected[3]),
     ] {
         assert!((computed - expected).abs() < 1e-9 * stiffness[2][2], "{computed} {expected}");
+    }
+}
+
+/// Rational functions through samples have the weights of finite elements at each point of the quadrature.
+///
+/// Errors are relative to the largest weight of a pair and kind.
+#[test]
+fn rational_functions_give_the_weights_of_all_points() {
+    for (ground, profile) in grounds_of_table().into_iter().enumerate() {
+        let elements = Trench::new(-12.0..12.0, 6.0).unwrap().elements(4, 2).unwrap();
+        let soil = TrenchSoil::new(profile, elements).unwrap();
+        let source = TrenchSource { soil, stages: None, file: None };
+        let rational = source.weights(0.01).unwrap();
+        let mut direct = source.weights(0.01).unwrap();
+        direct.quadrature.integrals = TrenchPairs::new(source.soil.clone(), ELEMENT_DEGREE);
+        rational.check_passivity(&mut ProgressReporter::unobserved()).unwrap();
+        let node_count = rational.quadrature.integrals.node_count();
+        assert!(node_count.is_some_and(|count| count < 120), "{ground}: {node_count:?}");
+        let mut max_error = 0.0_f64;
+        for class in 0..rational.classes.count() {
+            let pairs = lags(&rational, class).into_iter().zip(lags(&direct, class));
+            for (kind, (computed, expected)) in pairs.enumerate() {
+                let largest = expected.iter().fold(0.0_f64, |largest, lag| largest.max(lag.abs()));
+                let differences = computed.iter().zip(&expected).map(|(a, b)| (a - b).abs());
+                let error = differences.fold(0.0, f64::max) / largest;
+                assert!(error < 1e-8, "{ground}, {class}, {kind}: {error:e}");
+                max_error = max_error.max(error);
+            }
+        }
+        println!("{ground}: {node_count:?} nodes, {max_error:e}");
     }
 }
