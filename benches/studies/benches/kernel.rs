@@ -43,12 +43,12 @@ fn kernels(criterion: &mut Criterion) {
         b.iter(|| kernel.coefficients(strip[19], strip[0], black_box(300)));
     });
     group.finish();
-    let full = FullPlane::new(soil);
+    let full_plane = FullPlane::new(soil);
     criterion.bench_function("full-plane displacement", |b| {
-        b.iter(|| full.displacement(black_box([0.7, 0.4]), 2.0, LoadHistory::Step));
+        b.iter(|| full_plane.displacement(black_box([0.7, 0.4]), 2.0, LoadHistory::Step));
     });
     criterion.bench_function("full-plane traction", |b| {
-        b.iter(|| full.traction(black_box([0.7, 0.4]), [0.0, 1.0], 2.0, LoadHistory::Step));
+        b.iter(|| full_plane.traction(black_box([0.7, 0.4]), [0.0, 1.0], 2.0, LoadHistory::Step));
     });
 }
 

@@ -78,12 +78,12 @@ fn moment_checks(half_elements: usize) -> Result<Vec<Check>> {
     ];
     if half_elements > CYCLE_HALF_ELEMENTS {
         let reference = "(N B/2)(1 − N/N_u) at 0.06 rad";
-        let smallest = last_moments.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = last_moments.iter().copied().fold(0.0, f64::max);
+        let min_moment = last_moments.iter().copied().fold(f64::INFINITY, f64::min);
+        let max_magnitude = last_moments.iter().copied().fold(0.0, f64::max);
         let lower_limit = Limit::AtLeast(CAPACITY_LIMITS[0]);
         let upper_limit = Limit::AtMost(CAPACITY_LIMITS[1]);
-        checks.push(Check::new(format!("{name}: smallest"), reference, smallest, lower_limit));
-        checks.push(Check::new(format!("{name}: largest"), reference, largest, upper_limit));
+        checks.push(Check::new(format!("{name}: smallest"), reference, min_moment, lower_limit));
+        checks.push(Check::new(format!("{name}: largest"), reference, max_magnitude, upper_limit));
     }
     Ok(checks)
 }
@@ -159,10 +159,10 @@ fn table(cycles: &[SlowCycles]) -> String {
 fn cycle_checks(cycles: &[SlowCycles]) -> Vec<Check> {
     let name =
         format!("slow cycles of rotation, ±{CYCLE_AMPLITUDE} rad, F = {CYCLE_SAFETY_FACTORS:?}");
-    let last = CYCLE_COUNT - 1;
-    let settlements: Vec<f64> = cycles.iter().map(|run| run.settlement(last)).collect();
+    let last_cycle = CYCLE_COUNT - 1;
+    let settlements: Vec<f64> = cycles.iter().map(|run| run.settlement(last_cycle)).collect();
     let smallest_ratio = settlements.windows(2).map(|pair| pair[0] / pair[1]);
-    let moment_ratios = cycles.iter().map(|run| run.peak_moment(last) / run.peak_moment(0));
+    let moment_ratios = cycles.iter().map(|run| run.peak_moment(last_cycle) / run.peak_moment(0));
     vec![
         Check::new(
             format!(
