@@ -127,9 +127,10 @@ impl TimeColumn {
         }
         // Steps that drift slowly pass the test above.
         for (k, &time) in times.iter().enumerate() {
-            let expected = times[0] + k as f64 * mean_step;
-            if (time - expected).abs() > TIME_STEP_TOLERANCE * mean_step {
-                let fault = unequal_time_step(rounded_decimal(time), rounded_decimal(expected));
+            let expected_time = times[0] + k as f64 * mean_step;
+            if (time - expected_time).abs() > TIME_STEP_TOLERANCE * mean_step {
+                let fault =
+                    unequal_time_step(rounded_decimal(time), rounded_decimal(expected_time));
                 return Err((line_numbers[k], self.unequal_steps(mean_step, fault)));
             }
         }
@@ -153,7 +154,7 @@ impl TimeColumn {
             min_step = min_step.min(pair[1] - pair[0]);
             max_step = max_step.max(pair[1] - pair[0]);
         }
-        // Either two times have the same last digit, or each step has several units of the last digit.
+        // Either two successive times are equal, or each step has several units of the last digit.
         let has_equal_times = mean_step > 0.0 && min_step == 0.0 && resolution < 1.0;
         let has_coarse_steps = mean_step > MIN_ROUNDED_STEP_DIGITS * resolution;
         if !(has_equal_times || has_coarse_steps) || max_step - min_step > tolerance {
@@ -194,9 +195,10 @@ mod tests {
             assert!((time - expected).abs() < 1e-12, "{time} {expected}");
         }
         assert_eq!(clock.resolution(), Some(0.01));
-        for bad in ["12:00", "1:2:3:4", "12:00:x", "12:00:-1", "12:+1:10", "12:00:99", ":", "a:b:c"]
+        for invalid_text in
+            ["12:00", "1:2:3:4", "12:00:x", "12:00:-1", "12:+1:10", "12:00:99", ":", "a:b:c"]
         {
-            assert_eq!(Clock::default().read(bad), None, "{bad}");
+            assert_eq!(Clock::default().read(invalid_text), None, "{invalid_text}");
         }
     }
 }
