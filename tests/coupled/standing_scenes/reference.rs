@@ -234,9 +234,9 @@ impl Reference {
         let load: Vec<f64> = self.weight.iter().map(|force| factor * force).collect();
         let displacement = solve(&matrix, &load);
         let pressures = multiply(&tractions, &displacement);
-        let element_of_least_pressure =
+        let min_pressure_element =
             (0..closed_elements.len()).min_by(|&i, &j| pressures[i].total_cmp(&pressures[j]));
-        if let Some(index) = element_of_least_pressure
+        if let Some(index) = min_pressure_element
             && pressures[index] < -1e-9 * largest_absolute(&pressures)
         {
             return Some(SetChange::Open(index));
