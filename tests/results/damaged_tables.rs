@@ -89,7 +89,7 @@ fn every_damaged_byte_is_an_error() {
             match sweep(3).merge([&path]) {
                 Ok(merged) => assert_eq!(merged, table, "byte {place}, bit {bit}"),
                 Err(Error::File(_) | Error::Sweep(_) | Error::DuplicateName { .. }) => {
-                    error_count += 1
+                    error_count += 1;
                 }
                 Err(error) => panic!("byte {place}, bit {bit}: {error}"),
             }

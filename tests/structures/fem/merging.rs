@@ -120,22 +120,22 @@ fn dofs_at(model: &FemModel, place: [f64; 3]) -> Vec<usize> {
 fn merged_meshes_are_those_on_common_nodes() {
     for (depth, (parts, makes)) in [(true, in_space()), (false, in_plane())] {
         let MeshPair { common, mut separate_mesh } = MeshPair::new(&parts, &makes, depth);
-        let before = separate.nodes().len();
+        let before = separate_mesh.nodes().len();
         assert!(before > common.nodes().len() + 5);
-        let merged = separate.merge_nodes(1e-3).unwrap();
+        let merged = separate_mesh.merge_nodes(1e-3).unwrap();
         assert_eq!(
-            (merged.count, separate.nodes().len()),
+            (merged.count, separate_mesh.nodes().len()),
             (before - common.nodes().len(), common.nodes().len())
         );
         assert_eq!(
-            (merged.indices.len(), separate.elements().len()),
+            (merged.indices.len(), separate_mesh.elements().len()),
             (before, common.elements().len())
         );
         // A second merge finds no pair.
-        assert_eq!(separate.clone().merge_nodes(1e-3).unwrap().count, 0);
+        assert_eq!(separate_mesh.clone().merge_nodes(1e-3).unwrap().count, 0);
         // Element types are kept, so that forces of beams and shells can be computed.
         let expected_model = FemModel::on_base(common).unwrap();
-        let merged_model = FemModel::on_base(separate).unwrap();
+        let merged_model = FemModel::on_base(separate_mesh).unwrap();
         assert_eq!(expected_model.dofs(), merged_model.dofs());
         for &place in &parts.0 {
             // Nodes come in another order.
