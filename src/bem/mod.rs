@@ -73,7 +73,7 @@ use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::Patch;
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
-use crate::soil::Soil;
+use crate::soil::{Soil, WaterTable};
 
 /// Ground under the base; implement this trait for your ground.
 ///
@@ -286,6 +286,10 @@ pub struct GroundDescription {
     /// A run warns of wall pressures beyond the soil's resistance:
     /// [`Warning::WallPressure`](crate::coupled::Warning::WallPressure).
     pub mass_above: Vec<f64>,
+    /// Water table in the soil; `None` without water.
+    ///
+    /// Pressures at rest and masses above are then effective, without the water.
+    pub water_table: Option<WaterTable>,
     /// Numbers that identify the soils around walls, equal only for equal soils; `None` without them.
     ///
     /// `build` compares them with [`FreeField::soils`].
