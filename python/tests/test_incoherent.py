@@ -70,9 +70,11 @@ def test_functions_are_the_models_that_they_compute(make: object) -> None:
         return WAVES.between(frequency, (0.0, 0.0), separation)
 
     places = centers(ground)[:3]
-    expected = bm.Incoherence(WAVES, seed=3).motion(ground, x=RECORD)
+    # Beside the axes of symmetry: pivots of equal size could be taken in another order.
+    reference = (1.3, 0.7)
+    expected = bm.Incoherence(WAVES, seed=3, reference=reference).motion(ground, x=RECORD)
     for coherence in (bm.CoherenceFn(between), bm.CoherenceFn(of_separation=of_separation)):
-        motion = bm.Incoherence(coherence, seed=3).motion(ground, x=RECORD)
+        motion = bm.Incoherence(coherence, seed=3, reference=reference).motion(ground, x=RECORD)
         for x, y in places:
             assert np.allclose(
                 motion.displacement_at(x, y, 9.0), expected.displacement_at(x, y, 9.0), rtol=1e-9, atol=1e-12
@@ -91,7 +93,7 @@ def test_no_incoherence_is_the_coherent_run() -> None:
         runs = []
         for field in (motion, coherent):
             simulation = bm.Simulation(0.01, structure, ground, bm.Coulomb(0.5), motion=field)  # type: ignore[arg-type]
-            runs.append(simulation.run(700)["base_shear"])
+            runs.append(simulation.run(700, warn=False)["base_shear"])
         assert np.abs(runs[0] - runs[1]).max() < 1e-12 * np.abs(runs[1]).max()
 
 

@@ -17,7 +17,7 @@ use crate::ground::PyGround;
 ///
 /// ``coherence``: a `Coherence` of the motions at two points. ``vertical``: that of the vertical motion; the same unless
 /// given. ``apparent_velocity`` (m/s) and ``azimuth`` (rad, counter-clockwise from x as seen from above; 0 by default): of a
-/// wave that passes, which delays each element; without it all elements move at once, unless given. ``reference``: the point
+/// wave that passes, which delays each element; all elements move at once unless given. ``reference``: the point
 /// (x and y, m) that moves as the records; the middle of the base unless given. ``bandwidth``: interval between frequencies
 /// with independent phases, Hz; 0.5 by default. ``seed``: number of the sample; 0 by default. The same seed gives the same
 /// motion on every machine. ``clipped``: whether negative eigenvalues of the coherence are replaced by zero instead of being
