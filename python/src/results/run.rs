@@ -149,19 +149,6 @@ impl PyRun {
         self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
     }
 
-    /// Upward force of the water on the structure, N/m (in plan N): `WaterTable`. The weight is the effective
-    /// ``static_normal_force`` plus this force.
-    #[getter]
-    fn buoyancy(&self) -> f64 {
-        self.run.buoyancy
-    }
-
-    /// Ratio of the largest base shear to the weight; None if the structure has no weight.
-    #[getter]
-    fn shear_coefficient(&self) -> Option<f64> {
-        self.run.shear_coefficient()
-    }
-
     /// Each foundation separately: list of `Summary`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PySummary> {
