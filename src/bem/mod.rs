@@ -180,7 +180,7 @@ pub trait Ground: Any + Send {
 
     /// Soil and history of the ground, for warnings and pages; nothing by default.
     ///
-    /// `build` uses all fields but the history from one call before [`Ground::prepare`].
+    /// `build` uses all fields but the history from calls before [`Ground::prepare`].
     fn description(&self) -> GroundDescription {
         GroundDescription::default()
     }
