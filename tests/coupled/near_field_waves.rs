@@ -4,7 +4,7 @@
 
 use basemat_problems::near_field_waves::free_field_difference;
 
-/// GOAL: every node within 0.5 % of the largest motion of the surface.
+/// GOAL: the error of every node is below 0.5 % of the largest motion in the box.
 #[test]
 fn every_node_of_the_box_moves_as_the_free_field() {
     for angle in [0.0, 0.35] {

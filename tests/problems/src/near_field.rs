@@ -74,13 +74,13 @@ pub fn probe_series(builder: SimulationBuilder) -> Result<Vec<Vec<f64>>> {
 
 /// Largest difference of two lists, relative to the largest entry of the second one.
 pub fn relative_difference(computed: &[f64], expected: &[f64]) -> f64 {
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut difference = 0.0_f64;
     for (computed, expected) in computed.iter().zip(expected) {
-        largest = largest.max(expected.abs());
+        max_magnitude = max_magnitude.max(expected.abs());
         difference = difference.max((computed - expected).abs());
     }
-    difference / largest
+    difference / max_magnitude
 }
 
 /// The bonded model with probes: top of the block to the right, and a lower corner upwards.

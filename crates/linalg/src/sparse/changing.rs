@@ -267,7 +267,10 @@ impl ChangingFactor {
     ///
     /// `rhs`: the values on the last rows, one right-hand side after the other. On other rows they are zero.
     pub fn solve_on_last_rows(&mut self, rhs: &mut [f64]) {
-        let count = self.last_rows.len().max(1);
+        let count = self.last_rows.len();
+        if count == 0 {
+            return;
+        }
         if self.method == Method::Cholesky && self.last_entries.is_some() {
             solve_by_lower(&self.last_lower, count, rhs);
             return;
@@ -309,12 +312,12 @@ impl ChangingFactor {
 
 /// Overwrites right-hand sides, one after the other, with (L Lᵀ)⁻¹ rhs.
 ///
-/// `lower`: the row-major lower triangle L of this order.
-fn solve_by_lower(lower: &[f64], order: usize, rhs: &mut [f64]) {
-    let lower = MatRef::from_row_major_slice(lower, order, order);
-    let mut rhs = MatMut::from_column_major_slice_mut(rhs, order, rhs.len() / order);
-    solve_lower_triangular_in_place(lower, rhs.rb_mut(), Par::Seq);
-    solve_upper_triangular_in_place(lower.transpose(), rhs, Par::Seq);
+/// `lower_triangle`: L, row-major, of this order.
+fn solve_by_lower(lower_triangle: &[f64], order: usize, rhs: &mut [f64]) {
+    let lower = MatRef::from_row_major_slice(lower_triangle, order, order);
+    let mut right_sides = MatMut::from_column_major_slice_mut(rhs, order, rhs.len() / order);
+    solve_lower_triangular_in_place(lower, right_sides.rb_mut(), Par::Seq);
+    solve_upper_triangular_in_place(lower.transpose(), right_sides, Par::Seq);
 }
 
 impl ReusedFactor {
