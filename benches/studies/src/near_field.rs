@@ -52,8 +52,8 @@ const MAX_STEP_TIME: f64 = 10.0;
 const MAX_TOP_DIFFERENCE: f64 = 0.003;
 const MAX_CORNER_DIFFERENCE: f64 = 0.03;
 const MAX_FREE_FIELD_DIFFERENCE: f64 = 0.005;
-/// Angle of inclined waves, rad.
-const INCLINATION: f64 = 0.35;
+/// Angle of inclined waves from the vertical, rad.
+const WAVE_ANGLE: f64 = 0.35;
 
 /// Size of a scene, and processor times.
 #[derive(Debug, Clone, Copy)]
@@ -147,7 +147,7 @@ fn accuracy() -> Result<bool, AnyError> {
         ("box alone, vertical waves", free_field_difference(0.0)?, MAX_FREE_FIELD_DIFFERENCE),
         (
             "box alone, waves of 0.35 rad",
-            free_field_difference(INCLINATION)?,
+            free_field_difference(WAVE_ANGLE)?,
             MAX_FREE_FIELD_DIFFERENCE,
         ),
     ];
