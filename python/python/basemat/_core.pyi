@@ -1965,14 +1965,6 @@ class Run(Summary):
     def largest_pressure(self) -> Peak | None:
         """Largest pressure of any element, Pa, a `Peak`; None without elements."""
     @property
-    def buoyancy(self) -> float:
-        """Upward force of the water on the structure, N/m (in plan N): `WaterTable`. The weight is the effective
-        ``static_normal_force`` plus this force.
-        """
-    @property
-    def shear_coefficient(self) -> float | None:
-        """Ratio of the largest base shear to the weight; None if the structure has no weight."""
-    @property
     def foundations(self) -> list[Summary]:
         """Each foundation separately: list of `Summary`, from left to right."""
     @property
@@ -2087,6 +2079,14 @@ class Run(Summary):
         each snapshot of the motion; none unless given. ``height`` (m): height of the box that represents a rigid block
         or body, as for `DeformedShape`; None for structures with a shape.
         """
+    @property
+    def buoyancy(self) -> float:
+        """Upward force of the water on the structure, N/m (in plan N): `WaterTable`. The weight is the effective
+        ``static_normal_force`` plus this force.
+        """
+    @property
+    def shear_coefficient(self) -> float | None:
+        """Ratio of the largest base shear to the weight; None if the structure has no weight."""
     def animate(
         self,
         scale: float | None = None,
