@@ -102,6 +102,8 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
     assert wide.cause is None and narrow.cause is None and rotations[0] > 0.01 > 100.0 * rotations[1]
     near_field = ran["near_field"][0]
     assert near_field["moments"]["yielding"] < 1.1 * near_field["capacity"] < 1.5 * near_field["moments"]["linear"]
+    film = ran["law"][0]["film"]
+    assert film.energy_error < 1e-9 and film.energy_balance.contact > 0.5 * film.energy_balance.input
     assert ran["hysteresis"][0]["columns"].path > 0.05 and ran["cask"][0]["run"].uplifted_fraction.value > 0.3
 
 

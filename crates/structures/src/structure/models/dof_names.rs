@@ -57,7 +57,8 @@ pub(super) fn describe(
         Some((node, other))
     });
     if let Some((node, other)) = coincident_pair {
-        let _ = write!(text, "; node {node} lies where node {other} is, but is not merged with it");
+        let place = format!("; node {node} lies where node {other} is");
+        let _ = write!(text, "{place}, but is not merged with it by `Mesh::merge_nodes`");
     }
     Some(text)
 }
