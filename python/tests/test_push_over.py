@@ -220,6 +220,10 @@ def test_errors_name_what_is_wrong() -> None:
     ):
         with pytest.raises(bm.Error, match=message):
             simulation.push_over_by_displacement(*arguments)  # type: ignore[arg-type]
+    body = bm.RigidBody.cuboid(6.0, 6.0, 9.0, 1000.0)
+    in_plan = bm.Simulation(0.01, body, bm.SpringGround.under(body, 4, 5e7, 5e7), bm.Coulomb(0.5))
+    with pytest.raises(bm.InputError, match="controlled degree of freedom of the push-over: must be the load pattern in plan"):
+        in_plan.push_over_by_displacement(0, 4, [0.001])
     tower = Tower()
     of_tower = bm.Simulation(0.01, tower, bm.SpringGround.under(tower.block, 8, 4e7, 3e7), bm.Coulomb(0.7))  # type: ignore[arg-type]
     with pytest.raises(RuntimeError, match="too far"):
