@@ -21,9 +21,6 @@ long="$(find src python tests examples tools -name '*.rs' -o -name '*.py' | xarg
 options=()
 if [[ "$(uname -s)" == Linux ]] && "$programs/pip" install -q ziglang; then
     options=(--zig --compatibility manylinux2014)
-    # Maturin names the machine to Zig: Rust's programs of the tests then take the same compiled crates.
-    CARGO_BUILD_TARGET="$(rustc -vV | sed -n 's/^host: //p')"
-    export CARGO_BUILD_TARGET
 fi
 # One build for the tests and to be given away.
 PATH="$programs:$PATH" "$programs/maturin" build --release --locked ${options[@]+"${options[@]}"} --out "$CARGO_TARGET_DIR/wheels" \
