@@ -1727,10 +1727,10 @@ class PushOver:
         """
     @property
     def uplifted_fraction(self) -> NDArray[np.float64]:
-        """Areas of open elements over the area of the base: array of shape (states,), ratios."""
+        """Areas of open elements over the area of the base: array of shape (states,), each a ratio."""
     @property
     def sliding_fraction(self) -> NDArray[np.float64]:
-        """Areas of elements that slide against friction over the area of the base: array of shape (states,), ratios."""
+        """Areas of elements that slide against friction over the area of the base: array of shape (states,), each a ratio."""
     @property
     def base_shear(self) -> NDArray[np.float64]:
         """Horizontal forces on the soil along x: array of shape (states,), N/m, in plan N."""
@@ -4045,7 +4045,8 @@ class FiberSection:
         counts: Sequence[Sequence[int]],
         material: _FiberLaw,
     ) -> FiberSection:
-        """Adds an I-section as `with_i_section` does, cut along y and z, for beams in space.
+        """Adds an I-section of a ``material``, cut along y and along z, for beams in space; ``sizes`` and ``thicknesses`` are as for
+        `with_i_section`.
 
         ``counts``: fibres along y and along z of each flange, then of the web (array of shape (2, 2)).
         """
@@ -4062,8 +4063,8 @@ class FiberSection:
 class GmshSpaceMesh:
     """A mesh in space from a file of Gmsh.
 
-    It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
-    or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
+    It has points, lines, triangles, quadrilaterals and hexahedra; z points up. ``path``: a file of format 4.1 or 2.2,
+    text or binary. Nodes closer than ``merge_within`` (m) are merged, no nodes unless given.
     """
 
     def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
