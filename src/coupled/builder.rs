@@ -17,7 +17,7 @@ use crate::structure::Probe;
 use crate::structure::Structure;
 
 /// Smallest number of steps that stands for a run without a known end.
-pub(crate) const MIN_ENDLESS_STEPS: usize = match 1_usize.checked_shl(40) {
+pub(crate) const MIN_ENDLESS_STEP_COUNT: usize = match 1_usize.checked_shl(40) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
@@ -250,7 +250,7 @@ impl SimulationBuilder {
     /// steps. A run that ends before the last of the expected steps does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.expected_steps = if steps < MIN_ENDLESS_STEPS { steps } else { 0 };
+        self.expected_steps = if steps < MIN_ENDLESS_STEP_COUNT { steps } else { 0 };
         self
     }
 

@@ -1945,7 +1945,7 @@ class Run(Summary):
         """Largest residual of the energy balance, relative to the largest energy; NaN without an energy balance."""
     @property
     def trials(self) -> int:
-        """Number of linear solves of the search for contact modes."""
+        """Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method."""
     @property
     def fallbacks(self) -> int:
         """Number of steps that the first search method did not solve."""
@@ -3013,7 +3013,7 @@ class State:
         """The `EnergyBalance` since the start."""
     @property
     def trials(self) -> int:
-        """Number of linear solves of the search for contact modes."""
+        """Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method."""
     @property
     def displacement(self) -> NDArray[np.float64]:
         """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
@@ -3997,9 +3997,9 @@ class FiberSection:
 
     It starts without fibres, and each method returns a section with more of them. Positions are y and z in the axes of the
     beam (m), from the line between its nodes; y points to the left of a beam seen from its first node to the second, and a
-    positive curvature stretches the fibres at negative y. Beams in the plane take no notice of z, and their areas are per
-    metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material` or a
-    `UserUniaxialMaterial`.
+    positive curvature stretches the fibres at negative y. Beams in the plane do not depend on z, and their areas are
+    per metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material`
+    or a `UserUniaxialMaterial`.
     """
 
     def __new__(cls) -> Self: ...

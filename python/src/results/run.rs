@@ -191,7 +191,7 @@ impl PyRun {
         self.run.energy_error
     }
 
-    /// Number of linear solves of the search for contact modes.
+    /// Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method.
     #[getter]
     fn trials(&self) -> usize {
         self.run.trials

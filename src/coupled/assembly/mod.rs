@@ -89,9 +89,13 @@ impl SimulationBuilder {
         parts.spread_over_joints(&assembled.base);
         let mut fixed_base = FixedBaseResults::new(&parts, &assembled, fixed_factor)?;
         let shared_compliance = RefCell::default();
-        let static_state =
-            at_rest::solve(&mut parts, &assembled, &mut fixed_base.condensed, &shared_compliance)?;
-        let structures = (&assembled, fixed_base.condensed.as_ref());
+        let static_state = at_rest::solve(
+            &mut parts,
+            &assembled,
+            &mut fixed_base.condensation,
+            &shared_compliance,
+        )?;
+        let structures = (&assembled, fixed_base.condensation.as_ref());
         let coarse_base_warning =
             flexible_base::check(&parts, structures, &static_state, &shared_compliance)?;
         let shifted_stiffness =

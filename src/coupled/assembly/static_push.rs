@@ -110,7 +110,7 @@ impl StaticPush {
     ///
     /// `displacement` is that since the undeformed structure. On an error the state stays the last one.
     pub(crate) fn advance(&mut self, displacement: f64) -> Result<()> {
-        let prescribed = PrescribedDisplacement {
+        let prescribed_displacement = PrescribedDisplacement {
             pattern: &self.pattern,
             control: &self.control,
             displacement,
@@ -125,13 +125,12 @@ impl StaticPush {
             jump_offset: &gaps,
             shared_compliance: &RefCell::default(),
             may_shorten_increments: true,
-            prescribed: Some(&prescribed),
+            prescribed_displacement: Some(&prescribed_displacement),
         };
         let laws = &self.parts.builder.laws;
         let contacts = self.contacts.clone();
-        let found = settle(&problem, laws, contacts, self.state.clone(), &self.constant_load)?;
-        self.state = found.0;
-        self.contacts = found.1;
+        (self.state, self.contacts) =
+            settle(&problem, laws, contacts, self.state.clone(), &self.constant_load)?;
         if let Some(force) = self.parts.structure.nonlinear_mut() {
             force.commit(&self.state.displacement);
         }

@@ -129,13 +129,13 @@ impl NodesOnElement {
     /// Returns an error unless the nodes cover the element.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         // Coordinates along the element's normal and tangent.
-        let local = |node: &BaseNode| element.components([node.x, node.y, node.z]);
+        let local_coordinates = |node: &BaseNode| element.components([node.x, node.y, node.z]);
         let depth = element.components(element.center())[0];
         let tolerance = ON_ELEMENT_TOLERANCE * element.length();
-        let is_on_line = |node: &&BaseNode| (local(node)[0] - depth).abs() <= tolerance;
+        let is_on_line = |node: &&BaseNode| (local_coordinates(node)[0] - depth).abs() <= tolerance;
         let first_node = nodes.iter().position(|node| is_on_line(&node)).unwrap_or(nodes.len());
         let nodes_on_line = nodes[first_node..].iter().take_while(is_on_line);
-        let coordinates = nodes_on_line.map(|node| local(node)[1]).collect();
+        let coordinates = nodes_on_line.map(|node| local_coordinates(node)[1]).collect();
         let nodes_on_element = Self { first_node, coordinates, ends: element.span() };
         let [first, .., last] = nodes_on_element.coordinates[..] else {
             let [x, _, z] = element.center().map(number_text);

@@ -139,8 +139,8 @@ impl Run {
                 continue;
             }
             let name = quantity.name();
-            let smallest = safety_text(peak.value);
-            write!(f, "Least {name}: {smallest} at {:.3} s", peak.time)?;
+            let smallest_text = safety_text(peak.value);
+            write!(f, "Least {name}: {smallest_text} at {:.3} s", peak.time)?;
             match quantity {
                 Quantity::OverturningSafety => writeln!(f, ", over the left or the right edge")?,
                 Quantity::OverturningSafetyAcross => {
@@ -218,8 +218,8 @@ impl Run {
                 peak.time
             )?;
             if axis == 0 {
-                let largest = self.whole.largest_slip.highest.value;
-                write!(f, "; any element {} mm", number(1e3 * largest))?;
+                let largest_slip = self.whole.largest_slip.highest.value;
+                write!(f, "; any element {} mm", number(1e3 * largest_slip))?;
             }
             writeln!(f)?;
         }
@@ -280,15 +280,15 @@ impl Run {
         let heading = ["Joint", "gap mm", "slip mm", "largest kPa", "open s", "of s"];
         let mut rows = Vec::with_capacity(self.joint_envelopes.len());
         for (joint, envelopes) in self.joint_envelopes.iter().enumerate() {
-            let largest = |value: fn(&ElementEnvelope) -> f64| {
+            let largest_value = |value: fn(&ElementEnvelope) -> f64| {
                 envelopes.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
             };
             rows.push(vec![
                 joint.to_string(),
-                number(1e3 * largest(|element| element.gap.value)),
-                number(1e3 * largest(|element| element.slip.value.abs())),
-                number(1e-3 * largest(|element| element.pressure.highest.value)),
-                format!("{:.3}", largest(|element| element.open)),
+                number(1e3 * largest_value(|element| element.gap.value)),
+                number(1e3 * largest_value(|element| element.slip.value.abs())),
+                number(1e-3 * largest_value(|element| element.pressure.highest.value)),
+                format!("{:.3}", largest_value(|element| element.open)),
                 format!("{:.3}", self.end - self.start),
             ]);
         }
