@@ -156,7 +156,8 @@ pub(crate) fn in_python_words(mut text: String) -> String {
         ("`Mesh::merge_nodes`", "`Mesh.merge_nodes`"),
         ("`Ground::elements`", "`ground.elements`"),
         ("`Record::padded`", "`Record.padded`"),
-        ("Incoherence::clipped", "Incoherence.clipped"),
+        ("`Incoherence::clipped`", "`Incoherence(clipped=True)`"),
+        ("`TrenchGround::with_water_table`", "`TrenchGround(water_table=…)`"),
         (
             "a recorder of fewer steps takes less",
             "larger `every`, `contact_every`, `motion_every` or `series=False` take less",

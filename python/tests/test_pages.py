@@ -74,7 +74,7 @@ def test_the_guides_parts_work(ran: dict[str, tuple[dict[str, Any], Path]]) -> N
 
 def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[str, Any], Path]]) -> None:
     gallery = sorted(own.stem for own in (pages.DOCS / "gallery").glob("*.md"))
-    assert len(gallery) == 16
+    assert len(gallery) == 17
     listed = (pages.DOCS / "gallery.md").read_text("utf-8")
     for page in gallery:
         assert f"(gallery/{page}.md)" in listed
@@ -100,6 +100,9 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
     (wide, narrow), rotations = ran["push_over"][0]["curves"].values(), list(ran["push_over"][0]["rotations"].values())
     assert wide.load_factor.max() == pytest.approx(400e3, rel=0.02) and narrow.load_factor.max() < 0.9 * wide.load_factor.max()
     assert wide.cause is None and narrow.cause is None and rotations[0] > 0.01 > 100.0 * rotations[1]
+    incoherent = ran["incoherent"][0]
+    assert incoherent["twists"][0] < 1e-6 < 0.5 < min(incoherent["twists"][1:])
+    assert incoherent["run"].buoyancy == pytest.approx(1000.0 * bm.STANDARD_GRAVITY * 4.0 * 900.0, rel=1e-6)
     near_field = ran["near_field"][0]
     assert near_field["moments"]["yielding"] < 1.1 * near_field["capacity"] < 1.5 * near_field["moments"]["linear"]
     film = ran["law"][0]["film"]

@@ -13,6 +13,7 @@ use crate::coupled::serviceability::Serviceability;
 use crate::error::{Progress, unobserved};
 use crate::interface::InterfaceLaw;
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::soil::WaterTable;
 use crate::structure::Probe;
 use crate::structure::Structure;
 
@@ -41,6 +42,7 @@ pub struct SimulationBuilder {
     pub(crate) gravity: f64,
     pub(crate) gravity_stage: GravityStage,
     pub(crate) loads: Vec<Load>,
+    pub(crate) water_table: Option<WaterTable>,
     /// Displacement of the degrees of freedom at t = 0; empty for zero.
     pub(crate) initial_displacement: Vec<f64>,
     /// Velocity of the degrees of freedom at t = 0; empty for zero.
@@ -89,6 +91,7 @@ impl SimulationBuilder {
             gravity: STANDARD_GRAVITY,
             gravity_stage: GravityStage::default(),
             loads: Vec::new(),
+            water_table: None,
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),
             probes: Vec::new(),
@@ -191,6 +194,18 @@ impl SimulationBuilder {
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
+        self
+    }
+
+    /// Sets the water table, of a base on the surface.
+    ///
+    /// Its pressure acts up on the base, with the weight and during the whole run. Pressures, resultants, factors of safety
+    /// and friction are then effective; [`Run::buoyancy`](crate::results::Run::buoyancy) has the force of the water. In a
+    /// trench the water also acts on the soil beside the walls: give it to
+    /// [`TrenchGround::with_water_table`](crate::bem::embedded::TrenchGround::with_water_table).
+    #[must_use]
+    pub fn water_table(mut self, water: WaterTable) -> Self {
+        self.water_table = Some(water);
         self
     }
 

@@ -71,7 +71,8 @@ fn errors_print_what_is_inside_them_once() {
     assert_printed_once(&unusable, text);
     let checkpoint = CheckpointError::Unsupported { part: "roof" };
     assert_printed_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
-    let uplift = StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0 };
+    let uplift =
+        StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0, buoyancy: 0.0 };
     assert_printed_once(&Error::Stability(Box::new(uplift.clone())), &uplift.to_string());
     let quantity = "rows";
     let remedy = "less";

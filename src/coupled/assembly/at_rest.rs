@@ -193,18 +193,18 @@ pub(super) struct LoadedState {
 }
 
 /// Forces on the degrees of freedom at t = 0, N.
-struct StaticLoads {
+pub(super) struct StaticLoads {
     /// Load that the structure defines.
     structure_load: Vec<f64>,
-    /// Weight, including the loads that are applied with it.
-    weight: Vec<f64>,
+    /// Weight, including the loads and the water that are applied with it.
+    pub(super) weight: Vec<f64>,
     /// All other loads.
     load: Vec<f64>,
 }
 
 impl StaticLoads {
     /// Collects the loads of structure and builder at t = 0.
-    fn new(parts: &Parts, assembled: &Assembled) -> Result<Self> {
+    pub(super) fn new(parts: &Parts, assembled: &Assembled) -> Result<Self> {
         let Parts { structure, builder, .. } = parts;
         let dofs = assembled.dofs();
         let mut structure_load = vec![0.0; dofs];
@@ -224,6 +224,7 @@ impl StaticLoads {
                 }
             }
         }
+        weight.iter_mut().zip(&parts.water_force).for_each(|(sum, force)| *sum += force);
         for external_load in &builder.loads {
             let force = external_load.value(0.0);
             let sum = if external_load.is_weight() { &mut weight } else { &mut load };

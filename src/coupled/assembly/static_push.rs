@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 
 use super::at_rest::{loaded_state, static_compliance};
+use super::buoyancy::set_water_force;
 use super::flexible_base;
 use super::settled::settle;
 use crate::coupled::builder::SimulationBuilder;
@@ -77,6 +78,7 @@ impl StaticPush {
             assembled.structure_at_rest(structure).check(&mut fixed_factor)?;
         }
         parts.spread_over_joints(&assembled.base);
+        set_water_force(&mut parts, &assembled)?;
         let ground_compliance = static_compliance(&parts, &assembled.base)?;
         let start = loaded_state(&mut parts, &assembled, &ground_compliance)?;
         if parts.builder.has_static_loads() {

@@ -127,7 +127,7 @@ impl NodesOnElement {
     /// Selects the nodes on the line of an element.
     ///
     /// Returns an error unless the nodes cover the element.
-    fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
+    pub(super) fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         // Coordinates along the element's normal and tangent.
         let local_coordinates = |node: &BaseNode| element.components([node.x, node.y, node.z]);
         let depth = element.components(element.center())[0];
@@ -184,6 +184,24 @@ impl NodesOnElement {
                 (node, fraction * (1.0 - second_weight)),
                 (node + 1, fraction * second_weight),
             ]);
+        }
+        weights
+    }
+
+    /// Indices and weights of nodes in the integral of the displacement times a load on the element.
+    ///
+    /// `resultant`: sum of the load between two coordinates along the tangent, and the coordinate of its centroid.
+    pub(super) fn integral_weights(
+        &self,
+        resultant: impl Fn([f64; 2]) -> (f64, f64),
+    ) -> Vec<(usize, f64)> {
+        let mut weights = Vec::new();
+        for ElementPiece { node, x0, x1, start, end } in self.pieces() {
+            let (force, centroid) = resultant([start, end]);
+            // The displacement is linear over the piece.
+            let second_weight = (centroid - x0) / (x1 - x0);
+            weights
+                .extend([(node, force * (1.0 - second_weight)), (node + 1, force * second_weight)]);
         }
         weights
     }

@@ -10,6 +10,7 @@ mod line;
 mod tears;
 pub(crate) mod transformation;
 mod uncovered;
+mod water;
 
 use std::ops::Range;
 

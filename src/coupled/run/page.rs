@@ -30,15 +30,7 @@ impl fmt::Display for Run {
         let time_step = seconds(self.time_step);
         writeln!(f, "Run of {steps} steps of {time_step} s from t = {start:.3} s to {end:.3} s")?;
         writeln!(f, "{}", self.ground_motion)?;
-        let weight = self.whole.static_normal_force;
-        if weight > 0.0 {
-            writeln!(
-                f,
-                "Weight on the base: {:.1} {}",
-                1e-3 * weight,
-                whole_body_unit("kN/m", self.in_plan)
-            )?;
-        }
+        self.write_weight(f)?;
         writeln!(f, "\n{}", self.peak_table().text())?;
         if self.foundations.len() > 1 {
             writeln!(f, "{}", self.foundation_table().text())?;
@@ -79,6 +71,28 @@ impl fmt::Display for Run {
 }
 
 impl Run {
+    /// Writes the effective weight on the base, and under water the weight and the buoyancy.
+    fn write_weight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let effective_weight = self.whole.static_normal_force;
+        if effective_weight <= 0.0 {
+            return Ok(());
+        }
+        let unit = whole_body_unit("kN/m", self.in_plan);
+        let effective_kn = 1e-3 * effective_weight;
+        if self.buoyancy == 0.0 {
+            return writeln!(f, "Weight on the base: {effective_kn:.1} {unit}");
+        }
+        let weight = self.weight();
+        writeln!(
+            f,
+            "Weight {:.1} {unit}, buoyancy {:.1} {unit}, factor of safety against flotation {}\n\
+             Effective weight on the base: {effective_kn:.1} {unit}; pressures and factors of safety are effective",
+            1e-3 * weight,
+            1e-3 * self.buoyancy,
+            safety_text(weight / self.buoyancy)
+        )
+    }
+
     fn peak_table(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let mut rows = Vec::new();

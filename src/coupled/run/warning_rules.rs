@@ -2,6 +2,7 @@
 
 use crate::bem::GroundDescription;
 use crate::coupled::run::mistake::Mistake;
+use crate::coupled::run::peak::Peak;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Quantity, Run, unusual_numbers};
 use crate::coupled::scene::Scene;
@@ -48,6 +49,9 @@ impl Warning {
     /// Responses for which a run warns of a largest value in its last step.
     pub(crate) const RESPONSES_CHECKED_AT_END: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
+
+    /// Open fraction of a base under water above which a run warns.
+    const GAP_UNDER_WATER_LIMIT: f64 = 0.1;
 
     /// Smallest friction for which mirror images of scenes in plan have differed.
     const HIGH_FRICTION_COEFFICIENT: f64 = 3.0;
@@ -192,6 +196,13 @@ impl Warning {
     pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
         let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
         is_large.then_some(Self::LargeSettlement { foundation, settlement, width })
+    }
+
+    /// Warning of a gap that water must fill.
+    pub(crate) fn of_water(run: &Run) -> Option<Self> {
+        let Peak { value: fraction, time } = run.whole.uplifted_fraction.highest;
+        let is_open = run.buoyancy > 0.0 && fraction > Self::GAP_UNDER_WATER_LIMIT;
+        is_open.then_some(Self::WaterInGap { fraction, time })
     }
 
     /// Warnings of a run's largest slip, largest rotation, last energy balance and smallest algorithmic energy.
