@@ -9,7 +9,9 @@ use std::cell::Cell;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Joint, Load, Probe, SimulationBuilder, Theta};
-use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial};
+use basemat::fem::{
+    BeamFormulation, DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial,
+};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};
@@ -20,6 +22,7 @@ use basemat::structure::{
 };
 use basemat::{Simulation, unobserved};
 
+use basemat_problems::fiber_tables::FiberTable;
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, tower};
 use basemat_problems::yielding_blocks::grid_lines;
@@ -145,6 +148,15 @@ fn on_a_bed(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     builder.interface(law).motion(diagonal_motion(2.0))
 }
 
+/// A table on columns of fibres that yields, lifts off and slides.
+fn table(formulation: BeamFormulation) -> SimulationBuilder {
+    let table = FiberTable::of_steel(formulation).unwrap();
+    let model = table.model().unwrap().model.with_p_delta(9.81).unwrap();
+    let ground = SpringGround::under(&model, 8, 6e7, 5e7).unwrap();
+    let builder = Simulation::builder(5e-3).ground(ground).structure(model);
+    builder.interface(friction(0.6)).motion(table.motion(2.0).unwrap())
+}
+
 /// The shaken strip without structure and law.
 fn base() -> SimulationBuilder {
     scene(SI_UNITS, 0.6)
@@ -259,6 +271,8 @@ fn plan_scenes() -> Vec<(&'static str, SimulationBuilder)> {
         ("plan, cyclic yielding", in_plan(cyclic_yielding())),
         ("plan, bed, cyclic yielding", on_a_bed(cyclic_yielding())),
         ("plan, many cells, cyclic yielding", on_many_cells(cyclic_yielding())),
+        ("plan, fibres by displacements", table(BeamFormulation::DisplacementBased)),
+        ("plan, fibres by forces", table(BeamFormulation::ForceBased)),
         ("plan, bonds", in_plan(Cohesive::new(5e4, 5e4, 0.3).unwrap())),
     ]
 }
