@@ -12,9 +12,9 @@ use basemat::fem::{
 use basemat::interface::Bonded;
 use basemat::structure::{DofCombination, FemModel};
 use basemat::{Result, Simulation};
+use basemat_problems::scenes::SCENE_GRAVITY;
 
-const HEIGHT: f64 = 4.0;
-const GRAVITY: f64 = 10.0;
+const COLUMN_HEIGHT: f64 = 4.0;
 /// Plastic moment of the hinge, and of the section of fibres without an axial force, N m.
 const PLASTIC_MOMENT: f64 = 200.0e3;
 const ALL_FORMULATIONS: [BeamFormulation; 2] =
@@ -51,17 +51,17 @@ fn a_hinged_cantilever_falls_by_p_delta() {
     let foot = mesh.add_node(0.0, 0.0).unwrap();
     let law = BilinearMoment::new(PLASTIC_MOMENT, 1e4 * PLASTIC_MOMENT, 0.0).unwrap();
     mesh.add(Hinge::new([footing[1], foot], 1.0e12, law).unwrap()).unwrap();
-    let top = mesh.add_node(0.0, HEIGHT).unwrap();
+    let top = mesh.add_node(0.0, COLUMN_HEIGHT).unwrap();
     mesh.add(Beam::new([foot, top], 1.0e13, 0.5, 0.01, 0.0).unwrap()).unwrap();
-    mesh.add(LumpedMass::new(top, weight / GRAVITY).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(top, weight / SCENE_GRAVITY).unwrap()).unwrap();
     let model = FemModel::on_foundations(mesh, &[footing.to_vec()]).unwrap();
-    let model = model.with_p_delta(GRAVITY).unwrap();
+    let model = model.with_p_delta(SCENE_GRAVITY).unwrap();
     let row = model.row(top, Direction::X).unwrap();
     let displacements = [0.002, 0.02, 0.1, 0.3, 0.5, 0.8, 0.1, -0.3];
-    let curve = pushed(bonded(model, GRAVITY).unwrap(), &row, &displacements);
-    let scale = PLASTIC_MOMENT / HEIGHT;
+    let curve = pushed(bonded(model, SCENE_GRAVITY).unwrap(), &row, &displacements);
+    let scale = PLASTIC_MOMENT / COLUMN_HEIGHT;
     for (point, sign) in curve.points[1..].iter().zip([1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0]) {
-        let expected = (sign * PLASTIC_MOMENT - weight * point.displacement) / HEIGHT;
+        let expected = (sign * PLASTIC_MOMENT - weight * point.displacement) / COLUMN_HEIGHT;
         let error = (point.force - expected) / scale;
         println!("Δ {:.3} m: H {:.4e}, off by {error:.1e}", point.displacement, point.force);
         assert!(error.abs() < 1e-3, "{point:?} {expected}");
@@ -84,24 +84,24 @@ fn a_cantilever_of_fibres_falls_by_p_delta() {
         let mut mesh = Mesh::new();
         let footing = add_footing(&mut mesh).unwrap();
         let mut below = footing[1];
-        for y in [0.004, 0.012, 0.03, 0.1, 0.3, 1.0, HEIGHT] {
+        for y in [0.004, 0.012, 0.03, 0.1, 0.3, 1.0, COLUMN_HEIGHT] {
             let above = mesh.add_node(0.0, y).unwrap();
             let quadrature = BeamQuadrature::Lobatto(5);
             let column = FiberBeam::new([below, above], &section, quadrature, 0.0).unwrap();
             mesh.add(column.with_formulation(formulation)).unwrap();
             below = above;
         }
-        mesh.add(LumpedMass::new(below, weight / GRAVITY).unwrap()).unwrap();
+        mesh.add(LumpedMass::new(below, weight / SCENE_GRAVITY).unwrap()).unwrap();
         let model = FemModel::on_foundations(mesh, &[footing.to_vec()]).unwrap();
-        let model = model.with_p_delta(GRAVITY).unwrap();
+        let model = model.with_p_delta(SCENE_GRAVITY).unwrap();
         let row = model.row(below, Direction::X).unwrap();
         let displacements = [0.02, 0.05, 0.1, 0.2, 0.4, 0.6];
-        let curve = pushed(bonded(model, GRAVITY).unwrap(), &row, &displacements);
+        let curve = pushed(bonded(model, SCENE_GRAVITY).unwrap(), &row, &displacements);
         let axial_ratio = weight / (yield_stress * width * depth);
         let moment = PLASTIC_MOMENT * (1.0 - axial_ratio * axial_ratio);
         for point in &curve.points[4..] {
-            let expected = (moment - weight * point.displacement) / HEIGHT;
-            let error = (point.force - expected) * HEIGHT / moment;
+            let expected = (moment - weight * point.displacement) / COLUMN_HEIGHT;
+            let error = (point.force - expected) * COLUMN_HEIGHT / moment;
             println!("{formulation:?}, Δ {:.3} m: off by {error:.1e}", point.displacement);
             assert!(error.abs() < 2e-3, "{formulation:?}: {point:?} {expected}");
         }

@@ -18,7 +18,7 @@ pub(in crate::fem) struct BasicState<const N: usize, const B: usize> {
 
 /// Resultants and flexibilities of the sections of a beam by forces, and its stiffness.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Linearisation<const N: usize, const B: usize> {
+pub(super) struct BeamLinearisation<const N: usize, const B: usize> {
     /// Resultants of each section, of which the first are in use.
     pub(super) forces: [[f64; N]; MAX_SECTIONS],
     /// Inverse tangent of each section.
@@ -27,7 +27,7 @@ pub(super) struct Linearisation<const N: usize, const B: usize> {
     pub(super) stiffness: [[f64; B]; B],
 }
 
-impl<const N: usize, const B: usize> Linearisation<N, B> {
+impl<const N: usize, const B: usize> BeamLinearisation<N, B> {
     pub(super) fn zero() -> Self {
         Self {
             forces: [[0.0; N]; MAX_SECTIONS],

@@ -116,7 +116,7 @@ impl WithSimd for BilinearLoops<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let (histories, _) = self.variables.as_chunks::<VARIABLE_COUNT>();
+        let histories = self.variables.as_chunks::<VARIABLE_COUNT>().0;
         let fibers = self.strains.iter().zip(histories);
         for (response, (strain, [plastic_strain, _])) in self.responses.iter_mut().zip(fibers) {
             *response = self.steel.response_after(*strain, *plastic_strain);

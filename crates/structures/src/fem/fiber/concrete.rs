@@ -195,16 +195,19 @@ impl WithSimd for ConcreteLoops<'_> {
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { concrete, strains: fiber_strains, variables, responses } = self;
         // A list of each quantity, of which vectors are loaded at once.
-        let [mut strains, mut max_compressions, mut residual_strains, mut slopes] =
-            [[0.0; MAX_BATCH_FIBERS]; 4];
-        let (histories, _) = variables.as_chunks::<VARIABLE_COUNT>();
+        let mut strains = [0.0; MAX_BATCH_FIBERS];
+        let mut max_compressions = [0.0; MAX_BATCH_FIBERS];
+        let mut residual_strains = [0.0; MAX_BATCH_FIBERS];
+        let mut slopes = [0.0; MAX_BATCH_FIBERS];
+        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
         for (k, (strain, history)) in fiber_strains.iter().zip(histories).enumerate() {
             strains[k] = *strain;
             max_compressions[k] = history[0];
             residual_strains[k] = history[1];
             slopes[k] = history[2];
         }
-        let [mut stresses, mut tangents] = [[0.0; MAX_BATCH_FIBERS]; 2];
+        let mut stresses = [0.0; MAX_BATCH_FIBERS];
+        let mut tangents = [0.0; MAX_BATCH_FIBERS];
         for k in 0..padded_count(responses.len()) {
             let unloading = Unloading { residual_strain: residual_strains[k], slope: slopes[k] };
             let response = concrete.response_after(strains[k], max_compressions[k], &unloading);
@@ -258,7 +261,7 @@ impl UniaxialMaterial for Concrete {
         variables: &[f64],
         energies: &mut [InternalEnergy],
     ) -> std::result::Result<(), (usize, Error)> {
-        let (histories, _) = variables.as_chunks();
+        let histories = variables.as_chunks().0;
         for ((energy, strain), history) in energies.iter_mut().zip(strains).zip(histories) {
             *energy = self.energy_after(*strain, *history);
         }
@@ -274,7 +277,7 @@ impl UniaxialMaterial for Concrete {
         let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
         let responses = &mut responses[..remainders.len()];
         self.responses(midstep, variables, responses)?;
-        let (histories, _) = variables.as_chunks();
+        let histories = variables.as_chunks().0;
         for (k, (remainder, history)) in remainders.iter_mut().zip(histories).enumerate() {
             let work = responses[k].stress * (end[k] - start[k]);
             let start_energy = self.energy_after(start[k], *history);

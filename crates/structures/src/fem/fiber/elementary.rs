@@ -56,8 +56,8 @@ pub(super) fn logarithm(x: f64) -> f64 {
     let [c1, c2, c3, c4, c5, c6, c7] = LOGARITHM_COEFFICIENTS;
     let series = z * (c1 + w * (c3 + w * (c5 + w * c7))) + w * (c2 + w * (c4 + w * c6));
     let half_square = 0.5 * f * f;
-    let [upper, lower] = LN_2_PARTS;
-    exponent * upper - ((half_square - (s * (half_square + series) + exponent * lower)) - f)
+    exponent * LN_2_PARTS[0]
+        - ((half_square - (s * (half_square + series) + exponent * LN_2_PARTS[1])) - f)
 }
 
 /// eˣ for x from −700 to 700.
@@ -65,9 +65,8 @@ pub(super) fn logarithm(x: f64) -> f64 {
 pub(super) fn exponential(x: f64) -> f64 {
     let rounded = x * std::f64::consts::LOG2_E + ROUND_TO_INTEGER;
     let n = rounded - ROUND_TO_INTEGER;
-    let [upper, lower] = LN_2_PARTS;
-    let upper_part = x - n * upper;
-    let lower_part = n * lower;
+    let upper_part = x - n * LN_2_PARTS[0];
+    let lower_part = n * LN_2_PARTS[1];
     let remainder = upper_part - lower_part;
     let z = remainder * remainder;
     let [p1, p2, p3, p4, p5] = EXPONENTIAL_COEFFICIENTS;

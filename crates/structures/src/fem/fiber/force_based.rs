@@ -17,7 +17,7 @@
 //! small strains. No law is stiffer than that, so that each of them reduces the potential.
 
 use super::basic_beam::BasicBeam;
-use super::basic_state::{BasicState, Linearisation, MAX_SECTIONS};
+use super::basic_state::{BasicState, BeamLinearisation, MAX_SECTIONS};
 use super::solution_memo::SolutionKey;
 use crate::error::{Error, Result};
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
@@ -117,7 +117,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         let (Some(flexibility), Some(stiffness)) = (section_flexibility, stiffness) else {
             return Ok(None);
         };
-        let mut linearisation = Linearisation::zero();
+        let mut linearisation = BeamLinearisation::zero();
         linearisation.flexibilities = [flexibility; MAX_SECTIONS];
         linearisation.stiffness = stiffness;
         let last = self.last_state(variables);
@@ -129,7 +129,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
                     let response = self.response(index, &state.deformations[index], variables)?;
                     linearisation.forces[index] = response.forces;
                 }
-                self.correct(v, &linearisation, &mut state);
+                self.correct(v, &linearisation, &mut state, &mut [[0.0; N]; MAX_SECTIONS]);
             }
             let mut trial = state;
             if self.iterate(v, variables, None, &mut trial)? {
@@ -144,9 +144,9 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         &self,
         deformations: &[[f64; N]; MAX_SECTIONS],
         variables: &[f64],
-    ) -> Result<Option<Linearisation<N, B>>> {
+    ) -> Result<Option<BeamLinearisation<N, B>>> {
         let mut flexibility = [[0.0; B]; B];
-        let mut linearisation = Linearisation::zero();
+        let mut linearisation = BeamLinearisation::zero();
         for (index, point) in self.points.iter().enumerate() {
             let response = self.response(index, &deformations[index], variables)?;
             let Some(section_flexibility) = self.flexibility(response.tangent) else {
@@ -179,7 +179,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         &self,
         v: &[f64; B],
         variables: &[f64],
-        first: Option<&Linearisation<N, B>>,
+        first: Option<&BeamLinearisation<N, B>>,
         state: &mut BasicState<N, B>,
     ) -> Result<bool> {
         let mut largest_energy = 0.0_f64;
@@ -195,9 +195,8 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             {
                 return Ok(false);
             }
-            let (increment, energy) = self.correct(v, &linearisation, state);
-            // The first iterate is not compatible yet.
-            last_increment = (iteration > 0 && increment.slope < 0.0).then_some(increment);
+            let mut changes = [[0.0; N]; MAX_SECTIONS];
+            let energy = self.correct(v, &linearisation, state, &mut changes);
             if !energy.is_finite() {
                 return Ok(false);
             }
@@ -205,21 +204,31 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             if energy <= ENERGY_TOLERANCE * largest_energy {
                 return Ok(true);
             }
+            // The first iterate is not compatible yet.
+            last_increment = None;
+            if iteration > 0 {
+                let slope = self.slope(&changes, &state.forces, &linearisation);
+                let forces = state.forces;
+                last_increment =
+                    (slope < 0.0).then_some(SectionIncrement { changes, forces, slope });
+            }
         }
         Ok(false)
     }
 
-    /// Corrects q and e; returns the increment and the energy of the corrections, J.
+    /// Corrects q and e; returns the energy of the corrections, J.
+    ///
+    /// `changes` become those of e.
     fn correct(
         &self,
         v: &[f64; B],
-        linearisation: &Linearisation<N, B>,
+        linearisation: &BeamLinearisation<N, B>,
         state: &mut BasicState<N, B>,
-    ) -> (SectionIncrement<N, B>, f64) {
+        changes: &mut [[f64; N]; MAX_SECTIONS],
+    ) -> f64 {
         // v less the deformations of the sections after their own corrections.
         let mut residual = *v;
         let mut energy = 0.0;
-        let mut changes = [[0.0; N]; MAX_SECTIONS];
         for (index, point) in self.points.iter().enumerate() {
             let b = (self.interpolation.forces)(point.position);
             let needed_forces = product(&b, &state.forces);
@@ -242,9 +251,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             add_to(&mut state.deformations[index], &change);
             add_to(&mut changes[index], &change);
         }
-        energy += inner_product(&force_increment, &residual).abs();
-        let slope = self.slope(&changes, &state.forces, linearisation);
-        (SectionIncrement { changes, forces: state.forces, slope }, energy)
+        energy + inner_product(&force_increment, &residual).abs()
     }
 
     /// Slope g of the potential along Δe, J.
@@ -252,7 +259,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         &self,
         changes: &[[f64; N]; MAX_SECTIONS],
         forces: &[f64; B],
-        linearisation: &Linearisation<N, B>,
+        linearisation: &BeamLinearisation<N, B>,
     ) -> f64 {
         let mut sum = 0.0;
         for (index, point) in self.points.iter().enumerate() {
@@ -271,7 +278,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         increment: &SectionIncrement<N, B>,
         variables: &[f64],
         state: &mut BasicState<N, B>,
-        linearisation: &mut Linearisation<N, B>,
+        linearisation: &mut BeamLinearisation<N, B>,
     ) -> Result<bool> {
         let SectionIncrement { changes, forces, slope: first_slope } = increment;
         let mut slope = self.slope(changes, forces, linearisation);

@@ -10,7 +10,8 @@
 //! `steel_branch.rs` has the curve.
 
 use super::bilinear_steel::check_steel;
-use super::steel_branch::{BranchLoops, Branches, SteelBranch};
+use super::steel_branch::{BranchLoops, SteelBranch, SteelBranches};
+use super::steel_history::{LAST_STRAIN, LoadingDirection, SteelHistory, VARIABLE_COUNT};
 use super::{MAX_BATCH_FIBERS, UniaxialMaterial, UniaxialResponse, check_variables};
 use crate::error::{Error, Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
@@ -50,93 +51,6 @@ pub struct MenegottoPinto {
     transition: [f64; 3],
     /// a_1 to a_4: shifts of the asymptotes in compression (first two) and in tension.
     isotropic_hardening: [f64; 4],
-}
-
-/// Number of internal variables.
-const VARIABLE_COUNT: usize = 10;
-/// Index of the strain at the end of the last step among the variables; its stress follows.
-const LAST_STRAIN: usize = 7;
-
-/// Direction of loading since the last reversal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Branch {
-    /// No strain so far.
-    Virgin,
-    Tension,
-    Compression,
-}
-
-/// Internal variables of a fibre by name.
-#[derive(Debug, Clone, Copy)]
-struct History {
-    branch: Branch,
-    /// Extreme strains at reversals.
-    min_strain: f64,
-    max_strain: f64,
-    /// The branch; without meaning before the first strain.
-    curve: SteelBranch,
-    /// Strain and stress at the end of the last step.
-    last: [f64; 2],
-    /// Work of the stress so far, J/m³.
-    work: f64,
-}
-
-impl History {
-    /// Work of the stress up to a strain with this stress, J/m³.
-    fn work_to(&self, strain: f64, stress: f64) -> f64 {
-        self.work + 0.5 * (self.last[1] + stress) * (strain - self.last[0])
-    }
-
-    /// The stress at the end of the last step for its strain, otherwise the `computed` one.
-    fn stress_or(&self, strain: f64, computed: f64) -> f64 {
-        let is_last = strain == self.last[0] && self.branch != Branch::Virgin;
-        if is_last { self.last[1] } else { computed }
-    }
-
-    #[inline]
-    fn curve_of(variables: &[f64]) -> SteelBranch {
-        let [exponent, strain_range] = [variables[3], variables[4]];
-        SteelBranch { exponent, strain_range, reversal: [variables[5], variables[6]] }
-    }
-
-    fn read(variables: &[f64]) -> Self {
-        let branch = match variables[0] {
-            value if value > 0.0 => Branch::Tension,
-            value if value < 0.0 => Branch::Compression,
-            _ => Branch::Virgin,
-        };
-        Self {
-            branch,
-            min_strain: variables[1],
-            max_strain: variables[2],
-            curve: Self::curve_of(variables),
-            last: [variables[LAST_STRAIN], variables[LAST_STRAIN + 1]],
-            work: variables[9],
-        }
-    }
-
-    fn write(&self, variables: &mut [f64]) {
-        let branch = match self.branch {
-            Branch::Virgin => 0.0,
-            Branch::Tension => 1.0,
-            Branch::Compression => -1.0,
-        };
-        let values = [
-            branch,
-            self.min_strain,
-            self.max_strain,
-            self.curve.exponent,
-            self.curve.strain_range,
-            self.curve.reversal[0],
-            self.curve.reversal[1],
-            self.last[0],
-            self.last[1],
-            self.work,
-        ];
-        for (variable, value) in variables.iter_mut().zip(values) {
-            *variable = value;
-        }
-    }
 }
 
 impl MenegottoPinto {
@@ -195,27 +109,27 @@ impl MenegottoPinto {
         let direction = variables[0];
         // Most fibres follow their last branch.
         if direction != 0.0 && direction * (strain - variables[LAST_STRAIN]) >= 0.0 {
-            return History::curve_of(variables);
+            return SteelHistory::curve_of(variables);
         }
         self.branch_of(&self.history_at(strain, variables))
     }
 
-    /// History with the branch of a strain, after a reversal if there is one.
-    fn history_at(&self, strain: f64, variables: &[f64]) -> History {
-        let mut history = History::read(variables);
+    /// SteelHistory with the branch of a strain, after a reversal if there is one.
+    fn history_at(&self, strain: f64, variables: &[f64]) -> SteelHistory {
+        let mut history = SteelHistory::read(variables);
         let increment = strain - history.last[0];
-        let next_branch = if increment > 0.0 {
-            Branch::Tension
+        let next_direction = if increment > 0.0 {
+            LoadingDirection::Tension
         } else if increment < 0.0 {
-            Branch::Compression
+            LoadingDirection::Compression
         } else {
-            history.branch
+            history.direction
         };
-        if next_branch == history.branch {
+        if next_direction == history.direction {
             return history;
         }
-        let sign = if next_branch == Branch::Tension { 1.0 } else { -1.0 };
-        if history.branch == Branch::Virgin {
+        let sign = if next_direction == LoadingDirection::Tension { 1.0 } else { -1.0 };
+        if history.direction == LoadingDirection::Virgin {
             history.max_strain = self.yield_strain();
             history.min_strain = -self.yield_strain();
             history.curve = SteelBranch {
@@ -226,20 +140,20 @@ impl MenegottoPinto {
         } else {
             self.reverse(sign, &mut history);
         }
-        history.branch = next_branch;
+        history.direction = next_direction;
         history
     }
 
     /// Begins a half cycle towards tension (`sign` 1) or compression (−1) at the last strain.
-    fn reverse(&self, sign: f64, history: &mut History) {
-        let [last_strain, last_stress] = history.last;
+    fn reverse(&self, sign: f64, history: &mut SteelHistory) {
+        let last_strain = history.last[0];
         history.min_strain = history.min_strain.min(last_strain);
         history.max_strain = history.max_strain.max(last_strain);
         let shift = self.isotropic_shift(sign, history.max_strain - history.min_strain);
         let hardening_modulus = self.hardening_ratio * self.modulus;
         let yield_stress = sign * shift * self.yield_stress;
         let yield_strain = sign * shift * self.yield_strain();
-        let intersection = (yield_stress - hardening_modulus * yield_strain - last_stress
+        let intersection = (yield_stress - hardening_modulus * yield_strain - history.last[1]
             + self.modulus * last_strain)
             / (self.modulus - hardening_modulus);
         let plastic_strain = if sign > 0.0 { history.max_strain } else { history.min_strain };
@@ -270,36 +184,36 @@ impl MenegottoPinto {
     }
 
     /// The branch of a history; an elastic one before the first strain.
-    fn branch_of(&self, history: &History) -> SteelBranch {
-        match history.branch {
-            Branch::Virgin => SteelBranch {
+    fn branch_of(&self, history: &SteelHistory) -> SteelBranch {
+        match history.direction {
+            LoadingDirection::Virgin => SteelBranch {
                 exponent: self.transition[0],
                 strain_range: self.yield_strain(),
                 reversal: [0.0; 2],
             },
-            Branch::Tension | Branch::Compression => history.curve,
+            LoadingDirection::Tension | LoadingDirection::Compression => history.curve,
         }
     }
 
     /// Stress and tangent on the branch of a history.
-    fn on_branch(&self, strain: f64, history: &History) -> UniaxialResponse {
+    fn on_branch(&self, strain: f64, history: &SteelHistory) -> UniaxialResponse {
         self.branch_of(history).response(self.modulus, self.hardening_ratio, strain)
     }
 
     /// Stress at a strain, with the history of its branch.
-    fn stress_at(&self, strain: f64, history: &History) -> f64 {
-        let is_last = strain == history.last[0] && history.branch != Branch::Virgin;
+    fn stress_at(&self, strain: f64, history: &SteelHistory) -> f64 {
+        let is_last = strain == history.last[0] && history.direction != LoadingDirection::Virgin;
         if is_last { history.last[1] } else { self.on_branch(strain, history).stress }
     }
 
     /// Stresses and tangents of fibres on their branches.
-    fn respond(&self, branches: &Branches, responses: &mut [UniaxialResponse]) {
+    fn respond(&self, branches: &SteelBranches, responses: &mut [UniaxialResponse]) {
         let Self { modulus, hardening_ratio, .. } = *self;
         vectorized(BranchLoops { branches, modulus, hardening_ratio, responses });
     }
 
     /// Energy at a strain with a stress, after a history.
-    fn energy_with(&self, history: &History, strain: f64, stress: f64) -> InternalEnergy {
+    fn energy_with(&self, history: &SteelHistory, strain: f64, stress: f64) -> InternalEnergy {
         let stored = 0.5 * stress * stress / self.modulus;
         InternalEnergy { stored, dissipated: history.work_to(strain, stress) - stored }
     }
@@ -313,7 +227,7 @@ impl MenegottoPinto {
     }
 }
 
-/// Variables: see the documentation of `History`.
+/// Variables: see the documentation of `SteelHistory`.
 impl UniaxialMaterial for MenegottoPinto {
     fn modulus(&self) -> f64 {
         self.modulus
@@ -334,8 +248,8 @@ impl UniaxialMaterial for MenegottoPinto {
         variables: &[f64],
         responses: &mut [UniaxialResponse],
     ) -> std::result::Result<(), (usize, Error)> {
-        let (histories, _) = variables.as_chunks::<VARIABLE_COUNT>();
-        let mut branches = Branches::WITHOUT_STRAIN;
+        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
+        let mut branches = SteelBranches::WITHOUT_STRAIN;
         for (k, (strain, variables)) in strains.iter().zip(histories).enumerate() {
             branches.set(k, *strain, self.branch_at(*strain, variables));
         }
@@ -351,13 +265,13 @@ impl UniaxialMaterial for MenegottoPinto {
     ) -> std::result::Result<(), (usize, Error)> {
         let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
         let responses = &mut responses[..strains.len()];
-        let (histories, _) = variables.as_chunks::<VARIABLE_COUNT>();
+        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
         // At the end of the last step all stresses are stored.
         let mut fibers = strains.iter().zip(histories);
         if fibers.any(|(strain, variables)| *strain != variables[LAST_STRAIN]) {
             self.responses(strains, variables, responses)?;
         }
-        let histories = histories.iter().map(|variables| History::read(variables));
+        let histories = histories.iter().map(|variables| SteelHistory::read(variables));
         let fibers = strains.iter().zip(histories).zip(responses);
         for (energy, ((strain, history), response)) in energies.iter_mut().zip(fibers) {
             let stress = history.stress_or(*strain, response.stress);
@@ -387,10 +301,11 @@ impl UniaxialMaterial for MenegottoPinto {
         self.responses(strains[2], variables, end)?;
         let histories = variables.chunks_exact(VARIABLE_COUNT);
         for (k, (remainder, variables)) in remainders.iter_mut().zip(histories).enumerate() {
-            let [start_strain, _, end_strain] = strains.map(|strains| strains[k]);
+            let start_strain = strains[0][k];
+            let end_strain = strains[2][k];
             let start_stress =
                 self.stress_at(start_strain, &self.history_at(start_strain, variables));
-            let end_stress = History::read(variables).stress_or(end_strain, end[k].stress);
+            let end_stress = SteelHistory::read(variables).stress_or(end_strain, end[k].stress);
             let mean_stress = 0.5 * (start_stress + end_stress);
             *remainder = (midstep[k].stress - mean_stress) * (end_strain - start_strain);
         }

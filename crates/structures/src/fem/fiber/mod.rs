@@ -2,8 +2,8 @@
 //!
 //! | part | files |
 //! |---|---|
-//! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs` (`steel_branch.rs`, `elementary.rs`), `concrete.rs` |
-//! | sections of fibres | `section.rs`, `section_shapes.rs`, `section_checks.rs` |
+//! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs` (`steel_branch.rs`, `steel_history.rs`, `elementary.rs`), `concrete.rs` |
+//! | sections of fibres | `section.rs`, `section_response.rs`, `section_shapes.rs`, `section_checks.rs` |
 //! | forces of a beam without rigid motions | `basic_beam.rs`, `force_based.rs`, `basic_state.rs`, `solution_memo.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
 
 mod basic_beam;
@@ -17,9 +17,11 @@ mod menegotto_pinto;
 mod quadrature;
 mod section;
 mod section_checks;
+mod section_response;
 mod section_shapes;
 mod solution_memo;
 mod steel_branch;
+mod steel_history;
 #[cfg(test)]
 mod tests;
 

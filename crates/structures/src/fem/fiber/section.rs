@@ -4,6 +4,7 @@ use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::section_response::SectionResponse;
 use super::{
     BilinearSteel, Concrete, MAX_BATCH_FIBERS, MenegottoPinto, UniaxialMaterial, UniaxialResponse,
 };
@@ -61,15 +62,6 @@ pub struct FiberSection {
     pub(super) torsional_stiffness: Option<f64>,
     /// Bending stiffness along y and z of rectangular fibres about their own middles, N m², which the strains leave out.
     pub(super) neglected_stiffness: [f64; 2],
-}
-
-/// Resultants of a section and their derivatives with respect to its N deformations.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::fem) struct SectionResponse<const N: usize> {
-    /// Axial force (N) and bending moments (N m), conjugate to the deformations.
-    pub(in crate::fem) forces: [f64; N],
-    /// Tangent, symmetric.
-    pub(in crate::fem) tangent: [[f64; N]; N],
 }
 
 /// Neighbouring fibres with one law, whose responses are evaluated together.
@@ -228,8 +220,8 @@ impl FiberSection {
     fn batches(&self) -> impl Iterator<Item = Batch<'_>> {
         self.batches.iter().filter_map(|range| {
             let fibers = &self.fibers[range.clone()];
-            let (first, last) = (fibers.first()?, fibers.last()?);
-            let variables = first.variables.start..last.variables.end;
+            let first = fibers.first()?;
+            let variables = first.variables.start..fibers.last()?.variables.end;
             Some(Batch { first: range.start, fibers, material: &*first.material, variables })
         })
     }
@@ -349,31 +341,6 @@ impl FiberSection {
         for batch in self.batches() {
             let strains = batch.strains(deformations, &mut strains);
             batch.material.commit_fibers(strains, &mut variables[batch.variables]);
-        }
-    }
-}
-
-impl<const N: usize> SectionResponse<N> {
-    /// Adds a fibre; of the tangent only the upper triangle.
-    #[inline]
-    fn add_fiber(&mut self, area: f64, row: &[f64; N], fiber: &UniaxialResponse) {
-        let force = area * fiber.stress;
-        let stiffness = area * fiber.tangent;
-        for i in 0..N {
-            self.forces[i] += force * row[i];
-            let row_stiffness = stiffness * row[i];
-            for j in i..N {
-                self.tangent[i][j] += row_stiffness * row[j];
-            }
-        }
-    }
-
-    /// Copies the upper triangle of the tangent to the lower one.
-    fn complete_tangent(&mut self) {
-        for i in 1..N {
-            for j in 0..i {
-                self.tangent[i][j] = self.tangent[j][i];
-            }
         }
     }
 }

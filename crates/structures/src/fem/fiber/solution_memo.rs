@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::basic_state::{BasicState, Linearisation};
+use super::basic_state::{BasicState, BeamLinearisation};
 
 /// Number of states: at mid-step and at the end of a step.
 const STATE_COUNT: usize = 2;
@@ -21,7 +21,7 @@ pub(super) struct StoredStates<const N: usize, const B: usize> {
     variables: Vec<f64>,
     states: [Option<(SolutionKey<B>, BasicState<N, B>)>; STATE_COUNT],
     /// Length (m) of the beam and its linearisation about the state at the end of the last step.
-    start: Option<(f64, Linearisation<N, B>)>,
+    start: Option<(f64, BeamLinearisation<N, B>)>,
 }
 
 /// Last states that a beam by forces has solved for.
@@ -78,14 +78,14 @@ impl<const N: usize, const B: usize> StoredStates<N, B> {
     }
 
     /// The linearisation about the start of the step, for a beam of this length.
-    pub(super) fn start(&self, length: f64) -> Option<Linearisation<N, B>> {
+    pub(super) fn start(&self, length: f64) -> Option<BeamLinearisation<N, B>> {
         self.start
             .filter(|(start_length, _)| *start_length == length)
             .map(|(_, start)| start)
     }
 
     /// Stores the linearisation about the start of the step.
-    pub(super) fn set_start(&mut self, length: f64, start: Option<Linearisation<N, B>>) {
+    pub(super) fn set_start(&mut self, length: f64, start: Option<BeamLinearisation<N, B>>) {
         self.start = start.map(|start| (length, start));
     }
 }

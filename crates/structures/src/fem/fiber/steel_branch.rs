@@ -62,9 +62,9 @@ impl SteelBranch {
     }
 }
 
-/// Branches and strains of several fibres, as a list of each quantity.
+/// SteelBranches and strains of several fibres, as a list of each quantity.
 #[derive(Clone, Copy)]
-pub(super) struct Branches {
+pub(super) struct SteelBranches {
     exponents: [f64; MAX_BATCH_FIBERS],
     strain_ranges: [f64; MAX_BATCH_FIBERS],
     reversal_strains: [f64; MAX_BATCH_FIBERS],
@@ -72,8 +72,8 @@ pub(super) struct Branches {
     strains: [f64; MAX_BATCH_FIBERS],
 }
 
-impl Branches {
-    /// Branches of fibres without strain, with which loops fill their vectors.
+impl SteelBranches {
+    /// SteelBranches of fibres without strain, with which loops fill their vectors.
     pub(super) const WITHOUT_STRAIN: Self = Self {
         exponents: [1.0; MAX_BATCH_FIBERS],
         strain_ranges: [1.0; MAX_BATCH_FIBERS],
@@ -95,7 +95,7 @@ impl Branches {
 
 /// Stresses and tangents of several fibres, at most [`MAX_BATCH_FIBERS`].
 pub(super) struct BranchLoops<'a> {
-    pub(super) branches: &'a Branches,
+    pub(super) branches: &'a SteelBranches,
     /// E, Pa.
     pub(super) modulus: f64,
     /// b.
@@ -108,8 +108,13 @@ impl WithSimd for BranchLoops<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Branches { exponents, strain_ranges, reversal_strains, reversal_stresses, strains } =
-            &*self.branches;
+        let SteelBranches {
+            exponents,
+            strain_ranges,
+            reversal_strains,
+            reversal_stresses,
+            strains,
+        } = &*self.branches;
         let mut stresses = [0.0; MAX_BATCH_FIBERS];
         let mut tangents = [0.0; MAX_BATCH_FIBERS];
         for k in 0..padded_count(self.responses.len()) {
