@@ -14,7 +14,7 @@ use basemat::fem::{
 };
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
-use basemat::motion::{Triaxial, el_centro_1940};
+use basemat::motion::{Record, Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::structure::{
     FemModel, NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, StructureGroup,
@@ -148,13 +148,25 @@ fn on_a_bed(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     builder.interface(law).motion(diagonal_motion(2.0))
 }
 
+/// Samples of El Centro before its strong part.
+const WEAK_SAMPLES: usize = 70;
+
 /// A table on columns of fibres that yields, lifts off and slides.
 fn table(formulation: BeamFormulation) -> SimulationBuilder {
     let table = FiberTable::of_steel(formulation).unwrap();
     let model = table.model().unwrap().model.with_p_delta(9.81).unwrap();
     let ground = SpringGround::under(&model, 8, 6e7, 5e7).unwrap();
     let builder = Simulation::builder(5e-3).ground(ground).structure(model);
-    builder.interface(friction(0.6)).motion(table.motion(2.0).unwrap())
+    builder.interface(friction(0.6)).motion(strong_motion())
+}
+
+/// El Centro along both axes from its strong part on: what yields does so before allocations are counted.
+fn strong_motion() -> Triaxial {
+    let record = el_centro_1940();
+    let accelerations = record.accelerations().iter().skip(WEAK_SAMPLES).copied().collect();
+    let strong_part = Record::new(record.time_step(), accelerations).unwrap();
+    let [x, y] = [4.0, 2.4].map(|factor| Some(strong_part.scaled(factor).unwrap()));
+    Triaxial { x, y, up: None }
 }
 
 /// The shaken strip without structure and law.

@@ -24,7 +24,7 @@ const ALL_FORMULATIONS: [BeamFormulation; 2] =
 fn add_footing(mesh: &mut Mesh) -> Result<[usize; 3]> {
     let nodes = [mesh.add_node(-1.0, 0.0)?, mesh.add_node(0.0, 0.0)?, mesh.add_node(1.0, 0.0)?];
     for ends in nodes.windows(2) {
-        mesh.add(Beam::new([ends[0], ends[1]], 1.0e13, 1.0, 0.1, 0.0)?)?;
+        mesh.add(Beam::new([ends[0], ends[1]], 1.0e13, 1.0, 0.1, 2500.0)?)?;
     }
     Ok(nodes)
 }
@@ -70,7 +70,10 @@ fn a_hinged_cantilever_falls_by_p_delta() {
     assert!(curve.points[6].force < -0.5 * scale);
 }
 
-/// A cantilever of fibres with P–Δ, divided at its foot, falls like its plastic hinge.
+/// A cantilever of beams by forces with P–Δ, divided at its foot, falls like its plastic hinge.
+///
+/// Beams by displacements have one axial strain along an element in which the curvature changes: beside an axial force, a hinge
+/// of them carries more than its plastic moment.
 #[test]
 fn a_cantilever_of_fibres_falls_by_p_delta() {
     let width = 0.1;
@@ -80,31 +83,29 @@ fn a_cantilever_of_fibres_falls_by_p_delta() {
     let corners = [[-0.5 * depth, -0.5 * width], [0.5 * depth, 0.5 * width]];
     let section = FiberSection::new().with_rectangle(corners, [40, 1], steel).unwrap();
     let weight = 200.0e3;
-    for formulation in ALL_FORMULATIONS {
-        let mut mesh = Mesh::new();
-        let footing = add_footing(&mut mesh).unwrap();
-        let mut below = footing[1];
-        for y in [0.004, 0.012, 0.03, 0.1, 0.3, 1.0, COLUMN_HEIGHT] {
-            let above = mesh.add_node(0.0, y).unwrap();
-            let quadrature = BeamQuadrature::Lobatto(5);
-            let column = FiberBeam::new([below, above], &section, quadrature, 0.0).unwrap();
-            mesh.add(column.with_formulation(formulation)).unwrap();
-            below = above;
-        }
-        mesh.add(LumpedMass::new(below, weight / SCENE_GRAVITY).unwrap()).unwrap();
-        let model = FemModel::on_foundations(mesh, &[footing.to_vec()]).unwrap();
-        let model = model.with_p_delta(SCENE_GRAVITY).unwrap();
-        let row = model.row(below, Direction::X).unwrap();
-        let displacements = [0.02, 0.05, 0.1, 0.2, 0.4, 0.6];
-        let curve = pushed(bonded(model, SCENE_GRAVITY).unwrap(), &row, &displacements);
-        let axial_ratio = weight / (yield_stress * width * depth);
-        let moment = PLASTIC_MOMENT * (1.0 - axial_ratio * axial_ratio);
-        for point in &curve.points[4..] {
-            let expected = (moment - weight * point.displacement) / COLUMN_HEIGHT;
-            let error = (point.force - expected) * COLUMN_HEIGHT / moment;
-            println!("{formulation:?}, Δ {:.3} m: off by {error:.1e}", point.displacement);
-            assert!(error.abs() < 2e-3, "{formulation:?}: {point:?} {expected}");
-        }
+    let mut mesh = Mesh::new();
+    let footing = add_footing(&mut mesh).unwrap();
+    let mut below = footing[1];
+    for y in [0.004, 0.012, 0.03, 0.1, 0.3, 1.0, COLUMN_HEIGHT] {
+        let above = mesh.add_node(0.0, y).unwrap();
+        let column = FiberBeam::new([below, above], &section, BeamQuadrature::Lobatto(5), 0.0);
+        let column = column.unwrap().with_formulation(BeamFormulation::ForceBased);
+        mesh.add(column).unwrap();
+        below = above;
+    }
+    mesh.add(LumpedMass::new(below, weight / SCENE_GRAVITY).unwrap()).unwrap();
+    let model = FemModel::on_foundations(mesh, &[footing.to_vec()]).unwrap();
+    let model = model.with_p_delta(SCENE_GRAVITY).unwrap();
+    let row = model.row(below, Direction::X).unwrap();
+    let displacements = [0.02, 0.05, 0.1, 0.2, 0.4, 0.6];
+    let curve = pushed(bonded(model, SCENE_GRAVITY).unwrap(), &row, &displacements);
+    let axial_ratio = weight / (yield_stress * width * depth);
+    let moment = PLASTIC_MOMENT * (1.0 - axial_ratio * axial_ratio);
+    for point in &curve.points[4..] {
+        let expected = (moment - weight * point.displacement) / COLUMN_HEIGHT;
+        let error = (point.force - expected) * COLUMN_HEIGHT / moment;
+        println!("Δ {:.3} m: H {:.4e}, off by {error:.1e}", point.displacement, point.force);
+        assert!(error.abs() < 1e-3, "{point:?} {expected}");
     }
 }
 
