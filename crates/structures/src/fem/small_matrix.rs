@@ -36,7 +36,9 @@ fn inverse_of_three<const N: usize>(matrix: [[f64; N]; N]) -> Option<[[f64; N]; 
     let mut factors = [0.0; 3];
     for (row, factor) in rows.iter_mut().zip(&mut factors) {
         *factor = 1.0 / row.iter().fold(0.0_f64, |max, entry| max.max(entry.abs()));
-        row.iter_mut().for_each(|entry| *entry *= *factor);
+        for entry in row {
+            *entry *= *factor;
+        }
     }
     let cofactors = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
     let terms = [0, 1, 2].map(|k| rows[0][k] * cofactors[0][k]);

@@ -114,7 +114,7 @@ impl WithSimd for BranchLoops<'_> {
             reversal_strains,
             reversal_stresses,
             strains,
-        } = &*self.branches;
+        } = self.branches;
         let mut stresses = [0.0; MAX_BATCH_FIBERS];
         let mut tangents = [0.0; MAX_BATCH_FIBERS];
         for k in 0..padded_count(self.responses.len()) {
