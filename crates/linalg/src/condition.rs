@@ -158,7 +158,7 @@ mod tests {
             let diagonal_shift = random.log_within(1e-10, 1.0);
             let units: Vec<f64> = (0..n).map(|_| random.log_within(1e-6, 1e6)).collect();
             let random_entries: Vec<f64> = (0..n * n).map(|_| random.within(-1.0, 1.0)).collect();
-            let skew = if case % 3 == 0 { 0.5 } else { 0.0 };
+            let asymmetry = if case % 3 == 0 { 0.5 } else { 0.0 };
             let mut matrix = vec![0.0; n * n];
             for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
                 // The product is singular; the shift of its diagonal makes the matrix regular.
@@ -167,7 +167,7 @@ mod tests {
                 let addition = if i == j {
                     diagonal_shift
                 } else {
-                    skew * random_entries[i.min(j) * n + i.max(j)]
+                    asymmetry * random_entries[i.min(j) * n + i.max(j)]
                 };
                 let sign = if i < j { -1.0 } else { 1.0 };
                 matrix[i * n + j] = (product + sign * addition) * units[i] * units[j];

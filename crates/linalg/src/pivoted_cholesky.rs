@@ -53,12 +53,12 @@ impl PivotedCholesky {
             let root = residual_diagonal[pivot].sqrt();
             let first = columns.len();
             columns.resize(first + size, 0.0);
-            let (others, column) = columns.split_at_mut(first);
+            let (earlier_columns, column) = columns.split_at_mut(first);
             write_column(pivot, column);
             products.fill(0.0);
-            for other in others.chunks_exact(size) {
-                let factor = other[pivot];
-                for (product, entry) in products.iter_mut().zip(other) {
+            for earlier_column in earlier_columns.chunks_exact(size) {
+                let factor = earlier_column[pivot];
+                for (product, entry) in products.iter_mut().zip(earlier_column) {
                     *product += entry * factor;
                 }
             }
