@@ -6,12 +6,9 @@
 //! | s | stress of the part (1 − b) E that yields: elastic and perfectly plastic, \|s\| ≤ (1 − b) f_y |
 //! | ε^p | plastic strain of this part |
 
-#![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
-
 use super::{UniaxialMaterial, UniaxialResponse, check_variables};
-use crate::error::{Error, Result, positive, require};
+use crate::error::{Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
-use crate::linalg::{Simd, WithSimd, vectorized};
 
 /// Steel with two straight branches and kinematic hardening.
 ///
@@ -66,30 +63,16 @@ impl BilinearSteel {
     }
 
     /// Modulus (1 − b) E of the part that yields, Pa.
-    #[inline(always)]
     fn yielding_modulus(&self) -> f64 {
         (1.0 - self.hardening_ratio) * self.modulus
     }
 
     /// Largest stress (1 − b) f_y of the part that yields, Pa.
-    #[inline(always)]
     fn max_yielding_stress(&self) -> f64 {
         (1.0 - self.hardening_ratio) * self.yield_stress
     }
 
-    /// Stress and tangent at a strain, from the plastic strain of the last step.
-    #[inline(always)]
-    fn response_after(&self, strain: f64, plastic_strain: f64) -> UniaxialResponse {
-        let part = self.yielding_part(strain, plastic_strain);
-        let hardening_modulus = self.hardening_ratio * self.modulus;
-        UniaxialResponse {
-            stress: hardening_modulus * strain + part.stress,
-            tangent: if part.yields { hardening_modulus } else { self.modulus },
-        }
-    }
-
     /// The part that yields at a strain, from the plastic strain of the last step.
-    #[inline(always)]
     fn yielding_part(&self, strain: f64, plastic_strain: f64) -> YieldingPart {
         let modulus = self.yielding_modulus();
         let trial = modulus * (strain - plastic_strain);
@@ -100,30 +83,6 @@ impl BilinearSteel {
     }
 }
 
-/// Number of internal variables.
-const VARIABLE_COUNT: usize = 2;
-
-/// Stresses and tangents of several fibres, whose variables follow each other.
-struct BilinearLoops<'a> {
-    steel: &'a BilinearSteel,
-    strains: &'a [f64],
-    variables: &'a [f64],
-    responses: &'a mut [UniaxialResponse],
-}
-
-impl WithSimd for BilinearLoops<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) {
-        let histories = self.variables.as_chunks::<VARIABLE_COUNT>().0;
-        let fibers = self.strains.iter().zip(histories);
-        for (response, (strain, [plastic_strain, _])) in self.responses.iter_mut().zip(fibers) {
-            *response = self.steel.response_after(*strain, *plastic_strain);
-        }
-    }
-}
-
 /// Variables: plastic strain, and dissipated energy (J/m³).
 impl UniaxialMaterial for BilinearSteel {
     fn modulus(&self) -> f64 {
@@ -131,22 +90,17 @@ impl UniaxialMaterial for BilinearSteel {
     }
 
     fn variable_count(&self) -> usize {
-        VARIABLE_COUNT
+        2
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
-        check_variables(variables, VARIABLE_COUNT)?;
-        Ok(self.response_after(strain, variables[0]))
-    }
-
-    fn responses(
-        &self,
-        strains: &[f64],
-        variables: &[f64],
-        responses: &mut [UniaxialResponse],
-    ) -> std::result::Result<(), (usize, Error)> {
-        vectorized(BilinearLoops { steel: self, strains, variables, responses });
-        Ok(())
+        check_variables(variables, self.variable_count())?;
+        let part = self.yielding_part(strain, variables[0]);
+        let hardening_modulus = self.hardening_ratio * self.modulus;
+        Ok(UniaxialResponse {
+            stress: hardening_modulus * strain + part.stress,
+            tangent: if part.yields { hardening_modulus } else { self.modulus },
+        })
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {

@@ -255,19 +255,6 @@ impl UniaxialMaterial for Concrete {
         Ok(self.energy_after(strain, std::array::from_fn(|i| variables[i])))
     }
 
-    fn energies(
-        &self,
-        strains: &[f64],
-        variables: &[f64],
-        energies: &mut [InternalEnergy],
-    ) -> std::result::Result<(), (usize, Error)> {
-        let histories = variables.as_chunks().0;
-        for ((energy, strain), history) in energies.iter_mut().zip(strains).zip(histories) {
-            *energy = self.energy_after(*strain, *history);
-        }
-        Ok(())
-    }
-
     fn remainders(
         &self,
         [start, midstep, end]: [&[f64]; 3],

@@ -395,7 +395,6 @@ fn beams_by_forces_have_a_state_behind_large_steps() {
                 }
             }
         }
-        println!("{name}: {failure_count} of 400 steps have no state");
         assert_eq!(failure_count, 0, "{name}");
     }
 }
