@@ -27,6 +27,7 @@ mod dissection;
 mod eigen;
 mod elimination;
 pub mod gauss;
+mod gauss_seidel_gmres;
 mod hermitian;
 mod lanes;
 mod lattice_product;
@@ -54,6 +55,7 @@ pub use condition::{condition_by_products, dense_condition, scale_by, sparse_con
 pub use dense::{DenseFactor, pivoted_cholesky};
 pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
 pub use elimination::Elimination;
+pub use gauss_seidel_gmres::GaussSeidelGmres;
 pub use hermitian::hermitian_range;
 pub use lanes::Lanes;
 pub use lattice_product::{LatticeProduct, LatticeScratch, next_smooth_even};
@@ -63,8 +65,8 @@ pub use matrix_scalar::MatrixScalar;
 pub use partition::Partition;
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
-    dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products, symmetric_products,
-    transposed_multiply_add, vectorized, weighted_dot,
+    add_three_rows, dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products,
+    symmetric_products, transposed_multiply_add, vectorized, weighted_dot,
 };
 pub use sparse::{ChangingFactor, SparseFactor, indefinite_row};
 pub use triplets::Triplets;

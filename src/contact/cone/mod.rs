@@ -194,13 +194,7 @@ impl ForceSearch {
                 return Ok(method);
             }
             linearisation.is_done()?;
-            // Factors of this step solve in less time than sweeps; after sweeps there are no such factors.
-            let is_swept = method == SearchMethod::GaussSeidel || method == SearchMethod::Proximal;
-            let found = if is_swept {
-                self.search_forces(input, trials)?
-            } else {
-                self.solve_again(input, trials)?
-            };
+            let found = self.solve_again(input, trials)?;
             method = method.max(found);
             self.write_modes(modes);
             is_exact = true;
@@ -240,8 +234,8 @@ impl ForceSearch {
         trials: &mut usize,
     ) -> Result<SearchMethod, StepError> {
         let Self { problem, newton, .. } = self;
-        // Sweeps of many elements take less time than a factorization.
-        if problem.form.near_field().is_none() && problem.acceleration.is_none() {
+        // Sweeps with a near field take less time.
+        if problem.form.near_field().is_none() {
             let outcome = newton.solve_again(problem);
             *trials += outcome.iterations;
             if outcome.is_solved {
