@@ -20,6 +20,8 @@ const MAX_SLOW_ITERATIONS: usize = 2;
 ///
 /// Below it, factors from an earlier iteration of the same time step are accurate enough.
 const FACTOR_REUSE_RESIDUAL: f64 = 1e-4;
+/// The same on soil that hardens, where a new matrix takes little time, since iterations need no factors.
+const MATRIX_REUSE_RESIDUAL: f64 = 1e-5;
 /// Smallest residual that the iterations of a linear system leave, relative to the present one.
 ///
 /// Newton's method then needs hardly more iterations than with factors.
@@ -128,7 +130,7 @@ impl Newton {
             self.classify(problem, false);
             let is_reduced = residual <= MAX_RESIDUAL_RATIO * previous_residual;
             let reuses_factors =
-                is_reduced && residual <= FACTOR_REUSE_RESIDUAL * problem.largest_force();
+                is_reduced && residual <= MATRIX_REUSE_RESIDUAL * problem.largest_force();
             let tolerance = linear_tolerance(problem, residual);
             if !self.solve_system(problem, reuses_factors, tolerance) {
                 return SolveOutcome::new(iteration + 1, false);
