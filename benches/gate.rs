@@ -118,10 +118,10 @@ fn main() -> Result<()> {
         }
         let mut fastest = f64::INFINITY;
         for _ in 0..REPETITION_COUNT {
-            let timed = prepare()?;
-            let begin = Instant::now();
-            timed()?;
-            fastest = fastest.min(begin.elapsed().as_secs_f64());
+            let prepared_scene = prepare()?;
+            let start_time = Instant::now();
+            prepared_scene()?;
+            fastest = fastest.min(start_time.elapsed().as_secs_f64());
         }
         println!("{fastest:.6}\t{name}");
     }

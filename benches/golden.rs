@@ -141,8 +141,8 @@ fn in_space(
     structure: impl Structure + 'static,
     ground: impl Ground + 'static,
 ) -> SimulationBuilder {
-    let scaled = |factor| strong_record().scaled(factor).ok();
-    let motion = Triaxial { x: scaled(1.0), y: scaled(0.7), up: scaled(0.4) };
+    let scaled_motion = |factor| strong_record().scaled(factor).ok();
+    let motion = Triaxial { x: scaled_motion(1.0), y: scaled_motion(0.7), up: scaled_motion(0.4) };
     Simulation::builder(TIME_STEP).structure(structure).ground(ground).motion(motion)
 }
 
@@ -289,7 +289,7 @@ fn scene_coordinates(name: &str) -> &'static str {
 }
 
 /// Adds rows with the numbers of the scene's states in a fixed order.
-fn write_rows(name: &str, build_scene: BuildScene, out: &mut String) -> Result<()> {
+fn write_rows(name: &str, build_scene: BuildScene, text: &mut String) -> Result<()> {
     let mut builder = build_scene()?.expected_steps(STEP_COUNT);
     if scene_coordinates(name) == "physical" {
         builder = builder.coordinates(Coordinates::Physical);
@@ -315,26 +315,26 @@ fn write_rows(name: &str, build_scene: BuildScene, out: &mut String) -> Result<(
         let energy = &state.energy_balance;
         values.extend([energy.kinetic, energy.strain, energy.hysteresis, energy.damping]);
         values.extend([energy.soil, energy.contact, energy.input]);
-        write!(out, "{name}\t{}\t{step}", scene_coordinates(name)).expect("writing to a string");
+        write!(text, "{name}\t{}\t{step}", scene_coordinates(name)).expect("writing to a string");
         for value in values {
-            write!(out, "\t{value:?}").expect("writing to a string");
+            write!(text, "\t{value:?}").expect("writing to a string");
         }
-        out.push('\n');
+        text.push('\n');
     }
     Ok(())
 }
 
 fn main() {
     let path = std::env::args().skip(1).find(|argument| argument != "--bench");
-    let mut out = String::new();
+    let mut text = String::new();
     for (name, build_scene) in GOLDEN_SCENES {
-        if let Err(error) = write_rows(name, build_scene, &mut out) {
-            writeln!(out, "{name}\t{}\tfailed\t{error}", scene_coordinates(name))
+        if let Err(error) = write_rows(name, build_scene, &mut text) {
+            writeln!(text, "{name}\t{}\tfailed\t{error}", scene_coordinates(name))
                 .expect("writing to a string");
         }
     }
     match path {
-        Some(path) => std::fs::write(&path, out).expect("a file that can be written"),
-        None => print!("{out}"),
+        Some(path) => std::fs::write(&path, text).expect("a file that can be written"),
+        None => print!("{text}"),
     }
 }

@@ -66,11 +66,11 @@ fn culvert() -> Result<FemModel> {
             mesh.add(Beam::new([ends[0], ends[1]], 31.0e9, 1.0, 1.0 / 12.0, 2500.0)?)?;
         }
     }
-    let fill = Material::new(50.0e6, 0.3, 1900.0)?;
+    let fill_material = Material::new(50.0e6, 0.3, 1900.0)?;
     for rows in fill_rows.windows(2) {
         for (lower_nodes, upper_nodes) in rows[0].windows(2).zip(rows[1].windows(2)) {
             let corners = [lower_nodes[0], lower_nodes[1], upper_nodes[1], upper_nodes[0]];
-            mesh.add(Quad4::new(corners, fill, QuadFormulation::default()))?;
+            mesh.add(Quad4::new(corners, fill_material, QuadFormulation::default()))?;
         }
     }
     let mut outline = [left_side, slab, right_side].concat();
@@ -141,10 +141,10 @@ fn main() -> Result<()> {
     for (name, moment) in &corner_moments {
         let moment_at_rest = moment.value(&at_rest);
         let change = run.probe(name)?;
-        let lowest = moment_at_rest + change.lowest.value;
-        let highest = moment_at_rest + change.highest.value;
-        let largest = lowest.abs().max(highest.abs());
-        println!("{name:12}  {:14.0}  {:12.0}", 1e-3 * moment_at_rest.abs(), 1e-3 * largest);
+        let min_moment = moment_at_rest + change.lowest.value;
+        let max_moment = moment_at_rest + change.highest.value;
+        let max_magnitude = min_moment.abs().max(max_moment.abs());
+        println!("{name:12}  {:14.0}  {:12.0}", 1e-3 * moment_at_rest.abs(), 1e-3 * max_magnitude);
     }
     println!("largest open part of the left wall: {:.0} %", 100.0 * largest_opening);
     assert!(run.energy_error < 1e-9);

@@ -49,8 +49,8 @@ fn shake(eccentricity: f64, law: impl InterfaceLaw + 'static) -> basemat::Result
 }
 
 fn main() -> basemat::Result<()> {
-    let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building(-5.0)?)?;
-    let modes = damped.frequencies();
+    let damped_structure = ModalDamping::new(&[0.05])?.on_fixed_base(building(-5.0)?)?;
+    let modes = damped_structure.frequencies();
     println!("fixed base: {:.2}, {:.2}, {:.2} Hz\n", modes[0], modes[1], modes[2]);
 
     println!("walls     contact    drift left   right, mm   torque, MN·m   uplifted, m²");

@@ -46,10 +46,10 @@ fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
 fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
     let building = ShearBuilding::new(9.0, 60.0e3, 5.0e5, &[Storey::new(3.0, 25.0e3, 70.0e6); 6])?;
     let roof = building.roof();
-    let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
+    let damped_structure = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
     let mut simulation = Simulation::builder(TIME_STEP)
-        .ground(ElasticGround::under(site.profile.clone(), &damped, 8)?)
-        .structure(damped)
+        .ground(ElasticGround::under(site.profile.clone(), &damped_structure, 8)?)
+        .structure(damped_structure)
         .interface(Coulomb::new(0.5)?)
         .motion(site.surface.clone())
         .probe(Probe::acceleration("roof", roof))

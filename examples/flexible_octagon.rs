@@ -84,10 +84,15 @@ fn turbine(thickness: f64) -> basemat::Result<Turbine> {
     let rings = add_rings(&mut mesh)?;
     let mut shells = Vec::new();
     for sector in 0..SECTOR_COUNT {
-        let next = (sector + 1) % SECTOR_COUNT;
-        shells.push(Shell::new([foot, rings[0][sector], rings[0][next]], concrete, thickness)?);
+        let next_sector = (sector + 1) % SECTOR_COUNT;
+        shells.push(Shell::new(
+            [foot, rings[0][sector], rings[0][next_sector]],
+            concrete,
+            thickness,
+        )?);
         for pair in rings.windows(2) {
-            let corners = [pair[0][sector], pair[1][sector], pair[1][next], pair[0][next]];
+            let corners =
+                [pair[0][sector], pair[1][sector], pair[1][next_sector], pair[0][next_sector]];
             shells.push(Shell::new(corners, concrete, thickness)?);
         }
     }

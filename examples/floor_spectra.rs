@@ -24,11 +24,11 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
     let roof = building.roof();
     // High modes excite the equipment, so each mode has 5 % of critical damping. Damping proportional to the stiffness
     // would give 34 % to the fifth mode.
-    let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
+    let damped_structure = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(ElasticGround::under(soil, &damped, 12)?)
-        .structure(damped)
+        .ground(ElasticGround::under(soil, &damped_structure, 12)?)
+        .structure(damped_structure)
         .interface(law)
         .motion(el_centro_1940())
         .probe(Probe::acceleration("first floor", first_floor))

@@ -24,10 +24,10 @@ fn time_to_upright(mass_ratio: f64, tilt: f64) -> Result<f64> {
     let column = RigidBlock::new(COLUMN_WIDTH, COLUMN_HEIGHT, 2500.0)?;
     let cap_mass = mass_ratio * 2.0 * column.total_mass();
     // The weight of a tilted column, and of the cap on its top, overturns it: P–Δ.
-    let cap_share = 0.5 * STANDARD_GRAVITY * cap_mass;
+    let half_cap_weight = 0.5 * STANDARD_GRAVITY * cap_mass;
     let column = column
         .with_p_delta(STANDARD_GRAVITY)?
-        .with_carried_weight(cap_share, COLUMN_HEIGHT)?;
+        .with_carried_weight(half_cap_weight, COLUMN_HEIGHT)?;
     let cap = RigidBlock::from_mass(5.0, cap_mass, 3.0 * cap_mass, 0.5)?;
     let top = column.contact_nodes(&[
         [-0.5 * COLUMN_WIDTH, COLUMN_HEIGHT],

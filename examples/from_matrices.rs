@@ -86,21 +86,21 @@ fn main() -> Result<()> {
     let stiffness_file = Path::new("target/stiffness.mtx");
     let (base, top) = write_files(mass_file, stiffness_file)?;
 
-    let begin = Instant::now();
+    let start_time = Instant::now();
     let mass = Triplets::read_matrix_market(mass_file)?;
     let stiffness = Triplets::read_matrix_market(stiffness_file)?;
     // 3 % of critical damping at 0.5 and 5 Hz.
     let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
     let model = MatrixModel::new(mass, stiffness, base)?.with_rayleigh(damping);
-    let read_seconds = begin.elapsed().as_secs_f64();
+    let read_seconds = start_time.elapsed().as_secs_f64();
     println!("{} degrees of freedom read in {read_seconds:.2} s", model.dofs());
 
-    let begin = Instant::now();
+    let start_time = Instant::now();
     let reduced_model = CraigBampton::new(FIXED_BASE_MODES).reduce(model.clone())?;
     println!(
         "reduced to {} degrees of freedom in {:.2} s, modes on a fixed base {:.2} to {:.1} Hz",
         reduced_model.dofs(),
-        begin.elapsed().as_secs_f64(),
+        start_time.elapsed().as_secs_f64(),
         reduced_model.frequencies()[0],
         reduced_model.frequencies()[FIXED_BASE_MODES - 1]
     );

@@ -33,8 +33,8 @@ const DIAGONAL_MASS: [f64; 4] = [10.0e3, 30.0e3, 40.0e3, 20.0e3];
 
 /// Mean displacement of the base over each of the Q elements at `centers`: Q components down, then Q to the right.
 fn base_displacement(u: &[f64; 4], centers: &[f64]) -> Vec<f64> {
-    let down = centers.iter().map(|x| -(u[1] + x * u[2]));
-    down.chain(centers.iter().map(|_| u[0])).collect()
+    let downward_displacements = centers.iter().map(|x| -(u[1] + x * u[2]));
+    downward_displacements.chain(centers.iter().map(|_| u[0])).collect()
 }
 
 /// Accelerations of the degrees of freedom due to the column and to tractions on the base.
@@ -80,9 +80,12 @@ fn main() -> Result<()> {
     at_rest[..count].fill(pressure);
     let mut contact = ContactProblem::new(delassus, vec![Box::new(Coulomb::new(0.4)?)])?
         .with_static_tractions(at_rest)?;
-    let closed = ContactState { pressure, ..ContactState::default() };
+    let element_under_weight = ContactState { pressure, ..ContactState::default() };
     let mut start =
-        contact.start(&vec![PreviousContact::new(closed, Mode::Stick, TIME_STEP); count])?;
+        contact.start(&vec![
+            PreviousContact::new(element_under_weight, Mode::Stick, TIME_STEP);
+            count
+        ])?;
 
     let mut previous_displacement = [0.0; 4];
     let mut current_displacement = [0.0; 4];

@@ -58,17 +58,17 @@ fn main() -> Result<()> {
         Triaxial { y: Some(record.scaled(0.7)?), up: Some(record.scaled(0.4)?), x: Some(record) };
     let coherence = LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED)?;
     let incoherence = Incoherence::new(coherence);
-    let coherent = Incoherence::new(LucoWong::new(0.0, SHEAR_WAVE_SPEED)?);
+    let without_incoherence = Incoherence::new(LucoWong::new(0.0, SHEAR_WAVE_SPEED)?);
     let mut comparison = Comparison::default();
     comparison.add("coherent", shake(&records, None)?);
     for seed in 0..SEED_COUNT {
         let sample = incoherence.clone().with_seed(seed);
         comparison.add(format!("seed {seed}"), shake(&records, Some(&sample))?);
     }
-    let passing = coherent.with_passage(APPARENT_VELOCITY, 0.0)?;
-    comparison.add("wave passage", shake(&records, Some(&passing))?);
-    let both = incoherence.with_passage(APPARENT_VELOCITY, 0.0)?;
-    comparison.add("seed 0, passage", shake(&records, Some(&both))?);
+    let coherent_wave = without_incoherence.with_passage(APPARENT_VELOCITY, 0.0)?;
+    comparison.add("wave passage", shake(&records, Some(&coherent_wave))?);
+    let incoherent_wave = incoherence.with_passage(APPARENT_VELOCITY, 0.0)?;
+    comparison.add("seed 0, passage", shake(&records, Some(&incoherent_wave))?);
     println!(
         "Building of {BUILDING_HEIGHT} m on a mat of {MAT_RADIUS} m radius, soil of {SHEAR_WAVE_SPEED} m/s, El Centro 1940\n"
     );

@@ -5,8 +5,9 @@
 //! ```
 //!
 //! A mat of 20 × 20 m on soil with a shear wave speed of 200 m/s is compared with its usual model in plane strain: 20 m
-//! of an endless strip 20 m wide. The strip is softer, because the loads on all its parts act on the same soil. The
-//! strip also radiates more, above all in rocking. Plane strain therefore underestimates the rocking of square mats.
+//! of an infinitely long strip 20 m wide. The strip is softer, because the loads on all its parts act on the same soil.
+//! The strip also radiates more, above all in rocking. Plane strain therefore underestimates the rocking of square
+//! mats.
 
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};

@@ -92,7 +92,7 @@ fn main() -> Result<()> {
     let clay = Soil::from_shear_wave_speed(150.0, 0.45, 1800.0)?;
     let elastic = NearField::new(clay, HALF_WIDTH)?
         .with_pressure_at_rest(STANDARD_GRAVITY, PRESSURE_RATIO)?;
-    let yielding = elastic.clone().with_strength_profile(|_| CLAY_STRENGTH);
+    let yielding_field = elastic.clone().with_strength_profile(|_| CLAY_STRENGTH);
     let weight = bearing_capacity() / SAFETY_FACTOR;
     let capacity = 1e-6 * weight * HALF_WIDTH * (1.0 - 1.0 / SAFETY_FACTOR);
     println!("moment capacity {capacity:.2} MN·m/m\n");
@@ -101,7 +101,7 @@ fn main() -> Result<()> {
     );
     let kernels = SharedKernels::default();
     let mut curves = Vec::new();
-    for (name, near_field) in [("linear", elastic), ("yielding", yielding)] {
+    for (name, near_field) in [("linear", elastic), ("yielding", yielding_field)] {
         let PierResponse { run, time_series, path, settlement } = shake(&near_field, &kernels)?;
         let peak =
             |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |a, b| a.max(b.abs()));

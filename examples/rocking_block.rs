@@ -48,9 +48,9 @@ fn rock(shear_wave_speed: f64, motion: Record, tipping_angle: f64) -> Result<Run
 }
 
 fn main() -> Result<()> {
-    let rigid = RockingBlock::new(HALF_WIDTH, HALF_HEIGHT, STANDARD_GRAVITY)?;
-    let uplift_acceleration = rigid.uplift_acceleration();
-    let tipping_angle = rigid.slenderness_angle();
+    let block_on_rigid_ground = RockingBlock::new(HALF_WIDTH, HALF_HEIGHT, STANDARD_GRAVITY)?;
+    let uplift_acceleration = block_on_rigid_ground.uplift_acceleration();
+    let tipping_angle = block_on_rigid_ground.slenderness_angle();
     println!(
         "Block {} m × {} m: rocks on rigid ground from {uplift_acceleration:.2} m/s² on, tips at {:.0} mrad",
         2.0 * HALF_WIDTH,
@@ -60,7 +60,7 @@ fn main() -> Result<()> {
     println!("Sine pulse of 0.8 s; acceleration in units of g b/h\n");
     println!("{:<8}{:>24}{:>42}", "", "soil of 400 m/s", "soil of 120 m/s");
     println!("{:<8}{}", "peak", "     rotation    uplift liftoffs     outcome".repeat(2));
-    let mut warned = false;
+    let mut has_warning = false;
     for strength in [0.5, 0.9, 1.2, 1.6, 2.0, 2.6, 3.2] {
         print!("{strength:<8.2}");
         for speed in [400.0, 120.0] {
@@ -77,7 +77,7 @@ fn main() -> Result<()> {
             };
             // The crate assumes small rotations; a run with large rotations has a warning.
             let mark = if run.warnings.is_empty() { ' ' } else { '*' };
-            warned |= mark == '*';
+            has_warning |= mark == '*';
             print!(
                 "{:>8.1} mrad{mark}{:>7.0} %{:>9}{outcome:>12}",
                 1e3 * rotation,
@@ -87,7 +87,7 @@ fn main() -> Result<()> {
         }
         println!();
     }
-    if warned {
+    if has_warning {
         println!(
             "\n* rotations of more than 100 mrad are not small: the geometry is off by a percent"
         );

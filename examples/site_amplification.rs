@@ -40,8 +40,11 @@ fn main() -> Result<()> {
     for i in 1..=250 {
         let frequency = 0.1 * f64::from(i);
         let outcrop = column.transfer(ControlPoint::Outcrop, frequency)?;
-        let within = column.transfer(ControlPoint::Within, frequency)?;
-        println!("transfer,{frequency},{},{},{},{}", outcrop.re, outcrop.im, within.re, within.im);
+        let transfer_within = column.transfer(ControlPoint::Within, frequency)?;
+        println!(
+            "transfer,{frequency},{},{},{},{}",
+            outcrop.re, outcrop.im, transfer_within.re, transfer_within.im
+        );
     }
     Ok(())
 }

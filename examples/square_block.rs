@@ -7,8 +7,8 @@
 //! A block of 16 × 16 m, 20 m high, stands on soil with a shear wave speed of 250 m/s. Three components of motion shake
 //! it at the same time, mostly along a diagonal. If the block may uplift and slide, its corner rises a quarter more
 //! than if it is bonded. If the block is turned by 45° under the same motion, it rocks about an edge, and that corner
-//! rises less. The block is also compared with a slice in plane strain: one metre of the block on an endless strip,
-//! under one horizontal record.
+//! rises less. The block is also compared with a slice in plane strain: one metre of the block on an infinitely long
+//! strip, under one horizontal record.
 
 use std::f64::consts::PI;
 
@@ -67,7 +67,7 @@ fn main() -> basemat::Result<()> {
     let corner = [(3, 0.5 * BLOCK_SIDE), (4, -0.5 * BLOCK_SIDE)];
     let bonded = shake(block(soil, 0.0)?, Bonded, &corner)?;
     let free = shake(block(soil, 0.0)?, Coulomb::new(0.5)?, &corner)?;
-    let turned = shake(block(soil, PI / 4.0)?, Coulomb::new(0.5)?, &corner)?;
+    let turned_block = shake(block(soil, PI / 4.0)?, Coulomb::new(0.5)?, &corner)?;
 
     let slice = RigidBlock::new(BLOCK_SIDE, BLOCK_HEIGHT, MASS_DENSITY)?;
     let ground = ElasticGround::under(soil, &slice, 12)?;
@@ -81,7 +81,7 @@ fn main() -> basemat::Result<()> {
     for (name, run) in [
         ("bonded", bonded),
         ("lifts and slides", free),
-        ("the same at 45°", turned),
+        ("the same at 45°", turned_block),
         ("plane strain, bonded", plane_strain),
     ] {
         let whole = &run.whole;

@@ -18,7 +18,7 @@ fn shake(friction: f64) -> Result<(Run, JointState)> {
     // Both sides of the joint, listed from left to right: the upper side stands on the lower one.
     let lower = block.contact_nodes(&[[-2.0, 1.5], [2.0, 1.5]])?;
     let upper = machine.contact_nodes(&[[-2.0, 0.0], [2.0, 0.0]])?;
-    // The machine touches no ground: it stands 1.5 m above the surface.
+    // The machine does not stand on the ground: it stands 1.5 m above the surface.
     let group = StructureGroup::new().with(block, 0.0)?.with_above(machine, [0.0, 1.5])?;
     let joint = Joint::between(group.contact_nodes(1, upper)?, group.contact_nodes(0, lower)?, 8)?;
 

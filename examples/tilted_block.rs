@@ -37,7 +37,7 @@ fn main() -> Result<()> {
             .ground(ElasticGround::under(soil, &block, 24)?)
             .structure(block)
             .interface(Coulomb::new(1.0)?)
-            // At t = 0 the block is held on its left edge, and the contact pressure is zero.
+            // At t = 0 the block is tilted on its left edge, and the contact pressure is zero.
             .gravity_stage(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.5 * BLOCK_WIDTH * tilt, tilt])
             .build()?;

@@ -52,7 +52,7 @@ fn main() -> Result<()> {
         .padded(QUIET_LEAD_TIME, 8.0)?;
     // Position of the left edge, which all waves that travel along the surface reach first.
     let origin = -HALF_WIDTH;
-    let inclined = PlaneWave::sv(soil, SV_WAVE_ANGLE.to_radians())?;
+    let inclined_wave = PlaneWave::sv(soil, SV_WAVE_ANGLE.to_radians())?;
     let rayleigh = PlaneWave::rayleigh(soil);
 
     println!(
@@ -61,14 +61,14 @@ fn main() -> Result<()> {
     );
     println!(
         "Velocities along the surface: SV at {SV_WAVE_ANGLE}° {:.0} m/s, Rayleigh {:.0} m/s, on surface {SURFACE_WAVE_VELOCITY:.0} m/s\n",
-        inclined.apparent_velocity(),
+        inclined_wave.apparent_velocity(),
         rayleigh.apparent_velocity()
     );
     let mut comparison = Comparison::default();
     comparison.add("vertical", shake(soil, record.clone())?);
     comparison.add(
         format!("SV, {SV_WAVE_ANGLE}°"),
-        shake(soil, inclined.field_from_horizontal(&record, origin)?)?,
+        shake(soil, inclined_wave.field_from_horizontal(&record, origin)?)?,
     );
     comparison.add("Rayleigh", shake(soil, rayleigh.field_from_horizontal(&record, origin)?)?);
     comparison.add(

@@ -38,21 +38,21 @@ fn shake<const N: usize>(structure: impl Structure + 'static, roofs: [Probe; N])
 fn main() -> Result<()> {
     let tall_roof = Probe::acceleration("tall", tall()?.roof());
     let low_roof = Probe::acceleration("low", low()?.roof());
-    let alone = [shake(tall()?, [tall_roof.clone()])?, shake(low()?, [low_roof.clone()])?];
+    let single_runs = [shake(tall()?, [tall_roof.clone()])?, shake(low()?, [low_roof.clone()])?];
 
     // The low building stands 13 m to the right, with 2 m between the buildings.
     // // `StructureGroup::probe` converts a probe to the group's degrees of freedom.
     let group = StructureGroup::new().with(tall()?, 0.0)?.with(low()?, 13.0)?;
     let probes = [group.probe(0, tall_roof)?, group.probe(1, low_roof)?];
-    let together = shake(group, probes)?;
+    let group_run = shake(group, probes)?;
 
     println!("El Centro 1940, soil with 150 m/s, friction 0.5, 2 m between the buildings\n");
     println!("| building | | base shear, kN/m | rotation, mrad | uplift, % | roof, m/s² |");
     println!("|---|---|---|---|---|---|");
     let mut changes = Vec::new();
     for (k, (name, probe)) in [("8 storeys", "tall"), ("3 storeys", "low")].iter().enumerate() {
-        let bases = [&alone[k].foundations[0], &together.foundations[k]];
-        let roofs = [alone[k].probe(probe)?, together.probe(probe)?];
+        let bases = [&single_runs[k].foundations[0], &group_run.foundations[k]];
+        let roofs = [single_runs[k].probe(probe)?, group_run.probe(probe)?];
         for ((neighbour, base), roof) in ["alone", "together"].iter().zip(bases).zip(roofs) {
             println!(
                 "| {name} | {neighbour} | {:.1} | {:.2} | {:.0} | {:.2} |",

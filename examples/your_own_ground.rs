@@ -34,7 +34,7 @@ struct Columns {
 
 /// Factors of a step of length Δt: new displacement = `previous` · old displacement + `traction` · traction.
 struct StepFactors {
-    previous: f64,
+    previous_displacement: f64,
     traction: f64,
 }
 
@@ -62,7 +62,7 @@ impl Columns {
     fn step_factors(&self, component: usize) -> StepFactors {
         let z = self.impedance[usize::from(component >= self.elements.len())] / self.time_step;
         let k = 0.5 * self.spring_stiffness;
-        StepFactors { previous: (z - k) / (z + k), traction: 1.0 / (z + k) }
+        StepFactors { previous_displacement: (z - k) / (z + k), traction: 1.0 / (z + k) }
     }
 }
 
@@ -93,7 +93,7 @@ impl Ground for Columns {
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         for (i, history) in displacement.iter_mut().enumerate() {
-            *history = self.step_factors(i).previous * self.displacement[i];
+            *history = self.step_factors(i).previous_displacement * self.displacement[i];
         }
         Ok(())
     }
@@ -102,7 +102,7 @@ impl Ground for Columns {
         for (i, traction) in traction.iter().enumerate() {
             let factors = self.step_factors(i);
             self.displacement[i] =
-                factors.previous * self.displacement[i] + factors.traction * traction;
+                factors.previous_displacement * self.displacement[i] + factors.traction * traction;
         }
     }
 

@@ -165,6 +165,8 @@
 //! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with internal variables |
 //! | finite element | [`fem::Element`] | 4 |
 //! | material of solids that yield | [`fem::SolidMaterial`] | 7 |
+//! | element whose force has internal variables | [`fem::InelasticForce`] | 7 |
+//! | law of fibres | [`fem::UniaxialMaterial`] | 3 |
 //! | spring with internal variables | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
@@ -177,6 +179,7 @@
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
 //! | file of a record | [`motion::RecordFormat`] | 1 |
 //! | boundary operator (`full-plane`) | `bem::full_plane::BoundaryKernel` | 2 |
+//! | waves from below (`full-plane`) | `bem::full_plane::IncidentField` | 2 |
 //! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
 //!
 //! The examples `your_own_structure`, `your_own_law` and `your_own_ground` show how; `host_integrator` uses ground and

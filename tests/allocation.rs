@@ -357,7 +357,7 @@ fn forces_of_yielding_elements_do_not_allocate() {
             let mut force = vec![0.0; n];
             let mut tangent = Triplets::new(n);
             let mut allocations = 0;
-            let mut dissipated = 0.0;
+            let mut dissipated_energy = 0.0;
             for step in 0..20 {
                 let start_count = ALLOCATION_COUNT.get();
                 for (dof, value) in displacement.iter_mut().enumerate() {
@@ -370,7 +370,7 @@ fn forces_of_yielding_elements_do_not_allocate() {
                 tangent.clear();
                 nonlinear.tangent(&midstep, &mut tangent).unwrap();
                 assert!(nonlinear.remainder(&midstep, &displacement).unwrap().is_finite());
-                dissipated = nonlinear.energy(&displacement).unwrap().dissipated;
+                dissipated_energy = nonlinear.energy(&displacement).unwrap().dissipated;
                 nonlinear.commit(&displacement);
                 // The first tangent reserves its entries.
                 if step > 0 {
@@ -378,7 +378,7 @@ fn forces_of_yielding_elements_do_not_allocate() {
                 }
             }
             assert_eq!(allocations, 0);
-            assert!(dissipated > 0.0);
+            assert!(dissipated_energy > 0.0);
         }
     }
 }

@@ -37,10 +37,11 @@ fn orders(scene: &str, errors: &[[f64; 3]], halvings: u8) -> [f64; 3] {
     for error in errors {
         print_errors(scene, &QUANTITY_NAMES, error);
     }
-    let last = errors.len() - 1;
-    let first = last - usize::from(halvings);
-    let orders =
-        std::array::from_fn(|k| (errors[first][k] / errors[last][k]).log2() / f64::from(halvings));
+    let last_index = errors.len() - 1;
+    let first = last_index - usize::from(halvings);
+    let orders = std::array::from_fn(|k| {
+        (errors[first][k] / errors[last_index][k]).log2() / f64::from(halvings)
+    });
     print_errors(&format!("{scene}: order"), &QUANTITY_NAMES, &orders);
     orders
 }
@@ -93,7 +94,7 @@ fn cylinder_series(time_step: f64) -> SampledSeries {
     samples
 }
 
-/// GOAL: the order that contact leaves, at least one. It is not smooth: events fall on steps.
+/// GOAL: the order of runs with contact is at least one. Errors are not smooth in the step: events fall on steps.
 /// SCENE: blocks under their weight that rock, slide, or do both; steps 0.1 to 0.0125.
 /// REFERENCE: a step four times finer than the finest.
 #[test]

@@ -1,4 +1,4 @@
-//! Tests of parts: structures, interface laws, records, files, results and refused input.
+//! Tests of parts: structures, interface laws, records, files, results and invalid input.
 
 mod allocation;
 mod contact;

@@ -155,7 +155,8 @@ pub(crate) fn in_python_words(mut text: String) -> String {
         ("site::SoilColumn", "SoilColumn"),
         ("`Ground::elements`", "`ground.elements`"),
         ("`Record::padded`", "`Record.padded`"),
-        ("Incoherence::clipped", "Incoherence.clipped"),
+        ("`Incoherence::clipped`", "`Incoherence(clipped=True)`"),
+        ("`TrenchGround::with_water_table`", "`TrenchGround(water_table=…)`"),
         (
             "a recorder of fewer steps takes less",
             "larger `every`, `contact_every`, `motion_every` or `series=False` take less",

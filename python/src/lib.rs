@@ -86,9 +86,10 @@ mod _core {
         },
         joint::PyJoint,
         motion::{
-            PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,
-            PyTrenchMotion, el_centro_1940, free_field, log_spaced, ricker, travelling_wave,
-            triaxial, vertical_incidence,
+            PyAbrahamsonCoherence, PyCoherence, PyCoherenceFn, PyColumn, PyFreeField,
+            PyInclinedWave, PyIncoherence, PyIncoherentMotion, PyLucoWong, PyPlaneWave, PyRecord,
+            PySpectrum, PyTrenchMotion, el_centro_1940, free_field, log_spaced, mean_coherence,
+            ricker, travelling_wave, triaxial, vertical_incidence,
         },
         pickling::restored,
         probe::PyProbe,
@@ -105,7 +106,7 @@ mod _core {
             PyTimeScheme,
         },
         site::{PyEquivalentLinear, PyStrainCurves},
-        soil::{PySoil, PySoilStrength},
+        soil::{PySoil, PySoilStrength, PyWaterTable},
         structure::{
             PyAxialMomentSurface, PyBeamEndRows, PyBeamRows, PyBeamSection, PyBeamSections,
             PyBilinear, PyBilinearMoment, PyBilinearSteel, PyBoucWen, PyConcrete, PyDruckerPrager,

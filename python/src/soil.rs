@@ -1,7 +1,7 @@
-//! Elastic soil, and the strength of drained soil.
+//! Elastic soil, the strength of drained soil, and water in it.
 
 use basemat::Soil;
-use basemat::soil::SoilStrength;
+use basemat::soil::{SoilStrength, WaterTable};
 use pyo3::prelude::*;
 
 use crate::error::OrRaise;
@@ -112,5 +112,27 @@ impl PySoilStrength {
     /// Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa.
     fn pressures(&self, vertical: f64) -> [f64; 2] {
         self.0.pressures(vertical)
+    }
+}
+
+/// Water table: the level below which water at rest presses on a structure.
+///
+/// It lies ``depth`` below the surface of the ground, m; negative for water above a base on the surface, which lies below the
+/// water table in reality. ``density``: of the water, kg/m³; 1000 by default.
+///
+/// The pressure ρ g (z − depth) at the depth z acts up on a base and inwards on walls, also on elements that are open.
+/// Tractions, factors of safety and friction are then effective. Shaking and gaps do not change the pressure. For a
+/// base on the surface it is given to `InitialConditions`, in a trench to `TrenchGround`.
+#[pyclass(name = "WaterTable", module = "basemat", frozen, dict, eq)]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct PyWaterTable(pub(crate) WaterTable);
+
+#[pymethods]
+impl PyWaterTable {
+    #[new]
+    #[pyo3(signature = (depth, *, density=1000.0))]
+    fn new(depth: f64, density: f64) -> PyResult<Self> {
+        let water = WaterTable::at_depth(depth).and_then(|water| water.with_density(density));
+        water.or_raise().map(Self)
     }
 }

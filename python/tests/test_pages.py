@@ -74,7 +74,7 @@ def test_the_guides_parts_work(ran: dict[str, tuple[dict[str, Any], Path]]) -> N
 
 def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[str, Any], Path]]) -> None:
     gallery = sorted(own.stem for own in (pages.DOCS / "gallery").glob("*.md"))
-    assert len(gallery) == 15
+    assert len(gallery) == 16
     listed = (pages.DOCS / "gallery.md").read_text("utf-8")
     for page in gallery:
         assert f"(gallery/{page}.md)" in listed
@@ -96,6 +96,9 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
     # The weak column yields, the strong one lifts its footing.
     weak, strong = ran["fiber_column"][0]["results"].values()
     assert np.abs(weak[0]).max() > 3.0 * np.abs(strong[0]).max() and np.abs(strong[1]).max() > 1.8 * np.abs(weak[1]).max()
+    incoherent = ran["incoherent"][0]
+    assert incoherent["twists"][0] < 1e-6 < 0.5 < min(incoherent["twists"][1:])
+    assert incoherent["run"].buoyancy == pytest.approx(1000.0 * bm.STANDARD_GRAVITY * 4.0 * 900.0, rel=1e-6)
     near_field = ran["near_field"][0]
     assert near_field["moments"]["yielding"] < 1.1 * near_field["capacity"] < 1.5 * near_field["moments"]["linear"]
     assert ran["hysteresis"][0]["columns"].path > 0.05 and ran["cask"][0]["run"].uplifted_fraction.value > 0.3

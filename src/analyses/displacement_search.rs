@@ -23,9 +23,9 @@ pub(super) struct DisplacementSearch {
     /// Force of the first trial; it adds to the force of a state without displacement.
     first_force: f64,
     /// Last state below the target.
-    pub(super) lower: ForceDisplacement,
+    pub(super) lower_state: ForceDisplacement,
     /// Last state above the target.
-    pub(super) upper: Option<ForceDisplacement>,
+    pub(super) upper_state: Option<ForceDisplacement>,
     /// Last force without equilibrium.
     pub(super) failed_force: Option<f64>,
     /// Weights of the residuals of the lower and the upper state.
@@ -36,12 +36,12 @@ pub(super) struct DisplacementSearch {
 }
 
 impl DisplacementSearch {
-    pub(super) fn new(target: f64, first_force: f64, lower: ForceDisplacement) -> Self {
+    pub(super) fn new(target: f64, first_force: f64, lower_state: ForceDisplacement) -> Self {
         Self {
             target,
             first_force,
-            lower,
-            upper: None,
+            lower_state,
+            upper_state: None,
             failed_force: None,
             lower_weight: 1.0,
             upper_weight: 1.0,
@@ -51,17 +51,19 @@ impl DisplacementSearch {
 
     /// Force of the next trial.
     pub(super) fn next_force(&self) -> f64 {
-        let lower = self.lower;
-        match (self.upper, self.failed_force) {
-            (Some(upper), _) => {
-                let lower_residual = self.lower_weight * (self.target - lower.displacement);
-                let upper_residual = self.upper_weight * (upper.displacement - self.target);
-                (lower.force * upper_residual + upper.force * lower_residual)
+        let lower_state = self.lower_state;
+        match (self.upper_state, self.failed_force) {
+            (Some(upper_state), _) => {
+                let lower_residual = self.lower_weight * (self.target - lower_state.displacement);
+                let upper_residual = self.upper_weight * (upper_state.displacement - self.target);
+                (lower_state.force * upper_residual + upper_state.force * lower_residual)
                     / (upper_residual + lower_residual)
             }
-            (None, Some(failed_force)) => 0.5 * (lower.force + failed_force),
-            (None, None) if lower.displacement == 0.0 => lower.force + self.first_force,
-            (None, None) => lower.force * (self.target / lower.displacement).min(MAX_FORCE_GROWTH),
+            (None, Some(failed_force)) => 0.5 * (lower_state.force + failed_force),
+            (None, None) if lower_state.displacement == 0.0 => lower_state.force + self.first_force,
+            (None, None) => {
+                lower_state.force * (self.target / lower_state.displacement).min(MAX_FORCE_GROWTH)
+            }
         }
     }
 
@@ -71,11 +73,11 @@ impl DisplacementSearch {
         let is_repeated = self.was_above.replace(is_above) == Some(is_above);
         let weight_factor = if is_repeated { 0.5 } else { 1.0 };
         if is_above {
-            self.upper = Some(state);
+            self.upper_state = Some(state);
             self.lower_weight *= weight_factor;
             self.upper_weight = 1.0;
         } else {
-            self.lower = state;
+            self.lower_state = state;
             self.lower_weight = 1.0;
             self.upper_weight *= weight_factor;
         }
@@ -84,6 +86,6 @@ impl DisplacementSearch {
 
     /// Whether the forces with and without equilibrium agree to the tolerance, relative to `force`.
     pub(super) fn is_limit(&self, failed_force: f64, force: f64) -> bool {
-        (failed_force - self.lower.force).abs() <= LIMIT_FORCE_TOLERANCE * force.abs()
+        (failed_force - self.lower_state.force).abs() <= LIMIT_FORCE_TOLERANCE * force.abs()
     }
 }

@@ -35,8 +35,8 @@ const BASE_SHEAR_RATIO: f64 = 1e-3;
 const STEPS_PER_PERIOD: f64 = 40.0;
 /// Number of moving-average windows in a period T: the averages keep the mode and remove faster vibrations.
 const WINDOWS_PER_PERIOD: f64 = 6.0;
-/// Number of half periods that are evaluated.
-const EVALUATED_HALF_PERIODS: usize = 10;
+/// Number of sign changes of the amplitude after which the evaluation ends.
+const MAX_SIGN_CHANGES: usize = 10;
 /// Longest evaluated vibration, in periods T.
 const MAX_PERIODS: f64 = 60.0;
 /// Amplitude, relative to the initial one, at which the evaluation ends.
@@ -88,12 +88,13 @@ impl FixedBaseMode {
         };
         let mut momentum = vec![0.0; dofs];
         mass.multiply_add(1.0, &translation, &mut momentum);
-        let structural_modes =
-            squared_frequencies.iter().zip(modes.chunks_exact(dofs)).filter(|(square, mode)| {
-                stiffness.form(mode, mode) > MIN_STRUCTURAL_FRACTION * **square
-            });
-        let candidates =
-            structural_modes.map(|(square, mode)| (dot(mode, &momentum), *square, mode));
+        let structural_modes = squared_frequencies.iter().zip(modes.chunks_exact(dofs)).filter(
+            |(squared_frequency, mode)| {
+                stiffness.form(mode, mode) > MIN_STRUCTURAL_FRACTION * **squared_frequency
+            },
+        );
+        let candidates = structural_modes
+            .map(|(squared_frequency, mode)| (dot(mode, &momentum), *squared_frequency, mode));
         let dominant = candidates.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
         let Some((participation, squared_frequency, mode)) = dominant else {
             return Ok(None);
@@ -166,13 +167,13 @@ pub(crate) fn free_vibration(
     let mut sign_changes = Vec::new();
     // Largest amplitude since the last change of sign.
     let mut max_amplitude = 0.0_f64;
-    while amplitudes.len() <= max_steps && sign_changes.len() < EVALUATED_HALF_PERIODS {
+    while amplitudes.len() <= max_steps && sign_changes.len() < MAX_SIGN_CHANGES {
         amplitudes.push(1.0 + simulation.step()?.probes[0]);
         averaged_once.extend(mean_of_last(&amplitudes, window_steps));
         averaged_twice.extend(mean_of_last(&averaged_once, window_steps));
-        let [.., previous, current] = averaged_twice[..] else { continue };
-        max_amplitude = max_amplitude.max(current.abs());
-        if previous.signum() != current.signum() {
+        let [.., previous_amplitude, amplitude] = averaged_twice[..] else { continue };
+        max_amplitude = max_amplitude.max(amplitude.abs());
+        if previous_amplitude.signum() != amplitude.signum() {
             sign_changes.push(averaged_twice.len() - 1);
             if max_amplitude < FINAL_AMPLITUDE_RATIO {
                 break;
@@ -222,8 +223,14 @@ fn fit_decay(
     };
     // Sums of the products of η (n), η₋ (b) and η₊ (a).
     let mut sums = [0.0; 5];
-    for ((before, now), after) in triples() {
-        let products = [now * now, now * before, before * before, now * after, before * after];
+    for ((earlier_value, value), later_value) in triples() {
+        let products = [
+            value * value,
+            value * earlier_value,
+            earlier_value * earlier_value,
+            value * later_value,
+            earlier_value * later_value,
+        ];
         for (sum, product) in sums.iter_mut().zip(products) {
             *sum += product;
         }
@@ -232,8 +239,11 @@ fn fit_decay(
     let determinant = nn * bb - nb * nb;
     let a = (na * bb - ba * nb) / determinant;
     let b = (ba * nn - na * nb) / determinant;
-    let misfit: f64 =
-        triples().map(|((before, now), after)| (after - a * now - b * before).powi(2)).sum();
+    let misfit: f64 = triples()
+        .map(|((earlier_value, value), later_value)| {
+            (later_value - a * value - b * earlier_value).powi(2)
+        })
+        .sum();
     if misfit.sqrt() > MISFIT_TOLERANCE * (nn + bb).sqrt() || a * a + 4.0 * b >= 0.0 {
         return None;
     }
@@ -287,7 +297,7 @@ mod tests {
                     slow_mode.iter().zip(&fast_mode).map(|(x, y)| x + fast_amplitude * y).collect();
                 let sign_changes: Vec<usize> = (1..values.len())
                     .filter(|k| values[*k].signum() != values[k - 1].signum())
-                    .take(EVALUATED_HALF_PERIODS)
+                    .take(MAX_SIGN_CHANGES)
                     .collect();
                 let end = sign_changes[sign_changes.len() - 1];
                 let fit = fit_decay(&values[..=end], &sign_changes, 0, time_step).unwrap();

@@ -80,7 +80,7 @@ pub struct PushOver {
 /// weighted sum of degrees of freedom. The weight acts first, as the [`GravityStage`](crate::coupled::GravityStage)
 /// defines. The load follows, in increments if elements slide or yield. In each state the load has grown from zero.
 /// The structure has P–Δ and [nonlinear forces](crate::structure::NonlinearForce) as the scene defines. The internal
-/// variables of the nonlinear forces keep their values before the load. `control` is a degree of freedom of the
+/// variables of the nonlinear forces stay as they were before the load. `control` is a degree of freedom of the
 /// structure, or a weighted sum of degrees of freedom, whose displacement is reported.
 ///
 /// The curve ends at the first force without equilibrium, for example because the structure overturns or slides away.
@@ -118,6 +118,7 @@ pub struct PushOver {
 /// # Errors
 /// [`Error::Size`] without forces or displacements; [`Error::Input`] for numbers that are not finite, displacements
 /// out of order, or a first force of zero; [`Error::Index`] for a degree of freedom that the structure does not have;
+/// [`Error::Part`] for a displacement whose force is not found in 60 static states;
 /// any error of `scene` without force, and any other error of `scene` except a missing equilibrium.
 pub fn push_over(
     control: &DofCombination,
@@ -198,14 +199,15 @@ struct PushOverAnalysis<'a, S> {
 
 impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
     fn new(control: &'a DofCombination, mut scene: S) -> Result<Self> {
-        let unloaded = scene(0.0)?;
-        control.check("degree of freedom of the push-over", unloaded.structure().dofs())?;
+        let unloaded_simulation = scene(0.0)?;
+        control
+            .check("degree of freedom of the push-over", unloaded_simulation.structure().dofs())?;
         let curve = PushOver { points: Vec::new(), limit: None, cause: None };
         let datum = ReportedMotion::default();
         let last_state = ForceDisplacement { force: 0.0, displacement: 0.0 };
         let mut analysis = Self { control, scene, datum, curve, last_state };
-        analysis.datum = analysis.reported_motion(&unloaded);
-        let point = analysis.point(0.0, &unloaded);
+        analysis.datum = analysis.reported_motion(&unloaded_simulation);
+        let point = analysis.point(0.0, &unloaded_simulation);
         analysis.curve.points.push(point);
         Ok(analysis)
     }
@@ -282,13 +284,13 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
         let mut failed_force = force;
         let mut last_point = None;
         while (failed_force - carried_force).abs() > LIMIT_FORCE_TOLERANCE * failed_force.abs() {
-            let middle = 0.5 * (carried_force + failed_force);
-            match self.state(middle)? {
+            let middle_force = 0.5 * (carried_force + failed_force);
+            match self.state(middle_force)? {
                 Some(point) => {
-                    carried_force = middle;
+                    carried_force = middle_force;
                     last_point = Some(point);
                 }
-                None => failed_force = middle,
+                None => failed_force = middle_force,
             }
         }
         self.end_at_limit(last_point, carried_force, failed_force);
@@ -304,7 +306,7 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
             let Some(point) = self.state(force)? else {
                 search.failed_force = Some(force);
                 if search.is_limit(force, force) {
-                    self.end_at_limit(lower_point, search.lower.force, force);
+                    self.end_at_limit(lower_point, search.lower_state.force, force);
                     return Ok(false);
                 }
                 continue;
@@ -318,7 +320,7 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
                 continue;
             }
             lower_point = Some(point);
-            if let Some(failed_force) = search.failed_force.filter(|_| search.upper.is_none())
+            if let Some(failed_force) = search.failed_force.filter(|_| search.upper_state.is_none())
                 && search.is_limit(failed_force, force)
             {
                 self.end_at_limit(lower_point, force, failed_force);

@@ -7,8 +7,8 @@ use crate::coupled::assembly::static_push::{StaticPush, has_no_equilibrium};
 use crate::error::{Result, all_finite, at_least};
 use crate::structure::DofCombination;
 
-/// Smallest part of an increment, after halving what has no equilibrium.
-const MIN_PART: f64 = 1.0 / 256.0;
+/// Smallest fraction of an increment, after halving what has no equilibrium.
+const MIN_INCREMENT_FRACTION: f64 = 1.0 / 256.0;
 
 /// Pushes a structure on its ground to growing displacements, through its largest load.
 ///
@@ -118,15 +118,16 @@ impl Datum {
 fn advance(push: &mut StaticPush, target: f64) -> Result<()> {
     let start = push.controlled_displacement();
     let mut fraction = 0.0;
-    let mut part = 1.0;
+    let mut increment_fraction = 1.0;
     while fraction < 1.0 {
         // Fractions are sums of powers of two, without rounding.
-        let next_fraction = fraction + part;
+        let next_fraction = fraction + increment_fraction;
         let is_last = next_fraction == 1.0;
-        let next = if is_last { target } else { start + next_fraction * (target - start) };
-        match push.advance(next) {
+        let next_displacement =
+            if is_last { target } else { start + next_fraction * (target - start) };
+        match push.advance(next_displacement) {
             Ok(()) => fraction = next_fraction,
-            Err(_) if part > MIN_PART => part *= 0.5,
+            Err(_) if increment_fraction > MIN_INCREMENT_FRACTION => increment_fraction *= 0.5,
             Err(error) => return Err(error),
         }
     }

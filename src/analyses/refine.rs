@@ -160,8 +160,8 @@ pub(crate) fn run_settings(
         let results = scene(setting_elements, setting_step)?;
         let wall = start.map_or(Duration::ZERO, |start| start.elapsed());
         at_least(RESULTS_NAME, results.len(), 1)?;
-        if let Some(first) = settings.first() {
-            same_length(RESULTS_NAME, results.len(), first.results.len())?;
+        if let Some(first_setting) = settings.first() {
+            same_length(RESULTS_NAME, results.len(), first_setting.results.len())?;
         }
         all_finite(RESULTS_NAME, &results)?;
         settings.push(Setting {
@@ -185,8 +185,8 @@ struct SeriesErrors {
 
 impl SeriesErrors {
     /// Extrapolates the results of three settings.
-    fn of(coarse: &Setting, middle: &Setting, fine: &Setting) -> Self {
-        let results = [&coarse.results, &middle.results, &fine.results];
+    fn of(coarse_setting: &Setting, middle_setting: &Setting, fine_setting: &Setting) -> Self {
+        let results = [&coarse_setting.results, &middle_setting.results, &fine_setting.results];
         let order = (distance(results[0], results[1]) / distance(results[1], results[2])).log2();
         // The error of the finest result is the change by infinitely many halvings with this order.
         let clamped_order = if order.is_nan() {
@@ -237,12 +237,12 @@ impl Refinement {
             *value = *value - meshes.errors[0][k] - steps.errors[0][k];
         }
         // Results of twice the elements with half the step, if both errors add up.
-        let mut predicted = extrapolated.clone();
-        for (k, value) in predicted.iter_mut().enumerate() {
+        let mut predicted_results = extrapolated.clone();
+        for (k, value) in predicted_results.iter_mut().enumerate() {
             *value = *value + meshes.errors[1][k] + steps.errors[1][k];
         }
         let results_norm = norm(extrapolated.iter().copied());
-        let mismatch = relative(distance(&settings[5].results, &predicted), results_norm);
+        let mismatch = relative(distance(&settings[5].results, &predicted_results), results_norm);
         for (setting, Halvings { mesh, step }) in settings.iter_mut().zip(SETTING_HALVINGS) {
             let error_pairs = meshes.errors[mesh as usize].iter().zip(&steps.errors[step as usize]);
             setting.error = relative(norm(error_pairs.map(|(a, b)| a + b)), results_norm);
@@ -257,10 +257,10 @@ impl Refinement {
     /// Both orders must be between a half and four, unless the results do not depend on mesh or step. The coarsest
     /// error must be above the mismatch.
     pub fn is_regular(&self) -> bool {
-        let coarsest = self.settings.first().map_or(0.0, |setting| setting.error);
+        let coarsest_error = self.settings.first().map_or(0.0, |setting| setting.error);
         is_regular_order(self.mesh_order)
             && is_regular_order(self.step_order)
-            && self.mismatch <= coarsest
+            && self.mismatch <= coarsest_error
     }
 
     /// Orders of convergence, and advice if they are irregular.

@@ -139,10 +139,10 @@ impl Refinements {
 
 impl fmt::Display for Refinements {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let named: Vec<_> =
+        let named_refinements: Vec<_> =
             self.peaks.iter().map(|(name, refinement)| (name.as_str(), refinement)).collect();
-        f.write_str(&table(&named))?;
-        named
+        f.write_str(&table(&named_refinements))?;
+        named_refinements
             .iter()
             .try_for_each(|(name, refinement)| write!(f, "\n{name}: {}", refinement.notes()))
     }
@@ -164,14 +164,14 @@ mod tests {
         })
         .unwrap();
         for k in 0..2 {
-            let separate =
+            let separate_refinements =
                 super::super::refine(10, 0.1, |elements, step| Ok(vec![value(k, elements, step)]));
             let mut joint = refinements.peaks[k].1.clone();
-            let mut separate = separate.unwrap();
-            for setting in joint.settings.iter_mut().chain(&mut separate.settings) {
+            let mut separate_refinements = separate_refinements.unwrap();
+            for setting in joint.settings.iter_mut().chain(&mut separate_refinements.settings) {
                 setting.wall = std::time::Duration::ZERO;
             }
-            assert_eq!(joint, separate);
+            assert_eq!(joint, separate_refinements);
         }
         let report = refinements.to_string();
         for text in ["peak 0", "peak 1", "extrapolated", "peak 1: order of convergence: 1.0"] {

@@ -32,10 +32,10 @@ pub struct PeakTwins {
 impl PeakTwins {
     /// Largest difference between a twin and the run, in the unit of the peak.
     pub fn spread(&self) -> f64 {
-        let twins = [self.shorter_step, self.three_quarters, self.half];
-        twins
+        let twin_values = [self.shorter_step, self.three_quarters, self.half];
+        twin_values
             .into_iter()
-            .fold(0.0, |spread, twin| f64::max(spread, (twin - self.value).abs()))
+            .fold(0.0, |spread, twin_value| f64::max(spread, (twin_value - self.value).abs()))
     }
 
     /// Number of reliable significant digits, six at most.

@@ -94,7 +94,8 @@ impl ElasticGround {
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no strips or rigid bedrock without layers,
-    /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order.
+    /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order,
+    /// [`Error::Memory`](crate::Error::Memory) for more elements than their matrices allow.
     pub fn new(profile: impl Into<SoilProfile>, strips: impl AsRef<[Strip]>) -> Result<Self> {
         let elements: Vec<_> = strips.as_ref().iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;

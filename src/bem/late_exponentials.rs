@@ -175,21 +175,21 @@ impl Pole {
     fn reduce_polynomials(&mut self, late_series: &[[f64; LATE_SERIES_TERMS]; 2], max_error: f64) {
         let mut neglected_sums = [0.0; 2];
         while self.polynomial_count > 1 {
-            let last = self.polynomial_count - 1;
+            let last_degree = self.polynomial_count - 1;
             for (component, neglected_sum) in neglected_sums.iter_mut().enumerate() {
                 let legendre = &self.legendre[component];
                 let mut dropped_sum = 0.0;
-                for i in 0..last {
-                    dropped_sum += legendre[i * MAX_POLYNOMIAL_COUNT + last].abs()
-                        + legendre[last * MAX_POLYNOMIAL_COUNT + i].abs();
+                for i in 0..last_degree {
+                    dropped_sum += legendre[i * MAX_POLYNOMIAL_COUNT + last_degree].abs()
+                        + legendre[last_degree * MAX_POLYNOMIAL_COUNT + i].abs();
                 }
-                dropped_sum += legendre[last * MAX_POLYNOMIAL_COUNT + last].abs();
+                dropped_sum += legendre[last_degree * MAX_POLYNOMIAL_COUNT + last_degree].abs();
                 *neglected_sum += dropped_sum / late_series[component][0].abs();
             }
             if neglected_sums[0].max(neglected_sums[1]) > max_error {
                 return;
             }
-            self.polynomial_count = last;
+            self.polynomial_count = last_degree;
         }
     }
 }

@@ -73,7 +73,7 @@ use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::Patch;
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
-use crate::soil::Soil;
+use crate::soil::{Soil, WaterTable};
 
 /// Ground under the base; implement this trait for your ground.
 ///
@@ -180,7 +180,7 @@ pub trait Ground: Any + Send {
 
     /// Soil and history of the ground, for warnings and pages; nothing by default.
     ///
-    /// `build` uses all fields but the history from one call before [`Ground::prepare`].
+    /// `build` uses all fields but the history from calls before [`Ground::prepare`].
     fn description(&self) -> GroundDescription {
         GroundDescription::default()
     }
@@ -286,6 +286,10 @@ pub struct GroundDescription {
     /// A run warns of wall pressures beyond the soil's resistance:
     /// [`Warning::WallPressure`](crate::coupled::Warning::WallPressure).
     pub mass_above: Vec<f64>,
+    /// Water table in the soil; `None` without water.
+    ///
+    /// Pressures at rest and masses above are then effective, without the water.
+    pub water_table: Option<WaterTable>,
     /// Numbers that identify the soils around walls, equal only for equal soils; `None` without them.
     ///
     /// `build` compares them with [`FreeField::soils`].

@@ -48,7 +48,7 @@ impl SpringGround {
     /// Bed of `count` equal elements over `range` (m) with normal and tangential stiffness (Pa/m).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for an empty range, no elements, or a stiffness not finite and above zero.
+    /// As for [`Strip::new`]; [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero.
     pub fn new(
         range: std::ops::Range<f64>,
         count: usize,

@@ -9,7 +9,7 @@ use crate::linalg::gauss;
 use crate::soil::Soil;
 
 /// Reference length in spans of the elements, large enough for a positive definite static matrix.
-const REFERENCE_SPANS: f64 = 10.0;
+const REFERENCE_LENGTH_SPANS: f64 = 10.0;
 
 /// Element means of the static surface displacement (Flamant).
 ///
@@ -48,7 +48,7 @@ impl StaticKernel {
     /// settlement that it adds cancels in all results.
     pub(super) fn under(soil: Soil, elements: &[ContactElement]) -> Result<Self> {
         let span = elements[elements.len() - 1].right() - elements[0].left();
-        Self::new(soil, REFERENCE_SPANS * span)
+        Self::new(soil, REFERENCE_LENGTH_SPANS * span)
     }
 
     /// Mean displacement of the receiver due to a unit traction on the source, m/Pa.

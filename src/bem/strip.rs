@@ -267,7 +267,7 @@ impl Overlap {
         let slope = |i: usize| (w[i + 1] - w[i]) / (x[i + 1] - x[i]);
         let line_through =
             |node: usize, i: usize| LinearOverlap { x: x[node], w: w[node], slope: slope(i) };
-        let mut passed = PassedOverlap {
+        let mut passed_overlap = PassedOverlap {
             has_one_segment: false,
             travel_per_step,
             start: step_ends[0],
@@ -284,30 +284,30 @@ impl Overlap {
         {
             // The line starts at the end with the smaller w, so that w keeps its relative precision there.
             let node = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
-            passed.has_one_segment = true;
-            passed.lower_line = line_through(node, i);
-            return passed;
+            passed_overlap.has_one_segment = true;
+            passed_overlap.lower_line = line_through(node, i);
+            return passed_overlap;
         }
         let first_node = match lower_segment {
             SegmentOfOffset::Inside(i) => {
-                passed.lower_line = line_through(i + 1, i);
+                passed_overlap.lower_line = line_through(i + 1, i);
                 i + 1
             }
             SegmentOfOffset::BeforeFirst => 0,
-            SegmentOfOffset::BeyondLast => return passed,
+            SegmentOfOffset::BeyondLast => return passed_overlap,
         };
         let last_node = match upper_segment {
             SegmentOfOffset::Inside(j) => {
-                passed.upper_line = line_through(j, j);
+                passed_overlap.upper_line = line_through(j, j);
                 j
             }
             SegmentOfOffset::BeyondLast => x.len() - 1,
-            SegmentOfOffset::BeforeFirst => return passed,
+            SegmentOfOffset::BeforeFirst => return passed_overlap,
         };
         for i in first_node..last_node {
-            passed.whole_segments += 0.5 * (x[i + 1] - x[i]) * (w[i] + w[i + 1]);
+            passed_overlap.whole_segments += 0.5 * (x[i + 1] - x[i]) * (w[i] + w[i + 1]);
         }
-        passed
+        passed_overlap
     }
 }
 

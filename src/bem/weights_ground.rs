@@ -108,7 +108,7 @@ pub struct WeightsGround {
     /// Function that creates the user's history; `None` for a history according to `options`.
     custom_history: Option<Box<MakeHistory>>,
     shared_kernels: SharedKernels,
-    prepared: Option<PreparedHistory>,
+    prepared_history: Option<PreparedHistory>,
 }
 
 short_debug! {
@@ -116,7 +116,7 @@ short_debug! {
     self;
     elements: self.elements.len(),
     history: self.options,
-    prepared: self.prepared.is_some(),
+    prepared: self.prepared_history.is_some(),
 }
 
 /// Weights and history for one time step.
@@ -134,7 +134,8 @@ impl WeightsGround {
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for elements that
-    /// overlap, are out of order or have no length.
+    /// overlap, are out of order or have no length, [`Error::Memory`](crate::Error::Memory) for more elements than
+    /// their matrices allow.
     pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         Ok(Self::with_unions(source, elements, None))
@@ -153,7 +154,7 @@ impl WeightsGround {
             options: HistoryOptions::default(),
             custom_history: None,
             shared_kernels: SharedKernels::default(),
-            prepared: None,
+            prepared_history: None,
         }
     }
 
@@ -192,7 +193,7 @@ impl WeightsGround {
 
     /// Replaces the source of convolution weights.
     pub(super) fn with_source(self, source: impl WeightsSource) -> Self {
-        Self { source: Box::new(source), prepared: None, ..self }
+        Self { source: Box::new(source), prepared_history: None, ..self }
     }
 
     /// Empty history of `weights` for `steps` steps; `steps` is `None` if their number is unknown.
@@ -219,8 +220,10 @@ impl Ground for WeightsGround {
         steps: Option<usize>,
         observer: &mut Observer<'_>,
     ) -> Result<()> {
-        let weights = match &self.prepared {
-            Some(prepared) if prepared.time_step == time_step => Arc::clone(&prepared.weights),
+        let weights = match &self.prepared_history {
+            Some(prepared_history) if prepared_history.time_step == time_step => {
+                Arc::clone(&prepared_history.weights)
+            }
             _ => self.shared_kernels.kernel(&*self.source, &self.elements, time_step)?,
         };
         let mut chosen_history = self.empty_history(&weights, steps)?;
@@ -229,7 +232,7 @@ impl Ground for WeightsGround {
             // The step compliance depends on the first lag only.
             None => weights.prepare(1, observer)?,
         }
-        self.prepared = Some(PreparedHistory { time_step, weights, chosen_history });
+        self.prepared_history = Some(PreparedHistory { time_step, weights, chosen_history });
         if let Some(unions) = &mut self.unions {
             unions.last_traction.fill(0.0);
         }
@@ -237,7 +240,7 @@ impl Ground for WeightsGround {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let Some(PreparedHistory { weights, .. }) = &self.prepared else {
+        let Some(PreparedHistory { weights, .. }) = &self.prepared_history else {
             return Err(NOT_PREPARED);
         };
         match &self.unions {
@@ -249,7 +252,7 @@ impl Ground for WeightsGround {
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let Some(PreparedHistory { chosen_history, .. }) = &mut self.prepared else {
+        let Some(PreparedHistory { chosen_history, .. }) = &mut self.prepared_history else {
             return Err(NOT_PREPARED);
         };
         match &mut self.unions {
@@ -261,7 +264,7 @@ impl Ground for WeightsGround {
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        let Some(PreparedHistory { chosen_history, .. }) = &mut self.prepared else {
+        let Some(PreparedHistory { chosen_history, .. }) = &mut self.prepared_history else {
             return;
         };
         let cell_traction = self.unions.as_mut().map_or(traction, |unions| unions.spread(traction));
@@ -269,21 +272,23 @@ impl Ground for WeightsGround {
     }
 
     fn description(&self) -> GroundDescription {
-        let prepared = self.prepared.as_ref();
+        let prepared_history = self.prepared_history.as_ref();
         GroundDescription {
             shear_wave_speed: self.source.shear_wave_speed(),
-            history: prepared.and_then(|prepared| prepared.chosen_history.choice()),
+            history: prepared_history.and_then(|prepared| prepared.chosen_history.choice()),
             ..Default::default()
         }
     }
 
     fn increment_error_bound(&self) -> f64 {
-        let prepared = self.prepared.as_ref();
-        prepared.map_or(0.0, |prepared| prepared.chosen_history.history.increment_error_bound())
+        let prepared_history = self.prepared_history.as_ref();
+        prepared_history
+            .map_or(0.0, |prepared| prepared.chosen_history.history.increment_error_bound())
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let history_values = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen_history.save()?;
+        let history_values =
+            self.prepared_history.as_ref().ok_or(NOT_PREPARED)?.chosen_history.save()?;
         let last_traction = self.unions.as_ref().map_or(&[][..], |unions| &unions.last_traction);
         Ok([&history_values[..], last_traction].concat())
     }
@@ -293,17 +298,18 @@ impl Ground for WeightsGround {
     /// The checkpoint of a history by exponentials may be from a fit for another horizon (number of steps). The
     /// exponentials are then first fitted again for that horizon.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
+        let prepared_history = self.prepared_history.as_mut().ok_or(NOT_PREPARED)?;
         let last_traction =
             self.unions.as_mut().map_or(&mut [][..], |unions| &mut unions.last_traction);
         let history_length = values.len().saturating_sub(last_traction.len());
         let history_values = &values[..history_length];
-        if let Some(horizon) = prepared.chosen_history.restore(steps, history_values)? {
-            let mut refitted_history = self.options.history(&prepared.weights, Some(horizon))?;
+        if let Some(horizon) = prepared_history.chosen_history.restore(steps, history_values)? {
+            let mut refitted_history =
+                self.options.history(&prepared_history.weights, Some(horizon))?;
             if refitted_history.restore(steps, history_values)?.is_some() {
                 return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
             }
-            prepared.chosen_history = refitted_history;
+            prepared_history.chosen_history = refitted_history;
         }
         last_traction.copy_from_slice(&values[history_length..]);
         Ok(())

@@ -13,11 +13,12 @@ use crate::coupled::serviceability::Serviceability;
 use crate::error::{Progress, unobserved};
 use crate::interface::InterfaceLaw;
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::soil::WaterTable;
 use crate::structure::Probe;
 use crate::structure::Structure;
 
 /// Smallest number of steps that stands for a run without a known end.
-pub(crate) const MIN_ENDLESS_STEPS: usize = match 1_usize.checked_shl(40) {
+pub(crate) const MIN_ENDLESS_STEP_COUNT: usize = match 1_usize.checked_shl(40) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
@@ -41,6 +42,7 @@ pub struct SimulationBuilder {
     pub(crate) gravity: f64,
     pub(crate) gravity_stage: GravityStage,
     pub(crate) loads: Vec<Load>,
+    pub(crate) water_table: Option<WaterTable>,
     /// Displacement of the degrees of freedom at t = 0; empty for zero.
     pub(crate) initial_displacement: Vec<f64>,
     /// Velocity of the degrees of freedom at t = 0; empty for zero.
@@ -89,6 +91,7 @@ impl SimulationBuilder {
             gravity: STANDARD_GRAVITY,
             gravity_stage: GravityStage::default(),
             loads: Vec::new(),
+            water_table: None,
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),
             probes: Vec::new(),
@@ -194,6 +197,18 @@ impl SimulationBuilder {
         self
     }
 
+    /// Sets the water table, of a base on the surface.
+    ///
+    /// Its pressure acts up on the base, with the weight and during the whole run. Pressures, resultants, factors of safety
+    /// and friction are then effective; [`Run::buoyancy`](crate::results::Run::buoyancy) has the force of the water. In a
+    /// trench the water also acts on the soil beside the walls: give it to
+    /// [`TrenchGround::with_water_table`](crate::bem::embedded::TrenchGround::with_water_table).
+    #[must_use]
+    pub fn water_table(mut self, water: WaterTable) -> Self {
+        self.water_table = Some(water);
+        self
+    }
+
     /// Sets the initial displacement of the degrees of freedom, relative to the static state.
     ///
     /// A displacement of the base needs [`GravityStage::Unloaded`] (see the example there) and must not press it into
@@ -250,7 +265,7 @@ impl SimulationBuilder {
     /// steps. A run that ends before the last of the expected steps does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.expected_steps = if steps < MIN_ENDLESS_STEPS { steps } else { 0 };
+        self.expected_steps = if steps < MIN_ENDLESS_STEP_COUNT { steps } else { 0 };
         self
     }
 

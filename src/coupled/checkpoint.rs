@@ -118,22 +118,22 @@ impl Simulation {
     /// };
     /// let mut simulation = scene()?;
     /// simulation.run(200, |_| {})?;
-    /// let saved: Checkpoint = simulation.checkpoint()?;
+    /// let checkpoint: Checkpoint = simulation.checkpoint()?;
     /// simulation.run(100, |_| {})?;
     ///
-    /// let mut other = scene()?;
-    /// other.resume(&saved)?;
-    /// assert_eq!(other.state().step, 200);
-    /// other.run(100, |_| {})?;
-    /// assert_eq!(other.state(), simulation.state());
+    /// let mut resumed_simulation = scene()?;
+    /// resumed_simulation.resume(&checkpoint)?;
+    /// assert_eq!(resumed_simulation.state().step, 200);
+    /// resumed_simulation.run(100, |_| {})?;
+    /// assert_eq!(resumed_simulation.state(), simulation.state());
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn checkpoint(&self) -> Result<Checkpoint> {
         let Self { scene, state, .. } = self;
         let mode_index = |start: PreviousContact<'_>| {
             let index = Mode::ALL.iter().position(|mode| *mode == start.mode);
-            let unsupported = CheckpointError::Unsupported { part: "interface law" };
-            Ok((index.ok_or(unsupported)?, start.has_opened))
+            let unsupported_law = CheckpointError::Unsupported { part: "interface law" };
+            Ok((index.ok_or(unsupported_law)?, start.has_opened))
         };
         let mut state_copy = state.clone();
         let mut energies = self.energies.clone();
@@ -195,10 +195,10 @@ impl Simulation {
     ///         .label(format!("friction {friction}"))
     ///         .build()
     /// };
-    /// let saved = scene(0.4)?.checkpoint()?;
-    /// let error = scene(0.3)?.resume(&saved).unwrap_err();
+    /// let checkpoint = scene(0.4)?.checkpoint()?;
+    /// let error = scene(0.3)?.resume(&checkpoint).unwrap_err();
     /// assert!(error.to_string().contains("the label differs"));
-    /// scene(0.3)?.resume_changed(&saved, &[Change::InterfaceLaw])?;
+    /// scene(0.3)?.resume_changed(&checkpoint, &[Change::InterfaceLaw])?;
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn resume_changed(&mut self, checkpoint: &Checkpoint, changes: &[Change]) -> Result<()> {
@@ -217,8 +217,8 @@ impl Simulation {
         if numbers.len() != checkpoint.state.len() {
             return Err(CheckpointError::Corrupt { quantity: "state" }.into());
         }
-        for (number, saved) in numbers.into_iter().zip(&checkpoint.state) {
-            *number = *saved;
+        for (number, saved_number) in numbers.into_iter().zip(&checkpoint.state) {
+            *number = *saved_number;
         }
         restore_modes(scene, &checkpoint.modes, &mut state)?;
         let law_variables = state.start.state_variables_mut();
@@ -250,8 +250,8 @@ impl Simulation {
         self.energies = energies;
         let mut saved_loads = checkpoint.set_loads.chunks_exact(2).filter(|_| restores_loads);
         for load in &mut self.scene.loads {
-            let saved = saved_loads.next().filter(|saved| saved[0] != 0.0);
-            load.set(saved.map(|saved| saved[1]));
+            let saved_load = saved_loads.next().filter(|saved_load| saved_load[0] != 0.0);
+            load.set(saved_load.map(|saved_load| saved_load[1]));
         }
         Ok(())
     }
@@ -313,26 +313,26 @@ fn restored_tangent(structure: &dyn Structure, values: &[f64]) -> Result<SparseM
 }
 
 /// Restores the modes, and whether elements have been open.
-fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> Result<()> {
-    let corrupt = CheckpointError::Corrupt { quantity: "contact modes" };
-    if saved.len() != scene.element_count() {
-        return Err(corrupt.into());
+fn restore_modes(scene: &Scene, saved_modes: &[(usize, bool)], state: &mut State) -> Result<()> {
+    let corrupt_modes = CheckpointError::Corrupt { quantity: "contact modes" };
+    if saved_modes.len() != scene.element_count() {
+        return Err(corrupt_modes.into());
     }
     let has_limits = LawForm::of(scene.layout()) == LawForm::Limits;
-    let mut restored = Vec::with_capacity(saved.len());
-    for (e, &(index, has_opened)) in saved.iter().enumerate() {
+    let mut restored_modes = Vec::with_capacity(saved_modes.len());
+    for (e, &(index, has_opened)) in saved_modes.iter().enumerate() {
         let mode = Mode::ALL.get(index).copied();
         let is_possible = |mode: &Mode| has_limits || scene.law(e).modes().contains(mode);
-        let mode = mode.filter(is_possible).ok_or_else(|| corrupt.clone())?;
-        restored.push((mode, has_opened));
+        let mode = mode.filter(is_possible).ok_or_else(|| corrupt_modes.clone())?;
+        restored_modes.push((mode, has_opened));
     }
-    let elements = state.elements_mut().zip(&restored);
-    let mut contacts = Vec::with_capacity(saved.len());
+    let elements = state.elements_mut().zip(&restored_modes);
+    let mut contacts = Vec::with_capacity(saved_modes.len());
     for ((contact, present_mode), (mode, _)) in elements {
         *present_mode = *mode;
         contacts.push(*contact);
     }
-    for (e, (contact, (mode, has_opened))) in contacts.into_iter().zip(restored).enumerate() {
+    for (e, (contact, (mode, has_opened))) in contacts.into_iter().zip(restored_modes).enumerate() {
         state.start.restore(e, contact, mode, has_opened);
     }
     Ok(())

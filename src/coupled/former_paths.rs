@@ -39,7 +39,7 @@ pub type PushPoint = crate::analyses::PushPoint;
 /// [`crate::analyses::refine()`].
 ///
 /// # Errors
-/// As there.
+/// As for that function.
 #[deprecated(since = "0.5.0", note = "use `basemat::analyses::refine`")]
 pub fn refine(
     elements: usize,
@@ -52,7 +52,7 @@ pub fn refine(
 /// [`crate::analyses::refine_each`].
 ///
 /// # Errors
-/// As there.
+/// As for that function.
 #[deprecated(since = "0.5.0", note = "use `basemat::analyses::refine_each`")]
 pub fn refine_each<N: Into<String>>(
     elements: usize,
@@ -65,7 +65,7 @@ pub fn refine_each<N: Into<String>>(
 /// [`crate::analyses::sensitivity()`].
 ///
 /// # Errors
-/// As there.
+/// As for that function.
 #[deprecated(since = "0.5.0", note = "use `basemat::analyses::sensitivity`")]
 pub fn sensitivity<N: Into<String>>(
     elements: usize,
@@ -78,7 +78,7 @@ pub fn sensitivity<N: Into<String>>(
 /// [`crate::analyses::largest_convergent_step`].
 ///
 /// # Errors
-/// As there.
+/// As for that function.
 #[deprecated(since = "0.5.0", note = "use `basemat::analyses::largest_convergent_step`")]
 pub fn largest_convergent_step(
     time_step: f64,
@@ -91,7 +91,7 @@ pub fn largest_convergent_step(
 /// [`crate::analyses::interaction()`].
 ///
 /// # Errors
-/// As there.
+/// As for that function.
 #[deprecated(since = "0.5.0", note = "use `basemat::analyses::interaction`")]
 pub fn interaction(
     duration: f64,
@@ -103,7 +103,7 @@ pub fn interaction(
 /// [`crate::analyses::push_over()`].
 ///
 /// # Errors
-/// As there.
+/// As for that function.
 #[deprecated(since = "0.5.0", note = "use `basemat::analyses::push_over`")]
 pub fn push_over(
     control: &DofCombination,

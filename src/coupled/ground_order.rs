@@ -16,7 +16,7 @@ const ELASTIC_COMPLIANCE_RATIO: f64 = 0.8;
 ///
 /// Up to this ratio tractions act in mid-step. An elastic part whose tractions act in mid-step has the ratio −1;
 /// without history it has 0. A bed of springs k and dashpots c with tractions in mid-step has (c/δ − k/2)/(c/δ + k/2)
-/// in a trial step δ. Above −¼ this means c/δ > 0.3 k. The bed's ratio of step compliances is then below 0.63, so that
+/// in a trial step δ. Above −¼ this means c/δ > 0.3 k. The bed's ratio of step compliances is then below 0.64, so that
 /// the bed never counts as first order.
 const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 

@@ -75,11 +75,11 @@ pub(crate) struct Identity {
 /// Whether two lists agree to rounding.
 ///
 /// The tolerance is relative to `scale` or to each number of the second list, whichever is larger.
-fn are_close(saved: &[f64], present: &[f64], scale: f64) -> bool {
-    saved.len() == present.len()
-        && saved
+fn are_close(saved_numbers: &[f64], present_numbers: &[f64], scale: f64) -> bool {
+    saved_numbers.len() == present_numbers.len()
+        && saved_numbers
             .iter()
-            .zip(present)
+            .zip(present_numbers)
             .all(|(a, b)| a == b || (a - b).abs() <= IDENTITY_TOLERANCE * scale.max(b.abs()))
 }
 

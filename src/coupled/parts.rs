@@ -24,6 +24,7 @@ use crate::interface::{
 use crate::linalg::CompressedMatrix;
 use crate::linalg::matrix;
 use crate::motion::FreeField;
+use crate::soil::WaterTable;
 use crate::structure::{Structure, check_nonlinear_force, check_probes};
 
 /// All parts of a simulation, and the operators of ground and time scheme.
@@ -55,6 +56,12 @@ pub(crate) struct Parts {
     pub(crate) is_first_order_ground: bool,
     /// Free-field displacement at t = 0 (m); 2Q entries, 3Q in plan, for Q elements.
     pub(crate) initial_free_field: Vec<f64>,
+    /// Water table of builder or ground.
+    pub(crate) water_table: Option<WaterTable>,
+    /// Force of the water on each degree of freedom, N; empty without water above the base.
+    pub(crate) water_force: Vec<f64>,
+    /// Upward force of the water on the structure, N.
+    pub(crate) buoyancy: f64,
     /// Point `[x, y]` to which the base moment refers, m.
     pub(crate) moment_center: [f64; 2],
 }
@@ -77,6 +84,7 @@ impl Parts {
         let mut ground = builder.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
         let components = elements.layout().components();
+        let water_table = water_table(&builder, ground.as_ref(), elements.has_walls())?;
         // A dense step compliance limits the number of elements. A ground that returns an error here is checked after
         // its preparation.
         if matches!(ground.diagonal_compliance(), Ok(None)) {
@@ -116,6 +124,8 @@ impl Parts {
             same_length("mass at rest", masses.len(), structure.dofs())?;
             all_finite("mass at rest", masses)?;
             check_soil_at_rest(&builder)?;
+            let needed = "none with soil at rest, whose stresses are those of the grains";
+            require_part("water table", water_table.is_none(), needed)?;
         }
         let joints = lines(&builder.joints);
         let contact_scene = ContactScene { gravity: initial_gravity, time_step };
@@ -160,6 +170,9 @@ impl Parts {
             step_compliance,
             is_first_order_ground,
             initial_free_field,
+            water_table,
+            water_force: Vec::new(),
+            buoyancy: 0.0,
             moment_center,
         })
     }
@@ -173,6 +186,17 @@ impl Parts {
             self.step_compliance = Arc::new(matrix);
         }
     }
+}
+
+/// Water table of the builder, or of a ground with walls.
+fn water_table(
+    builder: &SimulationBuilder,
+    ground: &dyn Ground,
+    has_walls: bool,
+) -> Result<Option<WaterTable>> {
+    let needed = "that of the ground (`TrenchGround::with_water_table`): it also acts on the soil beside the walls";
+    require_part("water table", builder.water_table.is_none() || !has_walls, needed)?;
+    Ok(builder.water_table.or_else(|| ground.description().water_table))
 }
 
 /// Lines of joints.

@@ -1,7 +1,7 @@
 //! Preparation of the ground for the steps of a run: convolution weights and memory.
 
 use crate::Simulation;
-use crate::coupled::builder::MIN_ENDLESS_STEPS;
+use crate::coupled::builder::MIN_ENDLESS_STEP_COUNT;
 use crate::error::{Error, Observer, Result, unobserved};
 
 impl Simulation {
@@ -17,7 +17,7 @@ impl Simulation {
     pub fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         let completed_steps = self.state.step;
         let last_step = completed_steps.saturating_add(steps);
-        if last_step <= self.prepared_steps || last_step >= MIN_ENDLESS_STEPS {
+        if last_step <= self.prepared_steps || last_step >= MIN_ENDLESS_STEP_COUNT {
             return Ok(());
         }
         let time_step = self.scene.time_step;

@@ -109,6 +109,9 @@ impl Scene {
             weight.resize(model.coordinate_count, 0.0);
             let up = model.influence.whole_vector(UPWARD_DIRECTION, model.coordinate_count);
             model.mass.multiply_add(-builder.gravity, &up, &mut weight);
+            if !parts.water_force.is_empty() {
+                model.transformation.add_forces(&parts.water_force, &mut weight);
+            }
         }
         let elements = &parts.elements;
         let mut footings = Vec::new();
@@ -128,6 +131,7 @@ impl Scene {
                 .iter()
                 .map(|joint| joint.line.elements().to_vec())
                 .collect(),
+            buoyancy: parts.buoyancy,
         };
         Self {
             time_step,

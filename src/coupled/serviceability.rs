@@ -150,8 +150,8 @@ impl Serviceability {
     /// Returns the limits if all of them are valid.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless slip, gap, rotation and settlement are finite and above zero, and the fraction
-    /// is at most one.
+    /// [`Error::Input`](crate::Error::Input) unless slip, gap, rotation and settlement are finite and above zero, and
+    /// the fraction is above zero and at most one.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, limit) in [
             ("allowable slip", self.slip),

@@ -56,7 +56,7 @@ impl FullPlane {
                 continue;
             }
             let s = ((z - 1.0) * (z + 1.0)).sqrt();
-            let square = 1.0 / (c * c);
+            let squared_slowness = 1.0 / (c * c);
             let sum = z + s;
             // Z, L, Q and 2Z + Q, divided by `unit`, without their common terms if `is_past`.
             let unit;
@@ -66,21 +66,21 @@ impl FullPlane {
             let slope_term;
             match load {
                 LoadHistory::Impulse => {
-                    unit = square * c / r;
+                    unit = squared_slowness * c / r;
                     q_term = -1.0 / (s * s * s);
                     z_term = if is_past { 1.0 / (s * sum * sum) } else { z / s * z + s };
                     l_term = 1.0 / s;
                     slope_term = 2.0 * z_term + q_term;
                 }
                 LoadHistory::Step => {
-                    unit = square;
+                    unit = squared_slowness;
                     q_term = z / s;
                     z_term = if is_past { -z / sum } else { z * s };
                     l_term = s.asinh();
                     slope_term = if is_past { z / (s * sum * sum) } else { 2.0 * z_term + q_term };
                 }
                 LoadHistory::Ramp => {
-                    unit = square * r / c;
+                    unit = squared_slowness * r / c;
                     q_term = s;
                     // s³ − z³ = −(z² + zs + s²)/(z + s)
                     z_term = if is_past {

@@ -124,8 +124,9 @@ impl HalfPlane {
 
     /// Dimensionless response F(τ) = ∫₀^τ f dη to a load H(t): u = F/(πμ).
     pub fn heaviside(&self, tau: f64) -> Surface {
-        let even = self.even_primitives(tau)[PLAIN_PRIMITIVE];
-        Surface { zz: even[0], xx: even[1], zx: self.odd_with_pulse(tau, PLAIN_PRIMITIVE) }
+        let even_primitive = self.even_primitives(tau)[PLAIN_PRIMITIVE];
+        let zx = self.odd_with_pulse(tau, PLAIN_PRIMITIVE);
+        Surface { zz: even_primitive[0], xx: even_primitive[1], zx }
     }
 
     /// Integral Q(τ) = ∫_τ^∞ f/η dη.
@@ -141,7 +142,7 @@ impl HalfPlane {
     /// Integral Q or W, for the index [`FIRST_TAIL`] or [`SECOND_TAIL`].
     fn tail(&self, tau: f64, primitive: usize) -> Surface {
         let arrival = self.branches.rayleigh_arrival;
-        let even = if tau > LATE_SERIES_START * arrival {
+        let even_tail = if tau > LATE_SERIES_START * arrival {
             self.late_series.map(|series| {
                 let mut sum = 0.0;
                 for (k, c) in series.iter().enumerate().rev() {
@@ -167,7 +168,7 @@ impl HalfPlane {
             let pulse = self.branches.rayleigh_pulse * arrival.powi(PRIMITIVE_POWERS[primitive]);
             self.odd_totals[primitive] + pulse - self.odd_with_pulse(tau, primitive)
         };
-        Surface { zz: even[0], xx: even[1], zx }
+        Surface { zz: even_tail[0], xx: even_tail[1], zx }
     }
 
     /// Twice-integrated response J(x, t), m², for `path` = `c_S` t and x in m; even in x for zz and xx, odd for zx.

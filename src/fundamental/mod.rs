@@ -17,7 +17,7 @@ pub(crate) use rayleigh::Rayleigh;
 use crate::error::Result;
 use crate::soil::Soil;
 
-/// Variation in time of the line load of 1 N/m.
+/// Variation in time of the line load, of 1 N/m for [`Step`](Self::Step).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadHistory {
     /// δ(t): an impulse.
@@ -36,7 +36,7 @@ pub trait FundamentalSolution: Send + Sync {
     /// Soil of the plane or half-plane.
     fn soil(&self) -> Soil;
 
-    /// Displacements (m) at `offset` (x, z; m) from the load, at `time` (s) after the start of the load.
+    /// Displacements (m for a step of 1 N/m) at `offset` (x, z; m) from the load, at `time` (s) after the start of the load.
     ///
     /// `u[i][j]` is displacement i due to a load in direction j; zero before the first arrival.
     ///
@@ -44,12 +44,12 @@ pub trait FundamentalSolution: Send + Sync {
     /// [`crate::Error::Input`] if the offset is zero, not finite, or outside the domain of the solution.
     fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory) -> Result<LoadResponse>;
 
-    /// Tractions (Pa) at `offset` on the plane with the unit vector `normal`.
+    /// Tractions (Pa for a step of 1 N/m) at `offset` on the plane with the unit vector `normal`.
     ///
     /// `t[i][j]` is traction i due to a load in direction j.
     ///
     /// # Errors
-    /// As for [`FundamentalSolution::displacement`].
+    /// As for [`FundamentalSolution::displacement`], and if `normal` is not finite or outside the domain of the solution.
     fn traction(
         &self,
         offset: [f64; 2],

@@ -139,9 +139,11 @@ pub trait ConvolutionWeights: Send + Sync {
 pub fn by_kind<'a, 'b, const N: usize>(
     values: &'a mut [&'b mut [f64]],
 ) -> Result<&'a mut [&'b mut [f64]; N]> {
-    let found = values.len();
+    let value_count = values.len();
     let quantity = "kinds of coefficients";
-    values.try_into().map_err(|_| Error::Size { quantity, found, needed: N })
+    values
+        .try_into()
+        .map_err(|_| Error::Size { quantity, found: value_count, needed: N })
 }
 
 /// Late convolution weights that are sums of decaying exponentials.

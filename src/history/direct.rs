@@ -93,10 +93,10 @@ impl DirectHistory {
 
 /// Inserts `later_lags`, reversed, in front of the lags in `stored`, which they follow.
 fn prepend_reversed(stored: &mut Vec<f64>, later_lags: &[f64]) {
-    let mut grown = Vec::with_capacity(stored.len() + later_lags.len());
-    grown.extend(later_lags.iter().rev());
-    grown.extend_from_slice(stored);
-    *stored = grown;
+    let mut reversed_lags = Vec::with_capacity(stored.len() + later_lags.len());
+    reversed_lags.extend(later_lags.iter().rev());
+    reversed_lags.extend_from_slice(stored);
+    *stored = reversed_lags;
 }
 
 impl ConvolutionHistory for DirectHistory {

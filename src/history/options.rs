@@ -9,14 +9,14 @@ use super::exponentials::{DEFAULT_MEMORY, ExponentialHistory};
 use super::relaxed_fft::{LEAF_STEPS, RelaxedFftHistory, bytes_of_blocks};
 use crate::error::{Result, memory};
 
-/// Sum of the late coefficients that a ground in plan may neglect, relative to the sum of all.
+/// Sum of the late convolution weights that a ground in plan may neglect, relative to the sum of all.
 const NEGLECTED_WEIGHT_FRACTION: f64 = 1e-8;
 /// Tolerance of exponentials that the rule chooses: it changes results by rounding only.
-const RULE_TOLERANCE: f64 = 1e-12;
+const AUTO_EXPONENTIALS_TOLERANCE: f64 = 1e-12;
 /// Longest window with which the rule chooses exponentials, lags.
 ///
 /// The fit for such a window takes a few tenths of a second.
-const MAX_RULE_WINDOW: usize = 1 << 14;
+const MAX_AUTO_WINDOW_LAGS: usize = 1 << 14;
 
 /// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
 ///
@@ -27,22 +27,22 @@ const MAX_RULE_WINDOW: usize = 1 << 14;
 ///
 /// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 /// let ground = || ElasticGround::new(soil, Strip::graded(-3.0..3.0, 8)?);
-/// let direct = ground()?.with_history(HistoryMethod::Direct)?;
-/// let coarse = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
-/// let approximate = ground()?.with_history(coarse)?;
+/// let direct_ground = ground()?.with_history(HistoryMethod::Direct)?;
+/// let options = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
+/// let approximate_ground = ground()?.with_history(options)?;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HistoryOptions {
     /// Method; [`HistoryMethod::Auto`] by default.
     pub method: HistoryMethod,
-    /// Relative error that coefficients may have, 1e-12 to 1e-2.
+    /// Relative error that convolution weights may have, 1e-12 to 1e-2.
     ///
     /// Exponentials, which only the half-plane's closed form has, use it in place of 1e-12 ([`HistoryMethod::Auto`]) or
-    /// 1e-10 ([`HistoryMethod::Exponentials`]). In plan, [`HistoryMethod::Auto`] neglects late coefficients whose sum is
-    /// less than this fraction of the sum of all coefficients, in runs at least twice as long as the remaining lags. With
-    /// `None` the fraction is 1e-8, or the [error](ConvolutionWeights::late_error) of late coefficients if that is
-    /// larger.
+    /// 1e-10 ([`HistoryMethod::Exponentials`]). In plan, [`HistoryMethod::Auto`] neglects late weights whose sum is
+    /// less than this fraction of the sum of all weights, if half of the run, rounded up to a power of two, has all
+    /// remaining lags. With `None` the fraction is 1e-8, or the [error](ConvolutionWeights::late_error) of late weights
+    /// if that is larger.
     pub tolerance: Option<f64>,
     /// Memory that the history may use, bytes; 1 GiB by default.
     ///
@@ -104,17 +104,19 @@ impl HistoryOptions {
         steps: Option<usize>,
     ) -> ChosenHistory {
         let has_short_window =
-            weights.late_weights().is_some_and(|late| late.window() <= MAX_RULE_WINDOW);
-        if has_short_window && let Ok(history) = self.exponentials(weights, steps, RULE_TOLERANCE) {
+            weights.late_weights().is_some_and(|late| late.window() <= MAX_AUTO_WINDOW_LAGS);
+        if has_short_window
+            && let Ok(history) = self.exponentials(weights, steps, AUTO_EXPONENTIALS_TOLERANCE)
+        {
             return ChosenHistory::exponentials(history, steps);
         }
         if weights.classes().plan().is_none() {
             return ChosenHistory::transforms(self.transforms(weights), steps, 0.0);
         }
         let default_fraction = NEGLECTED_WEIGHT_FRACTION.max(weights.late_error());
-        let neglected = self.tolerance.unwrap_or(default_fraction);
-        let history = self.transforms(weights).neglecting(neglected);
-        ChosenHistory::transforms(history, steps, neglected)
+        let neglected_fraction = self.tolerance.unwrap_or(default_fraction);
+        let history = self.transforms(weights).neglecting(neglected_fraction);
+        ChosenHistory::transforms(history, steps, neglected_fraction)
     }
 
     /// History by relaxed transforms within the option's memory.

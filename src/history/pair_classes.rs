@@ -91,8 +91,9 @@ impl PairClasses {
     /// Sorts the pairs of `elements` (left to right, not overlapping) into classes.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for lengths not
-    /// positive or shorter than 1e-8 of the patch, or elements out of order.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Memory`](crate::Error::Memory) for more elements
+    /// than their matrices allow, [`Error::Input`](crate::Error::Input) for lengths not positive or shorter than 1e-8
+    /// of the patch, or elements out of order.
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         let span = elements[elements.len() - 1].right() - elements[0].left();

@@ -212,8 +212,8 @@ impl PreviousContacts {
     }
 
     fn state_variable_range(&self, element: usize) -> std::ops::Range<usize> {
-        let begin = if element == 0 { 0 } else { self.variable_end(element - 1) };
-        begin..self.variable_end(element)
+        let begin_index = if element == 0 { 0 } else { self.variable_end(element - 1) };
+        begin_index..self.variable_end(element)
     }
 
     fn variable_end(&self, element: usize) -> usize {

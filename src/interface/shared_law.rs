@@ -23,10 +23,10 @@ impl SharedLaw {
 
     /// A law for each of `count` elements, from one law for all elements or one each.
     pub(crate) fn for_each(laws: Vec<Box<dyn InterfaceLaw>>, count: usize) -> Vec<Self> {
-        let shared: Vec<Self> = laws.into_iter().map(Self::new).collect();
-        match shared.as_slice() {
+        let shared_laws: Vec<Self> = laws.into_iter().map(Self::new).collect();
+        match shared_laws.as_slice() {
             [law] => vec![law.clone(); count],
-            _ => shared,
+            _ => shared_laws,
         }
     }
 

@@ -5,7 +5,7 @@ use crate::error::{Result, positive};
 
 /// Coulomb friction and uplift on soil whose contact pressure is bounded.
 ///
-/// Where the pressure reaches the bearing pressure q, the base sinks permanently.
+/// Where the pressure reaches the bearing pressure q, the base settles permanently.
 /// [`ShallowFooting`](crate::soil::ShallowFooting) computes q of a footing from the strength of its soil. The state
 /// variable of each element is its indentation w ≥ 0: after uplift, the base meets the surface at w below its initial
 /// position. The normal conditions of the element, combined with stick and slip:

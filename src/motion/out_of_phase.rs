@@ -51,9 +51,14 @@ impl OutOfPhase {
     /// Horizontal and vertical component of the field.
     ///
     /// `prescribed`: displacement or velocity of the record; `delayed`: the corresponding W or V.
-    fn components(&self, prescribed: f64, delayed: f64) -> [f64; 2] {
-        let other = self.component_ratio.re * prescribed + self.component_ratio.im * delayed;
-        if self.is_record_vertical { [other, prescribed] } else { [prescribed, other] }
+    fn components(&self, prescribed_motion: f64, delayed_motion: f64) -> [f64; 2] {
+        let other_motion =
+            self.component_ratio.re * prescribed_motion + self.component_ratio.im * delayed_motion;
+        if self.is_record_vertical {
+            [other_motion, prescribed_motion]
+        } else {
+            [prescribed_motion, other_motion]
+        }
     }
 }
 
@@ -268,28 +273,35 @@ mod tests {
     fn displacement_is_the_transform_of_the_displacement() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
         let count = record.len();
-        let delayed = DelayedMotion::new(&record).unwrap();
-        let direct = hilbert(record.displacements(), count).unwrap();
-        let differences =
-            delayed.displacements.iter().zip(&direct).map(|(w, u)| w - (u - direct[count]));
-        let largest = differences.fold(0.0_f64, |largest, d| largest.max(d.abs()));
+        let delayed_motion = DelayedMotion::new(&record).unwrap();
+        let direct_transform = hilbert(record.displacements(), count).unwrap();
+        let differences = delayed_motion
+            .displacements
+            .iter()
+            .zip(&direct_transform)
+            .map(|(w, u)| w - (u - direct_transform[count]));
+        let max_difference =
+            differences.fold(0.0_f64, |max_difference, d| max_difference.max(d.abs()));
         // The corners of the record are above the highest frequency of its samples, and the two methods treat them
         // differently; displacements are 0.2 m.
-        assert!(largest < 1e-4, "{largest:e}");
+        assert!(max_difference < 1e-4, "{max_difference:e}");
     }
 
     /// The sums over all samples that the moments replace.
-    fn direct_sums(delayed: &DelayedMotion, source: &[f64], time: f64) -> [f64; 2] {
-        let last = delayed.velocities.len() - 1;
-        let index = if time < 0.0 { 0 } else { last };
+    fn direct_sums(delayed_motion: &DelayedMotion, source: &[f64], time: f64) -> [f64; 2] {
+        let last_index = delayed_motion.velocities.len() - 1;
+        let index = if time < 0.0 { 0 } else { last_index };
         let edge = index as f64 - source.len() as f64;
         let mut sums = [0.0; 2];
         for (j, v) in source.iter().enumerate() {
-            let distance = time / delayed.time_step - j as f64;
+            let distance = time / delayed_motion.time_step - j as f64;
             sums[0] += v * (distance / (edge - j as f64)).ln();
             sums[1] += v / distance;
         }
-        [delayed.displacements[index] + delayed.time_step * sums[0] / PI, sums[1] / PI]
+        [
+            delayed_motion.displacements[index] + delayed_motion.time_step * sums[0] / PI,
+            sums[1] / PI,
+        ]
     }
 
     fn peak(samples: &[f64]) -> f64 {
@@ -300,13 +312,13 @@ mod tests {
     fn moments_give_the_sums_over_all_samples() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
         let velocities = record.velocities();
-        let even = velocities.len() / 2 * 2;
+        let even_count = velocities.len() / 2 * 2;
         let mut ends = [0.0; 101];
         ends[0] = 1.0;
         ends[100] = -0.5;
         let sources = [
-            &velocities[..even],
-            &velocities[..even - 1],
+            &velocities[..even_count],
+            &velocities[..even_count - 1],
             // Samples that are not zero only at the ends, where the series converge slowest; without and with a mean.
             &ends[..],
             &[1.0, -1.0][..],
@@ -317,26 +329,27 @@ mod tests {
         ];
         let step = record.time_step();
         for source in sources {
-            let delayed = DelayedMotion::from_velocity(step, source).unwrap();
-            let peaks = [peak(&delayed.displacements), peak(&delayed.velocities)];
+            let delayed_motion = DelayedMotion::from_velocity(step, source).unwrap();
+            let peaks = [peak(&delayed_motion.displacements), peak(&delayed_motion.velocities)];
             let count = source.len() as f64;
-            let last = delayed.velocities.len() - 1;
-            let edges = [-count * step, (last as f64 - count) * step];
-            let beyond = [0.0, 1e-9, 1e-3, 0.013, 0.3, 1.0, 7.7, 31.0, 62.5, 400.0, 1e4, 1e6];
+            let last_index = delayed_motion.velocities.len() - 1;
+            let edges = [-count * step, (last_index as f64 - count) * step];
+            let distances = [0.0, 1e-9, 1e-3, 0.013, 0.3, 1.0, 7.7, 31.0, 62.5, 400.0, 1e4, 1e6];
             for (edge, side) in edges.into_iter().zip([-1.0, 1.0]) {
-                for time in beyond.map(|t| edge + side * t) {
-                    let values = delayed.beyond_samples(time);
+                for time in distances.map(|t| edge + side * t) {
+                    let values = delayed_motion.beyond_samples(time);
                     let moments = [values.displacement, values.velocity];
-                    let sums = direct_sums(&delayed, source, time);
+                    let sums = direct_sums(&delayed_motion, source, time);
                     for ((a, b), peak) in moments.iter().zip(sums).zip(peaks) {
                         let n = source.len();
                         assert!((a - b).abs() <= 1e-13 * peak, "{n} at {time}: {a} {b} of {peak}");
                     }
                 }
                 // W continues from its last sample.
-                let sample = delayed.displacements[if side < 0.0 { 0 } else { last }];
+                let sample = delayed_motion.displacements[if side < 0.0 { 0 } else { last_index }];
                 assert!(
-                    (delayed.beyond_samples(edge).displacement - sample).abs() <= 1e-14 * peaks[0]
+                    (delayed_motion.beyond_samples(edge).displacement - sample).abs()
+                        <= 1e-14 * peaks[0]
                 );
             }
         }
@@ -346,22 +359,23 @@ mod tests {
     #[test]
     fn samples_and_moments_agree_at_their_boundary() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
-        let delayed = DelayedMotion::new(&record).unwrap();
+        let delayed_motion = DelayedMotion::new(&record).unwrap();
         let count = record.len() as f64;
         for position in [-count, 2.0 * count - 1.0] {
             for side in [-1e-3, 1e-3] {
                 let time = (position + side) * record.time_step();
-                let within = delayed.at(time);
-                let beyond = delayed.beyond_samples(time);
-                assert!((within.displacement - beyond.displacement).abs() < 1e-9);
-                assert!((within.velocity - beyond.velocity).abs() < 1e-9);
+                let inner_values = delayed_motion.at(time);
+                let outer_values = delayed_motion.beyond_samples(time);
+                assert!((inner_values.displacement - outer_values.displacement).abs() < 1e-9);
+                assert!((inner_values.velocity - outer_values.velocity).abs() < 1e-9);
             }
         }
         for time in [-300.0, -40.0, -31.3, -5.005, -0.003, 0.507, 12.301, 40.0, 62.4, 63.0, 500.0] {
             let h = 1e-4;
-            let slope =
-                (delayed.at(time + h).displacement - delayed.at(time - h).displacement) / (2.0 * h);
-            let velocity = delayed.at(time).velocity;
+            let slope = (delayed_motion.at(time + h).displacement
+                - delayed_motion.at(time - h).displacement)
+                / (2.0 * h);
+            let velocity = delayed_motion.at(time).velocity;
             assert!((slope - velocity).abs() < 1e-6, "{time}: {slope} {velocity}");
         }
     }

@@ -173,7 +173,7 @@ impl PlaneWave {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) if the horizontal component is less than a tenth of the vertical one
     /// (SV near 45°, P near the vertical), or if it is out of phase and the record's last velocity is above 1 % of
-    /// its peak.
+    /// its peak; also if `origin` is not finite.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "horizontal component of the wave over the other one";
         self.field(
@@ -209,12 +209,12 @@ impl PlaneWave {
             let field = OutOfPhase::new(record, is_record_vertical, component_ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
-        let prescribed = Some(record.clone());
-        let other = Some(record.scaled(component_ratio.re)?);
+        let prescribed_record = Some(record.clone());
+        let other_record = Some(record.scaled(component_ratio.re)?);
         let field = if is_record_vertical {
-            VerticalIncidence { horizontal: other, vertical: prescribed }
+            VerticalIncidence { horizontal: other_record, vertical: prescribed_record }
         } else {
-            VerticalIncidence { horizontal: prescribed, vertical: other }
+            VerticalIncidence { horizontal: prescribed_record, vertical: other_record }
         };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
@@ -283,15 +283,24 @@ fn vertical_slowness(wave_speed: f64, p: f64, angle: f64, incident_speed: f64) -
 }
 
 /// Ratio of the other component to the prescribed one, or an error if the prescribed one is too small.
-fn component_ratio(quantity: &'static str, other: Complex, prescribed: Complex) -> Result<Complex> {
-    check_prescribed(quantity, prescribed.abs(), other.abs())?;
-    Ok(other / prescribed)
+fn component_ratio(
+    quantity: &'static str,
+    other_component: Complex,
+    prescribed_component: Complex,
+) -> Result<Complex> {
+    check_prescribed(quantity, prescribed_component.abs(), other_component.abs())?;
+    Ok(other_component / prescribed_component)
 }
 
 /// Error if the prescribed component is too small beside the other one.
-pub(crate) fn check_prescribed(quantity: &'static str, prescribed: f64, other: f64) -> Result<()> {
-    let larger = other.max(prescribed);
-    let fraction = if larger == 0.0 { 0.0 } else { prescribed / larger };
+pub(crate) fn check_prescribed(
+    quantity: &'static str,
+    prescribed_magnitude: f64,
+    other_magnitude: f64,
+) -> Result<()> {
+    let larger_magnitude = other_magnitude.max(prescribed_magnitude);
+    let fraction =
+        if larger_magnitude == 0.0 { 0.0 } else { prescribed_magnitude / larger_magnitude };
     let is_large_enough = fraction > MIN_PRESCRIBED_RATIO;
     require(quantity, fraction, is_large_enough, "above 0.1 to be prescribed").map(drop)
 }

@@ -59,11 +59,8 @@ pub fn animation(
     positive("magnification", magnification)?;
     positive("slowness", slowness)?;
     let frames: Vec<_> = time_series.motion_frames().collect();
-    require_part(
-        "animation",
-        frames.len() > 1,
-        "the recorder must keep the motion (`Recorder::motion`)",
-    )?;
+    let needed_motion = "the recorder must keep the motion (`Recorder::motion`)";
+    require_part("animation", frames.len() > 1, needed_motion)?;
     let needed = "600 or fewer: keep fewer of them";
     require("frames of an animation", frames.len() as f64, frames.len() <= MAX_FRAMES, needed)?;
     check_dimension(shape, time_series)?;
@@ -74,13 +71,13 @@ pub fn animation(
         frame_points.push(view.project_all(&displaced_points(shape, frame, magnification)?));
     }
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
-    let mut out = head(title);
+    let mut svg_text = head(title);
     let screen = match view {
         StructureView::Slanted => {
             let floor = Floor::new(time_series);
             let screen =
                 Screen::around(&frame_points, &view.project_all(&floor.corners(floor.margin)));
-            out += &floor.draw(time_series, &screen, frames.len(), &duration);
+            svg_text += &floor.draw(time_series, &screen, frames.len(), &duration);
             screen
         }
         StructureView::AgainstX | StructureView::AlongY => {
@@ -92,8 +89,8 @@ pub fn animation(
                 surface.extend([[left_edge[0] - side, 0.0], [right_edge[0] + side, 0.0]]);
             }
             let screen = Screen::around(&frame_points, &surface);
-            out += &screen.ground(trench);
-            out += &marks::element_marks(
+            svg_text += &screen.ground(trench);
+            svg_text += &marks::element_marks(
                 time_series,
                 screen.scale,
                 |point| screen.pixels(point),
@@ -104,10 +101,11 @@ pub fn animation(
             screen
         }
     };
-    out += &screen.structure(&view.far_to_near(shape), shape.has_faces(), &frame_points, &duration);
-    out += &screen.scale_bar(magnification);
-    out += &clock(&times, &duration);
-    Ok(Svg::new(out + "</svg>\n"))
+    svg_text +=
+        &screen.structure(&view.far_to_near(shape), shape.has_faces(), &frame_points, &duration);
+    svg_text += &screen.scale_bar(magnification);
+    svg_text += &clock(&times, &duration);
+    Ok(Svg::new(svg_text + "</svg>\n"))
 }
 
 /// Scale and origin of metres on the screen.
@@ -159,7 +157,7 @@ impl Screen {
         // Faces are drawn one by one, so that each face hides the faces behind it.
         let cells_per_path = if are_faces { 1 } else { cells.len().max(1) };
         let fill = if are_faces { "#fff" } else { "none" };
-        let mut out = format!(
+        let mut svg_text = format!(
             "<g fill=\"{fill}\" fill-opacity=\"{FACE_OPACITY}\" stroke=\"#1f77b4\" stroke-width=\"1.2\" \
              stroke-linejoin=\"round\">\n"
         );
@@ -167,14 +165,14 @@ impl Screen {
             let paths: Vec<String> =
                 frame_points.iter().map(|points| self.path(path_cells, points)).collect();
             let _ = writeln!(
-                out,
+                svg_text,
                 "<path d=\"{}\"><animate attributeName=\"d\" dur=\"{duration}\" \
                  repeatCount=\"indefinite\" values=\"{}\"/></path>",
                 paths[0],
                 paths.join(";")
             );
         }
-        out + "</g>\n"
+        svg_text + "</g>\n"
     }
 
     /// Outlines of the cells as an SVG path, with the same commands for every frame.
@@ -284,21 +282,21 @@ impl Floor {
         duration: &str,
     ) -> String {
         let soil = polygon(&screen.corners(self.corners(self.margin)));
-        let mut out = format!(
+        let mut svg_text = format!(
             "<path d=\"{soil}\" fill=\"{}\" stroke=\"{}\"/>\n",
             hex(SOIL_COLOR),
             hex(SURFACE_COLOR)
         );
-        self.draw_axes(screen, &mut out);
+        self.draw_axes(screen, &mut svg_text);
         let [[left, _], [_, back]] = self.ends;
         let contact: Vec<_> = time_series.contact_frames().collect();
         if contact.len() != frame_count {
-            return out;
+            return svg_text;
         }
         let states = ElementStates::new(&contact, true);
-        out += &marks::color_key(states.key_states.clone());
+        svg_text += &marks::color_key(states.key_states.clone());
         let _ = writeln!(
-            out,
+            svg_text,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",
             PLAN_BOX.left,
             PLAN_BOX.top - 8.0
@@ -316,17 +314,17 @@ impl Floor {
             let color_changes = discrete_animation("fill", &colors, duration);
             for cell in [polygon(&screen.corners(corners)), polygon(&plan_corners)] {
                 let _ = writeln!(
-                    out,
+                    svg_text,
                     "<path d=\"{cell}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{color_changes}</path>",
                     colors[0]
                 );
             }
         }
-        out
+        svg_text
     }
 
     /// Draws the axes x and y beside the soil.
-    fn draw_axes(&self, screen: &Screen, out: &mut String) {
+    fn draw_axes(&self, screen: &Screen, svg_text: &mut String) {
         let [[left, right], [front, back]] = self.ends;
         let distance = AXIS_DISTANCE_RATIO * self.margin;
         for (name, start, end) in [
@@ -336,7 +334,7 @@ impl Floor {
             let [[start_x, start_y], [end_x, end_y]] =
                 [start, end].map(|point| screen.pixels(StructureView::Slanted.project(point)));
             let _ = writeln!(
-                out,
+                svg_text,
                 "<path d=\"M{start_x:.1} {start_y:.1}L{end_x:.1} {end_y:.1}\" stroke=\"{}\"/>\
                  <circle cx=\"{end_x:.1}\" cy=\"{end_y:.1}\" r=\"3\" fill=\"{}\"/>\
                  <text x=\"{:.1}\" y=\"{:.1}\">{name}</text>",
@@ -351,14 +349,14 @@ impl Floor {
 
 /// The running time as SVG: a bar, and a sequence of texts, because SMIL has no counter.
 fn clock(times: &[f64], duration: &str) -> String {
-    let begin = times[0];
-    let end = times[times.len() - 1];
-    let begin_text = format!("{begin:.2} s");
-    let end_text = format!("{end:.2} s");
+    let begin_time = times[0];
+    let end_time = times[times.len() - 1];
+    let begin_text = format!("{begin_time:.2} s");
+    let end_text = format!("{end_time:.2} s");
     let left = 30.0 + width(&begin_text, 18).max(width(&end_text, 18));
     let length = PICTURE_WIDTH - 2.0 * left;
     let y = 600.0;
-    let mut out = format!(
+    let mut svg_text = format!(
         "<rect x=\"{left:.1}\" y=\"{y}\" width=\"{length:.1}\" height=\"8\" fill=\"#ddd\"/>\
          <rect x=\"{left:.1}\" y=\"{y}\" width=\"0\" height=\"8\" fill=\"#444\">\
          <animate attributeName=\"width\" from=\"0\" to=\"{length:.1}\" dur=\"{duration}\" \
@@ -377,7 +375,7 @@ fn clock(times: &[f64], duration: &str) -> String {
     // Fractions of the run at which texts begin, and 1 for its end.
     let mut fractions: Vec<f64> = text_times
         .iter()
-        .map(|time| ((time - begin) / (end - begin)).clamp(0.0, 1.0))
+        .map(|time| ((time - begin_time) / (end_time - begin_time)).clamp(0.0, 1.0))
         .collect();
     fractions.push(1.0);
     for (k, &time) in text_times.iter().enumerate() {
@@ -390,11 +388,11 @@ fn clock(times: &[f64], duration: &str) -> String {
             ("hidden", "hidden;visible;hidden", format!("0;{text_start:.5};{text_end:.5}"))
         };
         let _ = writeln!(
-            out,
+            svg_text,
             "<text x=\"{KEY_LEFT}\" y=\"400\" font-size=\"20\" visibility=\"{initial_state}\">t = {time:.2} s\
              <animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{duration}\" \
              repeatCount=\"indefinite\" values=\"{states}\" keyTimes=\"{key_times}\"/></text>"
         );
     }
-    out
+    svg_text
 }

@@ -153,9 +153,9 @@ impl AxisLayout {
 
     /// Name of the mark nearest to a value.
     fn mark_name(&self, value: f64) -> String {
-        let nearest =
+        let nearest_mark =
             self.marks.iter().min_by(|a, b| (a.0 - value).abs().total_cmp(&(b.0 - value).abs()));
-        nearest.map_or_else(String::new, |mark| mark.1.clone())
+        nearest_mark.map_or_else(String::new, |mark| mark.1.clone())
     }
 }
 

@@ -37,19 +37,19 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let elements = unrolled(time_series.elements().iter().copied());
     let needed = "the recorder must keep the contact (`Recorder::contact`)";
     require_part("map of contact modes", !elements.is_empty() && frames.len() > 1, needed)?;
-    let begin = frames[0].time;
-    let end = frames[frames.len() - 1].time;
+    let begin_time = frames[0].time;
+    let end_time = frames[frames.len() - 1].time;
     let frames_per_column = (frames.len() - 1).div_ceil(MAX_MAP_COLUMNS).max(1);
     let states = ElementStates::new(&frames, false);
     let key = states.key_states.iter().map(|state| (state.name(), KeySample::Area(state.color())));
     let base = BaseAxis::new(elements.iter().copied());
     PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
         let mut chart =
-            chart(area, &ChartAxis::linear(begin..end, "time, s"), &base.axis(), false)?;
-        label_gaps(&mut chart, &base, |position| (0.5 * (begin + end), position))?;
+            chart(area, &ChartAxis::linear(begin_time..end_time, "time, s"), &base.axis(), false)?;
+        label_gaps(&mut chart, &base, |position| (0.5 * (begin_time + end_time), position))?;
         for (e, element) in elements.iter().enumerate() {
             let columns = mode_columns(&frames, &states, e, frames_per_column);
-            let mut start_time = begin;
+            let mut start_time = begin_time;
             let margin = ELEMENT_MARGIN_RATIO * element.length();
             let low = base.drawn_position(element.left());
             let high = low + element.length();
@@ -143,7 +143,10 @@ fn steps_along_base(
     for (extremes, element) in envelope.iter().zip(elements) {
         // A gap between two foundations is a gap in the curve.
         let left = base.drawn_position(element.left());
-        if points.last().is_some_and(|last| left - last.0 > GAP_ROUNDING * element.length()) {
+        if points
+            .last()
+            .is_some_and(|last_point| left - last_point.0 > GAP_ROUNDING * element.length())
+        {
             points.push((f64::NAN, f64::NAN));
         }
         points.push((left, value(extremes)));

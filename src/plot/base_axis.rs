@@ -73,10 +73,11 @@ impl BaseAxis {
         let mut foundations: Vec<DrawnFoundation> = Vec::new();
         for element in &elements {
             match foundations.last_mut() {
-                Some(previous)
-                    if element.left() - previous.right < GAP_ROUNDING * element.length() =>
+                Some(previous_foundation)
+                    if element.left() - previous_foundation.right
+                        < GAP_ROUNDING * element.length() =>
                 {
-                    previous.right = element.right();
+                    previous_foundation.right = element.right();
                 }
                 _ => foundations.push(DrawnFoundation {
                     left: element.left(),
@@ -89,9 +90,10 @@ impl BaseAxis {
             * foundations.iter().map(|foundation| foundation.right - foundation.left).sum::<f64>();
         let mut gaps = Vec::new();
         for k in 1..foundations.len() {
-            let previous = foundations[k - 1];
-            let end = previous.start + previous.right - previous.left;
-            let width = foundations[k].left - previous.right;
+            let previous_foundation = foundations[k - 1];
+            let end =
+                previous_foundation.start + previous_foundation.right - previous_foundation.left;
+            let width = foundations[k].left - previous_foundation.right;
             if width > max_gap {
                 gaps.push(ShortenedGap { start: end, end: end + max_gap, width });
             }

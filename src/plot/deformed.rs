@@ -226,10 +226,10 @@ fn shapes_at(
     let mut shapes = vec![NamedShape { name: "at rest".to_owned(), points: rest_positions }];
     for &time in times {
         finite("time of a deformed shape", time)?;
-        let nearest = time_series
+        let nearest_frame = time_series
             .motion_frames()
             .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()));
-        let frame = nearest.ok_or(Error::Scene {
+        let frame = nearest_frame.ok_or(Error::Scene {
             quantity: "deformed shape",
             needed: "the recorder must keep the motion (`Recorder::motion`)",
         })?;

@@ -16,7 +16,7 @@ const MAX_DRAWN_VALUE: f64 = 1e60;
 /// Margin of a range at each end, relative to the span of its values.
 pub(super) const RANGE_MARGIN_RATIO: f64 = 0.06;
 /// Span of values that is due to rounding, relative to their magnitude.
-const SPAN_ROUNDING: f64 = 1e-9;
+const SPAN_TOLERANCE_RATIO: f64 = 1e-9;
 
 /// Whether a chart can show a value.
 pub(super) fn is_drawable(value: f64) -> bool {
@@ -36,7 +36,7 @@ pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
     if low > high {
         return 0.0..1.0;
     }
-    let min_span = (SPAN_ROUNDING * low.abs().max(high.abs())).max(1.0 / MAX_DRAWN_VALUE);
+    let min_span = (SPAN_TOLERANCE_RATIO * low.abs().max(high.abs())).max(1.0 / MAX_DRAWN_VALUE);
     let margin = if high - low > min_span {
         RANGE_MARGIN_RATIO * (high - low)
     } else {
@@ -72,9 +72,11 @@ const CURVE_MARKERS: [Marker; 5] = [
 const MARKERS_PER_CURVE: usize = 9;
 
 /// Phase of the markers of the first curve.
-const FIRST_PHASE: f64 = 0.1;
-/// Increment of the phase from curve to curve: multiples of the golden ratio are spread evenly.
-const GOLDEN_RATIO: f64 = 0.618;
+const FIRST_MARKER_PHASE: f64 = 0.1;
+/// Increment of the phase from curve to curve.
+///
+/// It is the fractional part of the golden ratio, whose multiples are spread evenly.
+const PHASE_INCREMENT: f64 = 0.618;
 
 /// Colour and markers of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,17 +95,17 @@ impl Stroke {
         Self { color, marker: None, phase: 0.0 }
     }
 
-    /// Stroke of curve number `k`: the first seven have no markers; strokes repeat after 42.
+    /// Stroke of curve number `k`: the first seven have no markers.
     pub(super) fn nth(k: usize) -> Self {
         let marker = (k / CURVE_COLORS.len())
             .checked_sub(1)
             .map(|cycle| CURVE_MARKERS[cycle % CURVE_MARKERS.len()]);
         // The remainder limits the rounding of the phase.
-        let phase = (FIRST_PHASE + GOLDEN_RATIO * (k % 100) as f64).fract();
+        let phase = (FIRST_MARKER_PHASE + PHASE_INCREMENT * (k % 100) as f64).fract();
         Self { color: CURVE_COLORS[k % CURVE_COLORS.len()], marker, phase }
     }
 
-    /// Stroke of set number `k` of measured points: markers in other colours than the first curves.
+    /// Stroke of set number `k` of measured points; the first sets have other colours than the first curves.
     pub(super) fn points(k: usize) -> Self {
         let marker = Some(CURVE_MARKERS[k % CURVE_MARKERS.len()]);
         let color = CURVE_COLORS[CURVE_COLORS.len() - 2 - k % (CURVE_COLORS.len() - 1)];

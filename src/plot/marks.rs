@@ -33,11 +33,11 @@ pub(super) fn hex(RGBColor(red, green, blue): RGBColor) -> String {
 
 /// The key to the colours of contact modes, as SVG.
 pub(super) fn color_key(states: Vec<ElementState>) -> String {
-    let mut out = String::new();
+    let mut svg_text = String::new();
     for (k, state) in states.into_iter().enumerate() {
         let y = KEY_TOP + KEY_LINE_HEIGHT * k as f64;
         let _ = writeln!(
-            out,
+            svg_text,
             "<rect x=\"{KEY_LEFT}\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
              <text x=\"{}\" y=\"{y:.0}\">{}</text>",
             y - 12.0,
@@ -46,7 +46,7 @@ pub(super) fn color_key(states: Vec<ElementState>) -> String {
             state.name()
         );
     }
-    out
+    svg_text
 }
 
 /// Marks of all contact elements, coloured by their modes, and the key to the colours, as SVG.
@@ -69,7 +69,7 @@ pub(super) fn element_marks(
         return String::new();
     }
     let states = ElementStates::new(&contact, false);
-    let mut out = color_key(states.key_states);
+    let mut svg_text = color_key(states.key_states);
     let has_walls = ContactElement::any_wall(time_series.elements());
     for (e, element) in time_series.elements().iter().enumerate() {
         let colors: Vec<String> =
@@ -78,7 +78,7 @@ pub(super) fn element_marks(
         if has_walls {
             let mark = mark_corners(element, MARK_WIDTH / scale).map(&to_pixels);
             let _ = writeln!(
-                out,
+                svg_text,
                 "<path d=\"{}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{color_changes}</path>",
                 polygon(&mark),
                 colors[0]
@@ -88,7 +88,7 @@ pub(super) fn element_marks(
         let left = to_pixels([element.left(), 0.0])[0];
         let right = to_pixels([element.right(), 0.0])[0];
         let _ = writeln!(
-            out,
+            svg_text,
             "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">{}</rect>",
             left + 0.5,
             lower_edge + 12.0,
@@ -97,7 +97,7 @@ pub(super) fn element_marks(
             color_changes
         );
     }
-    out
+    svg_text
 }
 
 /// Corners (x, height), m, of a mark of the element's length and of this `width` (m) into the soil.

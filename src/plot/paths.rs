@@ -23,7 +23,7 @@ pub(super) struct PathChart {
     /// Each path is a line through its points, in their order.
     pub(super) paths: Vec<Curve>,
     /// Each point is drawn by itself.
-    pub(super) measured: Vec<Curve>,
+    pub(super) measured_points: Vec<Curve>,
     /// Name and unit of x.
     pub(super) x_description: String,
     /// Name and unit of y.
@@ -35,7 +35,7 @@ pub(super) struct PathChart {
 impl PathChart {
     /// Picture of the chart; an error without a point.
     pub(super) fn picture(&self, title: &str) -> Result<Svg> {
-        let points = self.paths.iter().chain(&self.measured).flat_map(|curve| &curve.points);
+        let points = self.paths.iter().chain(&self.measured_points).flat_map(|curve| &curve.points);
         at_least("points of a chart", points.clone().count(), 1)?;
         let x_range = range_of(points.clone().map(|point| point.0));
         let y_range = range_of(points.map(|point| point.1));
@@ -43,7 +43,7 @@ impl PathChart {
         for (k, curve) in self.paths.iter().enumerate() {
             key.push((curve.name.as_str(), KeySample::Line(Stroke::nth(k))));
         }
-        for (k, curve) in self.measured.iter().enumerate() {
+        for (k, curve) in self.measured_points.iter().enumerate() {
             key.push((curve.name.as_str(), KeySample::Point(Stroke::points(k))));
         }
         PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
@@ -58,7 +58,7 @@ impl PathChart {
                 let path = thinned_path(&curve.points, [&x_range, &y_range]);
                 draw_curve(&mut chart, &path, Stroke::nth(k), 2)?;
             }
-            for (k, curve) in self.measured.iter().enumerate() {
+            for (k, curve) in self.measured_points.iter().enumerate() {
                 draw_points(&mut chart, &curve.points, Stroke::points(k))?;
             }
             Ok(())
@@ -99,10 +99,10 @@ fn thinned_path(points: &[(f64, f64)], ranges: [&Range<f64>; 2]) -> Vec<(f64, f6
     let min_distances = ranges.map(|range| POINT_DISTANCE * (range.end - range.start));
     let mut drawn_points = vec![points[0]];
     for (k, point) in points.iter().enumerate().skip(1) {
-        let previous = drawn_points[drawn_points.len() - 1];
+        let previous_point = drawn_points[drawn_points.len() - 1];
         // Comparisons with NaN are false, so that a point with NaN remains and interrupts the curve.
-        let is_close = (point.0 - previous.0).abs() < min_distances[0]
-            && (point.1 - previous.1).abs() < min_distances[1];
+        let is_close = (point.0 - previous_point.0).abs() < min_distances[0]
+            && (point.1 - previous_point.1).abs() < min_distances[1];
         if !is_close || k + 1 == points.len() {
             drawn_points.push(*point);
         }

@@ -38,10 +38,10 @@ fn element_cell(
 /// is not in plan; [`Error::Input`] for a time that is not finite.
 pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<Svg> {
     finite("time of a picture", time)?;
-    let nearest = time_series
+    let nearest_frame = time_series
         .contact_frames()
         .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()));
-    let Some(frame) = nearest else {
+    let Some(frame) = nearest_frame else {
         let needed = "the recorder must keep the contact (`Recorder::contact`)";
         return Err(Error::Scene { quantity: "contact in plan", needed });
     };

@@ -95,10 +95,10 @@ mod tests {
             dark_pixels(&title),
             dark_pixels(&blank)
         );
-        let large = bitmap_of_chart("Base shear", 2.5);
-        assert_eq!([large.width(), large.height()], [2750, 1400]);
+        let large_bitmap = bitmap_of_chart("Base shear", 2.5);
+        assert_eq!([large_bitmap.width(), large_bitmap.height()], [2750, 1400]);
         // Areas grow with the square of the scale.
-        let growth = dark_pixels(&large) as f64 / dark_pixels(&title) as f64;
+        let growth = dark_pixels(&large_bitmap) as f64 / dark_pixels(&title) as f64;
         assert!((4.0..9.0).contains(&growth), "{growth}");
     }
 

@@ -53,10 +53,10 @@ pub fn push_over(title: &str, curves: &[(&str, &PushOver)]) -> Result<Svg> {
         uplift.points.extend(first_open.filter(|_| is_closed).map(|index| points[index]));
         paths.push(Curve { name: (*name).to_owned(), points });
     }
-    let measured = if uplift.points.is_empty() { Vec::new() } else { vec![uplift] };
+    let measured_points = if uplift.points.is_empty() { Vec::new() } else { vec![uplift] };
     let chart = PathChart {
         paths,
-        measured,
+        measured_points,
         x_description: "displacement, m or rad".to_owned(),
         y_description: "load factor / 1000".to_owned(),
         is_downward: false,

@@ -9,8 +9,8 @@ use crate::results::{Quantity, Rocking};
 /// Moment on the soil over the rotation of a foundation, for one or more runs, with measured points.
 ///
 /// Axes are in mrad and kN·m/m, in plan kN·m. `runs` have names and the rocking of a foundation
-/// ([`TimeSeries::rocking`](crate::results::TimeSeries::rocking)), of a whole run or of a part of it. Points of `measured`
-/// are (rotation, moment) in rad and N·m/m, in plan N·m; each is drawn by itself.
+/// ([`TimeSeries::rocking`](crate::results::TimeSeries::rocking)), of a whole run or of a part of it. Points of
+/// `measured_points` are (rotation, moment) in rad and N·m/m, in plan N·m; each is drawn by itself.
 ///
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) without a run or without a point; [`Error::Scene`](crate::Error::Scene) for runs in
@@ -18,30 +18,30 @@ use crate::results::{Quantity, Rocking};
 pub fn moment_rotation(
     title: &str,
     runs: &[(&str, Rocking<'_>)],
-    measured: &[Curve],
+    measured_points: &[Curve],
 ) -> Result<Svg> {
-    rocking_chart(runs, measured, Quantity::BaseMoment)?.picture(title)
+    rocking_chart(runs, measured_points, Quantity::BaseMoment)?.picture(title)
 }
 
 /// Settlement over the rotation of a foundation, for one or more runs, with measured points.
 ///
-/// Axes are in mrad and mm; settlement increases downwards. `runs` and `measured` as for [`moment_rotation`], with points
-/// (rotation, settlement) in rad and m.
+/// Axes are in mrad and mm; settlement increases downwards. `runs` and `measured_points` as for [`moment_rotation`],
+/// with points (rotation, settlement) in rad and m.
 ///
 /// # Errors
 /// As for [`moment_rotation`].
 pub fn settlement_rotation(
     title: &str,
     runs: &[(&str, Rocking<'_>)],
-    measured: &[Curve],
+    measured_points: &[Curve],
 ) -> Result<Svg> {
-    rocking_chart(runs, measured, Quantity::Settlement)?.picture(title)
+    rocking_chart(runs, measured_points, Quantity::Settlement)?.picture(title)
 }
 
 /// Chart of the moment over the rotation, or of the settlement if that is the `quantity`.
 fn rocking_chart(
     runs: &[(&str, Rocking<'_>)],
-    measured: &[Curve],
+    measured_points: &[Curve],
     quantity: Quantity,
 ) -> Result<PathChart> {
     at_least("runs of a picture", runs.len(), 1)?;
@@ -60,14 +60,14 @@ fn rocking_chart(
         let points = rocking.rotation.iter().zip(values).map(|(x, y)| scaled(x, y)).collect();
         paths.push(Curve { name: (*name).to_owned(), points });
     }
-    let mut measured_points = Vec::with_capacity(measured.len());
-    for Curve { name, points } in measured {
+    let mut scaled_points = Vec::with_capacity(measured_points.len());
+    for Curve { name, points } in measured_points {
         let points = points.iter().map(|(x, y)| scaled(x, y)).collect();
-        measured_points.push(Curve { name: name.clone(), points });
+        scaled_points.push(Curve { name: name.clone(), points });
     }
     Ok(PathChart {
         paths,
-        measured: measured_points,
+        measured_points: scaled_points,
         x_description: with_unit(Quantity::BaseRotation.name(), rotation_unit.symbol),
         y_description: with_unit(quantity.name(), value_unit.symbol),
         is_downward,

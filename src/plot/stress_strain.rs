@@ -30,7 +30,7 @@ const STRESS_UNIT: PrintedUnit<'static> = PrintedUnit { factor: 1e-3, symbol: "k
 ///
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) without a point of the solid. [`Error::Item`](crate::Error::Item) names the point
-/// whose path is empty, or has a strain or stress that is not finite.
+/// whose path is empty, or has a strain or stress that is not finite, or too large to be drawn.
 pub fn stress_strain(title: &str, points: &[(&str, &[[f64; 2]])]) -> Result<Svg> {
     at_least("points of a solid", points.len(), 1)?;
     let mut max_strain = 0.0_f64;
@@ -49,7 +49,7 @@ pub fn stress_strain(title: &str, points: &[(&str, &[[f64; 2]])]) -> Result<Svg>
     }
     let chart = PathChart {
         paths,
-        measured: Vec::new(),
+        measured_points: Vec::new(),
         x_description: with_unit("shear strain", strain_unit.symbol),
         y_description: with_unit("shear stress", STRESS_UNIT.symbol),
         is_downward: false,
@@ -59,7 +59,7 @@ pub fn stress_strain(title: &str, points: &[(&str, &[[f64; 2]])]) -> Result<Svg>
 
 /// Largest magnitude of the strains of a path.
 ///
-/// Errors: an empty path, or a value that is not finite.
+/// Errors: an empty path, or a value that is not finite or too large to be drawn.
 fn checked_max_strain(path: &[[f64; 2]]) -> Result<f64> {
     at_least("states of a point", path.len(), 1)?;
     let needed = "finite, and below 1e57 in magnitude";

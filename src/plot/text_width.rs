@@ -68,14 +68,14 @@ mod tests {
         assert_eq!(wrapped_lines("base shear", 15, 400.0, 2), ["base shear"]);
         assert_eq!(wrapped_lines("base shear", 15, 60.0, 2), ["base", "shear"]);
         assert_eq!(fitted("base shear", 15, 60.0), "base s…");
-        let long = "x".repeat(1000);
-        let three = wrapped_lines(&long, 15, 80.0, 3);
-        assert_eq!(three.len(), 3);
-        assert!(three[2].ends_with('…') && !three[1].ends_with('…'));
-        assert!(three.iter().all(|line| width(line, 15) <= 80.0));
+        let long_text = "x".repeat(1000);
+        let three_lines = wrapped_lines(&long_text, 15, 80.0, 3);
+        assert_eq!(three_lines.len(), 3);
+        assert!(three_lines[2].ends_with('…') && !three_lines[1].ends_with('…'));
+        assert!(three_lines.iter().all(|line| width(line, 15) <= 80.0));
         // A word too long for a line is broken, and the text after it is not lost.
-        let broken = wrapped_lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
-        assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
+        let broken_lines = wrapped_lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
+        assert_eq!(broken_lines.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
     }
 
     #[test]

@@ -115,8 +115,8 @@ pub(super) fn logarithmic_ticks(range: &Range<f64>, count: usize) -> Ticks {
     let candidates = factors.map(|factors| factors_of_ten(range, factors));
     let fitting = candidates.iter().find(|values| values.len() <= count && values.len() > 1);
     // If none fits, `ChartAxis::layout` omits marks that overlap; powers of ten alone would be too few.
-    let chosen = fitting.or(candidates.iter().find(|values| values.len() > 1));
-    let values = chosen.cloned().unwrap_or_default();
+    let chosen_values = fitting.or(candidates.iter().find(|values| values.len() > 1));
+    let values = chosen_values.cloned().unwrap_or_default();
     if values.len() < 3 && range.end < 10.0 * range.start {
         let Ticks { mut marks, offset } = linear_ticks(range, count.min(5));
         marks.retain(|(value, _)| *value > 0.0);
@@ -176,13 +176,13 @@ mod tests {
         assert_linear(0.0..10.0, &["0", "2", "4", "6", "8", "10"], None);
         assert_linear(-0.1..0.11, &["-0.10", "-0.05", "0", "0.05", "0.10"], None);
         assert_linear(1.0..1.004, &["1.000", "1.001", "1.002", "1.003", "1.004"], None);
-        let tiny = ["0", "2e-6", "4e-6", "6e-6", "8e-6", "1.0e-5"];
+        let tiny_marks = ["0", "2e-6", "4e-6", "6e-6", "8e-6", "1.0e-5"];
         assert_linear(
             1.000_01..1.000_02,
             &["1.000010", "1.000012", "1.000014", "1.000016", "1.000018", "1.000020"],
             None,
         );
-        assert_linear(100.000_01..100.000_02, &tiny, Some("100.000010"));
+        assert_linear(100.000_01..100.000_02, &tiny_marks, Some("100.000010"));
         let millions = ["1000000", "1000001", "1000002", "1000003", "1000004"];
         assert_linear(1e6..1e6 + 4.0, &millions, None);
         assert_linear(0.0..3e6, &["0", "1e6", "2e6", "3e6"], None);

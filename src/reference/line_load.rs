@@ -10,8 +10,8 @@ use crate::error::{Result, finite, positive};
 
 /// Settlement of the surface under a vertical line load, relative to a far point, m.
 ///
-/// (1−ν)P/(πμ) ln(far/near), downwards, at the distance `near` (m) from the line load P (N/m, downwards), relative to
-/// the distance `far` (m).
+/// (1−ν)P/(πμ) ln(far/near), downwards, at the distance `near_distance` (m) from the line load P (N/m, downwards),
+/// relative to the distance `far_distance` (m).
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19b.
 ///
@@ -26,11 +26,17 @@ use crate::error::{Result, finite, positive};
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) unless the load is finite and the distances are finite
 /// and above zero.
-pub fn flamant_relative_settlement(soil: Soil, load: f64, near: f64, far: f64) -> Result<f64> {
+pub fn flamant_relative_settlement(
+    soil: Soil,
+    load: f64,
+    near_distance: f64,
+    far_distance: f64,
+) -> Result<f64> {
     finite("line load", load)?;
-    positive("near distance from the load", near)?;
-    positive("far distance from the load", far)?;
-    Ok((1.0 - soil.poisson()) * load / (PI * soil.shear_modulus()) * (far / near).ln())
+    positive("near distance from the load", near_distance)?;
+    positive("far distance from the load", far_distance)?;
+    Ok((1.0 - soil.poisson()) * load / (PI * soil.shear_modulus())
+        * (far_distance / near_distance).ln())
 }
 
 /// Horizontal displacement of the surface due to a vertical line load, m, to the right.

@@ -22,7 +22,7 @@ pub(super) const MOTION_COLUMNS: [&str; 5] = [
     "motion_free_field_across_m",
 ];
 
-/// Ends of elements, with their heights if these are asked for: names and values of columns.
+/// Ends of elements, with their heights if `with_heights`: names and values of columns.
 pub(super) fn element_ends(
     elements: &[ContactElement],
     with_heights: bool,
@@ -98,8 +98,8 @@ impl TimeSeries {
     /// Values of the columns.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::recorded(self.in_plan()).map(|quantity| self.series(quantity));
-        let foundations = self.foundations.lists.all().iter().map(Vec::as_slice);
-        let joints = self.joints.lists.all().iter().map(Vec::as_slice);
+        let foundations = self.foundations.lists.all_lists().iter().map(Vec::as_slice);
+        let joints = self.joints.lists.all_lists().iter().map(Vec::as_slice);
         let probes = self.probe_values.iter().map(Vec::as_slice);
         std::iter::once(self.times())
             .chain(scalars)

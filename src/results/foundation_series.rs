@@ -39,7 +39,7 @@ impl FoundationSeries {
 
     /// Number of foundations whose scalars are kept.
     pub(super) fn kept_count(&self) -> usize {
-        if self.lists.all().is_empty() { 0 } else { self.count }
+        if self.lists.all_lists().is_empty() { 0 } else { self.count }
     }
 
     /// Appends the values of a kept step.
@@ -70,7 +70,7 @@ impl FoundationSeries {
         let needed_lists = self.kept_count().saturating_mul(quantity_count);
         crate::error::same_length(
             "list of scalars of the foundations",
-            self.lists.all().len(),
+            self.lists.all_lists().len(),
             needed_lists,
         )?;
         Ok(())

@@ -17,12 +17,12 @@ impl ItemLists {
     }
 
     /// Lists of all quantities of the first item, then of the next one.
-    pub(super) fn all(&self) -> &[Vec<f64>] {
+    pub(super) fn all_lists(&self) -> &[Vec<f64>] {
         &self.lists
     }
 
     /// Mutable access to the lists.
-    pub(super) fn all_mut(&mut self) -> &mut [Vec<f64>] {
+    pub(super) fn all_lists_mut(&mut self) -> &mut [Vec<f64>] {
         &mut self.lists
     }
 

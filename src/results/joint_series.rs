@@ -115,7 +115,7 @@ impl JointSeries {
     pub(super) fn check(&self) -> Result<()> {
         let needed_lists = self.count().saturating_mul(JOINT_QUANTITY_ROWS.len());
         let quantity = "list of scalars of the joints";
-        crate::error::same_length(quantity, self.lists.all().len(), needed_lists)?;
+        crate::error::same_length(quantity, self.lists.all_lists().len(), needed_lists)?;
         Ok(())
     }
 

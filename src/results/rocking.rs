@@ -9,13 +9,13 @@ use crate::error::{Error, Result, at_least, finite, require, require_part, same_
 /// Largest distance between the ends of a closed cycle, over the range of the cycle.
 ///
 /// A cycle that leaves residual rotation does not close exactly.
-const MAX_OPEN_FRACTION: f64 = 0.25;
+const MAX_CLOSURE_RATIO: f64 = 0.25;
 /// Distance from an extreme of the rotation within which a cycle turns, over the range of the cycle.
 ///
 /// Smaller reversals between the extremes do not count as cycles.
-const TURN_FRACTION: f64 = 0.25;
+const TURN_DISTANCE_RATIO: f64 = 0.25;
 /// Fraction of the times at the ends of a window that counts as rounding.
-const TIME_ROUNDING: f64 = 1e-9;
+const TIME_TOLERANCE: f64 = 1e-9;
 
 /// Rocking of one foundation about one axis, over a run or a part of it.
 ///
@@ -138,7 +138,7 @@ impl Rocking<'_> {
     pub fn between(self, times: Range<f64>) -> Result<Self> {
         finite("first time of a part of a run", times.start)?;
         finite("last time of a part of a run", times.end)?;
-        let rounding = TIME_ROUNDING * times.start.abs().max(times.end.abs());
+        let rounding = TIME_TOLERANCE * times.start.abs().max(times.end.abs());
         let first_step = self.times.partition_point(|time| *time < times.start - rounding);
         let end_step = self.times.partition_point(|time| *time <= times.end + rounding);
         at_least("list of kept steps between two times", end_step.saturating_sub(first_step), 1)?;
@@ -243,7 +243,7 @@ fn closed_range(quantity: &'static str, values: &[f64]) -> Result<f64> {
     require("range of rotation or moment in a cycle", range, is_range, "above zero and finite")?;
     let open_fraction = (values[values.len() - 1] - values[0]).abs() / range;
     let needed = "at most a quarter of its range: a cycle ends where it began";
-    let is_closed = open_fraction <= MAX_OPEN_FRACTION;
+    let is_closed = open_fraction <= MAX_CLOSURE_RATIO;
     require("change of rotation or moment over a cycle", open_fraction, is_closed, needed)?;
     Ok(range)
 }
@@ -254,7 +254,7 @@ fn closed_range(quantity: &'static str, values: &[f64]) -> Result<f64> {
 fn cycle_count(values: &[f64]) -> usize {
     let min_value = values.iter().copied().fold(f64::INFINITY, f64::min);
     let max_value = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let margin = TURN_FRACTION * (max_value - min_value);
+    let margin = TURN_DISTANCE_RATIO * (max_value - min_value);
     let mut rise_count = 0;
     let mut was_near_maximum = None;
     let mut began_near_maximum = None;

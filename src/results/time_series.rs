@@ -82,8 +82,8 @@ validated! {
         crate::error::same_length("list of scalars", scalars.len(), quantity_count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), step_count)?;
-        let lists = scalars.iter().chain(&probe_values).chain(foundations.lists.all());
-        for values in lists.chain(joints.lists.all()) {
+        let lists = scalars.iter().chain(&probe_values).chain(foundations.lists.all_lists());
+        for values in lists.chain(joints.lists.all_lists()) {
             crate::error::same_length("time series", values.len(), step_count)?;
         }
         foundations.check(quantity_count)?;
@@ -190,8 +190,8 @@ impl TimeSeries {
 
     /// Lists of all scalars and probes.
     fn scalar_lists(&self) -> impl Iterator<Item = &Vec<f64>> {
-        let scalars = self.scalars.iter().chain(self.foundations.lists.all());
-        scalars.chain(self.joints.lists.all()).chain(&self.probe_values)
+        let scalars = self.scalars.iter().chain(self.foundations.lists.all_lists());
+        scalars.chain(self.joints.lists.all_lists()).chain(&self.probe_values)
     }
 
     /// Number of elements in a contact frame, of the base and of joints.
@@ -251,8 +251,8 @@ impl TimeSeries {
     fn try_reserve_steps(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
         let step_count = self.kept_steps(self.recorder.every, steps);
         let element_count = self.frame_element_count();
-        let scalars = self.scalars.iter_mut().chain(self.foundations.lists.all_mut());
-        let scalars = scalars.chain(self.joints.lists.all_mut());
+        let scalars = self.scalars.iter_mut().chain(self.foundations.lists.all_lists_mut());
+        let scalars = scalars.chain(self.joints.lists.all_lists_mut());
         for list in scalars.chain(&mut self.probe_values).chain([&mut self.times]) {
             reserve(list, step_count)?;
         }

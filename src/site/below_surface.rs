@@ -23,9 +23,9 @@ use crate::soil::Soil;
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct WaveField {
     /// Displacement to the right, u_x.
-    pub(super) right: Complex,
+    pub(super) right_displacement: Complex,
     /// Displacement down, u_z.
-    pub(super) down: Complex,
+    pub(super) down_displacement: Complex,
     /// Impulse of the shear stress, τ.
     pub(super) shear: Complex,
     /// Impulse of the vertical stress, σ.
@@ -36,8 +36,8 @@ impl WaveField {
     /// This field times a factor.
     fn times(self, factor: Complex) -> Self {
         Self {
-            right: self.right * factor,
-            down: self.down * factor,
+            right_displacement: self.right_displacement * factor,
+            down_displacement: self.down_displacement * factor,
             shear: self.shear * factor,
             normal: self.normal * factor,
         }
@@ -46,8 +46,8 @@ impl WaveField {
     /// Sum of two fields.
     fn plus(self, other: Self) -> Self {
         Self {
-            right: self.right + other.right,
-            down: self.down + other.down,
+            right_displacement: self.right_displacement + other.right_displacement,
+            down_displacement: self.down_displacement + other.down_displacement,
             shear: self.shear + other.shear,
             normal: self.normal + other.normal,
         }
@@ -94,23 +94,29 @@ impl FieldMedium {
     /// Impulse of the horizontal stress, q.
     pub(super) fn horizontal_stress(&self, field: WaveField) -> Complex {
         field.normal.scale(self.lateral_ratio)
-            - self.plane_strain_modulus * field.right.scale(self.slowness)
+            - self.plane_strain_modulus * field.right_displacement.scale(self.slowness)
     }
 
     /// Derivative of a field with respect to depth, divided by s.
     fn rate(&self, field: WaveField) -> WaveField {
-        let WaveField { right, down, shear, normal } = field;
+        let WaveField { right_displacement: right, down_displacement: down, shear, normal } = field;
         let p = self.slowness;
         WaveField {
-            right: shear * self.shear_compliance + down.scale(p),
-            down: normal * self.pressure_compliance + right.scale(p * self.lateral_ratio),
+            right_displacement: shear * self.shear_compliance + down.scale(p),
+            down_displacement: normal * self.pressure_compliance
+                + right.scale(p * self.lateral_ratio),
             shear: right.scale(self.density) + self.horizontal_stress(field).scale(p),
             normal: down.scale(self.density) + shear.scale(p),
         }
     }
 
     /// The field at a depth that is `depth_step` (m) below that of `field`.
-    pub(super) fn below(&self, s: Complex, depth_step: f64, mut field: WaveField) -> WaveField {
+    pub(super) fn field_below(
+        &self,
+        s: Complex,
+        depth_step: f64,
+        mut field: WaveField,
+    ) -> WaveField {
         let max_slowness =
             (self.density * self.shear_compliance.abs()).sqrt() + self.slowness.abs();
         let total_phase = s.abs() * depth_step * max_slowness;
@@ -157,16 +163,17 @@ mod tests {
             let x = Complex::new(0.7, -0.2);
             let z = Complex::new(-0.3, 0.5);
             let speed = modulus.scale(1.0 / 1.5);
-            let even = x * speed / b;
-            let odd = -(z * speed) / a;
-            let p_even = b * even.scale(2.0 * p);
-            let s_even = g * even;
-            let p_odd = g * odd;
-            let s_odd = -(a * odd.scale(2.0 * p));
+            let even_part = x * speed / b;
+            let odd_part = -(z * speed) / a;
+            let p_even = b * even_part.scale(2.0 * p);
+            let s_even = g * even_part;
+            let p_odd = g * odd_part;
+            let s_odd = -(a * odd_part.scale(2.0 * p));
             let medium = FieldMedium::new(soil, modulus, p);
-            let surface = WaveField { right: x, down: z, ..WaveField::default() };
-            let upper = medium.below(s, 1.1, surface);
-            let computed = medium.below(s, 0.6, upper);
+            let surface =
+                WaveField { right_displacement: x, down_displacement: z, ..WaveField::default() };
+            let upper = medium.field_below(s, 1.1, surface);
+            let computed = medium.field_below(s, 0.6, upper);
             // Σ over waves up (e = 1) and down (e = −1).
             let mut expected = [Complex::default(); 4];
             let mut horizontal_stress = Complex::default();
@@ -184,7 +191,12 @@ mod tests {
                 horizontal_stress +=
                     -(pressure * normal_stiffness) - shear * modulus * b.scale(2.0 * p);
             }
-            let values = [computed.right, computed.down, computed.shear, computed.normal];
+            let values = [
+                computed.right_displacement,
+                computed.down_displacement,
+                computed.shear,
+                computed.normal,
+            ];
             for (computed, expected) in values.into_iter().zip(expected) {
                 assert!((computed - expected).abs() < 1e-12, "{p}: {computed:?} {expected:?}");
             }
@@ -208,13 +220,16 @@ mod tests {
             let p = 1.0 / wave.apparent_velocity();
             let motion = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
             let s = Complex::new(0.0, 0.8 * std::f64::consts::TAU);
-            let mut field =
-                WaveField { right: motion[0], down: -motion[1], ..WaveField::default() };
+            let mut field = WaveField {
+                right_displacement: motion[0],
+                down_displacement: -motion[1],
+                ..WaveField::default()
+            };
             for ((soil, _), layer) in profile.soils().zip(profile.layers()) {
                 let medium = FieldMedium::new(soil, Complex::real(soil.shear_modulus()), p);
-                field = medium.below(s, layer.thickness, field);
+                field = medium.field_below(s, layer.thickness, field);
             }
-            let WaveField { right: x, down: z, .. } = field;
+            let WaveField { right_displacement: x, down_displacement: z, .. } = field;
             let a = (rock.pressure_wave_speed().powi(-2) - p * p).sqrt();
             let b = (rock.shear_wave_speed().powi(-2) - p * p).sqrt();
             let shear = field.shear.scale(1.0 / rock.shear_modulus());

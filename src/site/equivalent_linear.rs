@@ -105,9 +105,9 @@ impl SoilColumn {
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for curves that do not fit the layers, [`Error::Item`](crate::Error::Item) for
-    /// parameters of a layer out of range, and
-    /// for a column of pressure waves; [`Error::Input`](crate::Error::Input) for options out of range and motions
-    /// that overflow; [`Error::Stopped`](crate::Error::Stopped) by the observer.
+    /// parameters of a layer out of range; [`Error::Scene`](crate::Error::Scene) for a column of pressure waves;
+    /// [`Error::Input`](crate::Error::Input) for options out of range and motions that overflow;
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn equivalent_linear(
         &self,
         motion: &Record,

@@ -207,8 +207,8 @@ impl InclinedWave {
     /// The free field in which `record` is the motion of `control` below `origin` (m).
     ///
     /// `origin` is the edge of the base that the wave reaches first. The motion continues after the record's end
-    /// until the layers are at rest. [`InclinedWave::to_surface`] returns the parts of the motion near the highest
-    /// frequency and before t = 0.
+    /// until the layers are at rest. [`InclinedWave::to_surface`] returns the size of
+    /// the parts that are lost before t = 0 and near the highest frequency.
     ///
     /// # Errors
     /// As for [`InclinedWave::to_surface`]; [`Error::Input`](crate::Error::Input) for an origin that is not finite.

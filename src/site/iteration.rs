@@ -210,14 +210,14 @@ impl<'a> Iteration<'a> {
             matches!(base, Bedrock::Rigid) || options.control == ControlPoint::Within;
         let mut layer_curves = Vec::with_capacity(layer_count);
         for (index, layer_curve) in curves.iter().enumerate() {
-            let resolved =
+            let resolved_curves =
                 layer_curve.resolved().map_err(|error| error.within(layer_name(index)))?;
-            if has_total_reflection && resolved.at(0.0)[1] == 0.0 {
+            if has_total_reflection && resolved_curves.at(0.0)[1] == 0.0 {
                 let quantity = "damping ratio at small strain";
                 let needed = "above 0 on rigid bedrock or under a motion within: no energy radiates into the base";
                 return Err(Error::Input { quantity, value: 0.0, needed }.within(layer_name(index)));
             }
-            layer_curves.push(resolved);
+            layer_curves.push(resolved_curves);
         }
         Ok(Self { column, motion, curves: layer_curves, options, transform: None })
     }

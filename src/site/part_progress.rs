@@ -34,7 +34,7 @@ impl<'p, 'w> PartProgress<'p, 'w> {
     /// Reports the finished fraction of the part.
     pub(super) fn report(&mut self, fraction: f64) -> Result<()> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
-        let done = (Self::STEPS_PER_PART as f64 * fraction.clamp(0.0, 1.0)) as usize;
-        self.reporter.reach(self.first_step.saturating_add(done))
+        let finished_steps = (Self::STEPS_PER_PART as f64 * fraction.clamp(0.0, 1.0)) as usize;
+        self.reporter.reach(self.first_step.saturating_add(finished_steps))
     }
 }

@@ -211,9 +211,9 @@ impl<F: SiteFunctions> WithSimd for Evaluation<'_, F> {
         let mut layer_values = vec![];
         let mut values = vec![Lanes::load(simd, &[zero]); functions.function_count()];
         let mut modulus_lanes = Vec::with_capacity(moduli.len() / point_count);
-        for begin in (0..point_count).step_by(lane_count) {
-            let end = point_count.min(begin + lane_count);
-            let lane_points = &points[begin..end];
+        for start in (0..point_count).step_by(lane_count) {
+            let end = point_count.min(start + lane_count);
+            let lane_points = &points[start..end];
             let band = lane_points.iter().any(|point| point.modified_weight > 0.0).then(|| {
                 let mut weights = vec![zero; lane_points.len()];
                 let mut ratios = vec![zero; lane_points.len()];
@@ -226,14 +226,14 @@ impl<F: SiteFunctions> WithSimd for Evaluation<'_, F> {
                     frequency_ratio: Lanes::load(simd, &ratios),
                 }
             });
-            let nonzero_s = Lanes::load(simd, &nonzero_values[begin..end]);
-            let has_same_moduli = begin > 0 && band.is_none() && has_constant_moduli;
-            let s = Lanes::load(simd, &s[begin..end]);
+            let nonzero_s = Lanes::load(simd, &nonzero_values[start..end]);
+            let has_same_moduli = start > 0 && band.is_none() && has_constant_moduli;
+            let s = Lanes::load(simd, &s[start..end]);
             let contour = ContourLanes { s, nonzero_s, has_same_moduli, band };
             if !has_same_moduli {
                 modulus_lanes.clear();
                 for soil_moduli in moduli.chunks_exact(point_count) {
-                    modulus_lanes.push(Lanes::load(simd, &soil_moduli[begin..end]));
+                    modulus_lanes.push(Lanes::load(simd, &soil_moduli[start..end]));
                 }
             }
             functions.evaluate(&contour, &modulus_lanes, &mut layer_values, &mut values);
@@ -241,11 +241,11 @@ impl<F: SiteFunctions> WithSimd for Evaluation<'_, F> {
             for (value, function_results) in
                 values.iter().zip(results.chunks_exact_mut(point_count))
             {
-                value.store(&mut function_results[begin..end]);
-                is_finite &= function_results[begin..end].iter().all(|value| value.is_finite());
+                value.store(&mut function_results[start..end]);
+                is_finite &= function_results[start..end].iter().all(|value| value.is_finite());
             }
             if !is_finite {
-                evaluate_singly(functions, lane_points, begin, moduli, results);
+                evaluate_singly(functions, lane_points, start, moduli, results);
             }
         }
     }
@@ -253,11 +253,11 @@ impl<F: SiteFunctions> WithSimd for Evaluation<'_, F> {
 
 /// Evaluates points one by one, where the vectors of several points overflowed.
 ///
-/// `begin`: index of the first of these points in `results`.
+/// `start`: index of the first of these points in `results`.
 fn evaluate_singly<F: SiteFunctions>(
     functions: &F,
     points: &[ContourPoint],
-    begin: usize,
+    start: usize,
     moduli: &[Complex],
     results: &mut [Complex],
 ) {
@@ -268,11 +268,11 @@ fn evaluate_singly<F: SiteFunctions>(
     let point_count = results.len() / function_count;
     for (k, point) in points.iter().enumerate() {
         point_moduli.clear();
-        point_moduli.extend(moduli.iter().skip(begin + k).step_by(point_count));
+        point_moduli.extend(moduli.iter().skip(start + k).step_by(point_count));
         let contour = ContourLanes::single(point);
         functions.evaluate(&contour, &point_moduli, &mut layer_values, &mut values);
         for (value, function_results) in values.iter().zip(results.chunks_exact_mut(point_count)) {
-            function_results[begin + k] = *value;
+            function_results[start + k] = *value;
         }
     }
 }

@@ -137,8 +137,8 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
     pub(super) fn free_surface(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
         let scale = self.squared_s_slowness.scale(2.0) * self.rayleigh().inverse();
-        let mixed = (a * b).scale(2.0 * p);
-        scaled([mixed, b * g, a * g, -mixed], scale)
+        let mixed_product = (a * b).scale(2.0 * p);
+        scaled([mixed_product, b * g, a * g, -mixed_product], scale)
     }
 
     /// Rayleigh's function r.
@@ -248,8 +248,8 @@ impl<C: ComplexArithmetic> SurfaceTransfer<C> {
             medium.waves(upper_medium.state([zero, one], [reflection[1], reflection[3]]));
         // A' = diag(1/a, 1/b) M A, and B' in the same way.
         let up_inverse = inverse([p_waves[0][0], sv_waves[0][0], p_waves[0][1], sv_waves[0][1]]);
-        let down = [p_waves[1][0], sv_waves[1][0], p_waves[1][1], sv_waves[1][1]];
-        let [pp, ps, sp, ss] = times(down, up_inverse);
+        let down_waves = [p_waves[1][0], sv_waves[1][0], p_waves[1][1], sv_waves[1][1]];
+        let [pp, ps, sp, ss] = times(down_waves, up_inverse);
         let slowness_ratio = medium.a * medium.b.inverse();
         let reflection = [pp, ps * slowness_ratio.inverse(), sp * slowness_ratio, ss];
         let [xp, xs, zp, zs] = times(surface, up_inverse);

@@ -108,9 +108,9 @@ impl Contour {
 
     /// Laplace variable (1/s) at the end of the contour, of the highest frequency.
     pub(super) fn end(&self) -> Result<Complex> {
-        let highest =
+        let highest_frequency =
             finite("highest frequency of a motion", std::f64::consts::PI / self.time_step)?;
-        Ok(Complex::new(self.decay_rate, highest))
+        Ok(Complex::new(self.decay_rate, highest_frequency))
     }
 
     /// Value of the window at a time, which is counted in samples.
@@ -248,16 +248,16 @@ impl Transform {
         self.spectrum_sums.resize(function_count, SpectrumSums::default());
         let mut filter_values = vec![Complex::default(); function_count * FREQUENCIES_PER_BLOCK];
         let mut points = Vec::with_capacity(FREQUENCIES_PER_BLOCK);
-        for begin in (0..=last_index).step_by(FREQUENCIES_PER_BLOCK) {
-            let stop = (begin + FREQUENCIES_PER_BLOCK).min(last_index + 1);
+        for start in (0..=last_index).step_by(FREQUENCIES_PER_BLOCK) {
+            let stop = (start + FREQUENCIES_PER_BLOCK).min(last_index + 1);
             points.clear();
-            points.extend((begin..stop).map(|index| self.point(index, highest_frequency)));
+            points.extend((start..stop).map(|index| self.point(index, highest_frequency)));
             let block_values = &mut filter_values[..function_count * points.len()];
             filters(&points, block_values)?;
             let functions = block_values.chunks_exact(points.len()).zip(&mut self.filtered_spectra);
             for ((values, filtered), sums) in functions.zip(&mut self.spectrum_sums) {
-                let inputs = self.spectrum[begin..stop].iter().zip(values).zip(&points);
-                for (((input, filter), point), output) in inputs.zip(&mut filtered[begin..stop]) {
+                let inputs = self.spectrum[start..stop].iter().zip(values).zip(&points);
+                for (((input, filter), point), output) in inputs.zip(&mut filtered[start..stop]) {
                     let product = Complex::new(input.re, input.im) * *filter;
                     *output = Complex64::new(product.re, product.im);
                     if computes_losses {

@@ -97,11 +97,12 @@ impl TrenchMotion {
         for (component_index, record) in surface_components.into_iter().enumerate() {
             let Some(record) = record else { continue };
             let rest_duration = waves.rest_duration(record.time_step());
-            let padded = record.padded(rest_duration, rest_duration)?;
-            let lead_time = (padded.len() - record.len()) as f64 / 2.0 * record.time_step();
-            let drift_velocity = padded.at(lead_time).velocity;
+            let padded_record = record.padded(rest_duration, rest_duration)?;
+            let lead_time = (padded_record.len() - record.len()) as f64 / 2.0 * record.time_step();
+            let drift_velocity = padded_record.at(lead_time).velocity;
             let mut progress = PartProgress::of_part(&mut reporter, components.len());
-            let records_by_level = waves.level_records(component_index, &padded, &mut progress)?;
+            let records_by_level =
+                waves.level_records(component_index, &padded_record, &mut progress)?;
             components.push(DepthMotion { lead_time, drift_velocity, records_by_level });
         }
         let TrenchWaves { elements, soil_identity, slowness, .. } = waves;

@@ -266,20 +266,25 @@ impl<'a> TrenchWaves<'a> {
             .collect();
         let zero = Complex::default();
         let mut field = if surface_component == 0 {
-            WaveField { right: Complex::real(1.0), ..WaveField::default() }
+            WaveField { right_displacement: Complex::real(1.0), ..WaveField::default() }
         } else {
-            WaveField { down: Complex::real(-1.0), ..WaveField::default() }
+            WaveField { down_displacement: Complex::real(-1.0), ..WaveField::default() }
         };
         level_means.clear();
         level_means.resize(self.wall_element_count + 1, [zero; VALUES_PER_LEVEL]);
         for point in &self.depth_points {
             let medium = &media[point.soil_index];
-            field = medium.below(s, point.depth_step, field);
+            field = medium.field_below(s, point.depth_step, field);
             // The walls are vertical, the base is horizontal.
             let is_wall = point.level < self.wall_element_count;
             let normal_stress =
                 if is_wall { medium.horizontal_stress(field) } else { field.normal };
-            let point_values = [field.right, -field.down, field.shear / s, -(normal_stress / s)];
+            let point_values = [
+                field.right_displacement,
+                -field.down_displacement,
+                field.shear / s,
+                -(normal_stress / s),
+            ];
             for (sum, value) in level_means[point.level].iter_mut().zip(point_values) {
                 *sum += value.scale(point.weight);
             }

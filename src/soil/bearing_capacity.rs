@@ -205,7 +205,7 @@ impl ShallowFooting {
         positive("bearing pressure of drained soil", pressure)
     }
 
-    /// Increase of the drained bearing pressure with depth as the base sinks, Pa/m.
+    /// Increase of the drained bearing pressure with depth as the base settles, Pa/m.
     ///
     /// The increase is γ N_q b_q s_q i_q, because the pressure of the soil beside the base grows by γ times the settlement.
     /// Without the factors of tilt, shape and inclination it is γ N_q.

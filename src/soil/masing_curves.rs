@@ -98,8 +98,12 @@ mod tests {
         let curves = StrainCurves::masing(&[[0.001, 20.0e3]], 0.01).unwrap();
         for strain in [0.0011_f64, 0.003, 0.009] {
             let values = curves.at(strain).unwrap();
-            let exact = 0.01 + 4.0 * (strain - 0.001) / (4.0 * std::f64::consts::PI * 0.5 * strain);
-            assert!((values[1] - exact).abs() < 3e-3, "{strain}: {values:?} {exact}");
+            let exact_damping =
+                0.01 + 4.0 * (strain - 0.001) / (4.0 * std::f64::consts::PI * 0.5 * strain);
+            assert!(
+                (values[1] - exact_damping).abs() < 3e-3,
+                "{strain}: {values:?} {exact_damping}"
+            );
             assert!((values[0] - 0.001 / strain).abs() < 3e-3);
         }
         assert_eq!(curves.at(0.0005).unwrap(), [1.0, 0.01]);

@@ -1,7 +1,7 @@
 //! Generalised Maxwell body: nearly constant damping over a band of frequencies.
 
 use super::nonnegative_least_squares::nonnegative_least_squares;
-use super::relaxation::{DampingKind, Relaxation, rounded};
+use super::relaxation::{DampingKind, Relaxation, rounded_number};
 use crate::error::{Error, Result, damping_ratio, not_negative, positive, require, same_length};
 use crate::linalg::{Complex, ComplexArithmetic, Lanes, Simd, WithSimd, vectorized};
 
@@ -188,8 +188,8 @@ impl Relaxation for GeneralizedMaxwell {
     fn describe(&self) -> String {
         match self.fitted {
             Some([ratio, low, high]) => {
-                let percent = rounded(100.0 * ratio);
-                format!("{percent} % from {} to {} Hz", rounded(low), rounded(high))
+                let percent = rounded_number(100.0 * ratio);
+                format!("{percent} % from {} to {} Hz", rounded_number(low), rounded_number(high))
             }
             None => format!("{} Maxwell mechanisms", self.rates.len()),
         }

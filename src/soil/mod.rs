@@ -14,6 +14,7 @@ mod relaxation;
 mod strain_backbone;
 mod strain_curves;
 mod strength;
+mod water_table;
 
 #[doc(inline)]
 pub use crate::error::SoilError;
@@ -26,6 +27,7 @@ pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
 pub(crate) use strain_curves::ResolvedCurves;
 pub use strain_curves::StrainCurves;
 pub use strength::SoilStrength;
+pub use water_table::WaterTable;
 
 use crate::error::{Result, finite, positive, require};
 

@@ -83,8 +83,8 @@ fn free_least_squares(
     let mut residual = rhs.to_vec();
     let mut rhs_projections = vec![0.0; free_count];
     for j in 0..free_count {
-        let (orthonormal, remaining) = basis.split_at_mut(j);
-        let candidate = &mut remaining[0];
+        let (orthonormal, remaining_columns) = basis.split_at_mut(j);
+        let candidate = &mut remaining_columns[0];
         for (i, vector) in orthonormal.iter().enumerate() {
             let projection = dot(vector, candidate);
             upper_triangle[i * free_count + j] = projection;

@@ -295,19 +295,23 @@ impl SoilProfile {
 
     /// Profile of the soils above a depth (m), on rigid bedrock at this depth.
     pub(crate) fn above(&self, depth: f64) -> Self {
-        let mut remaining = depth;
+        let mut remaining_depth = depth;
         let mut layers = Vec::new();
         for layer in &self.layers {
-            let thickness = layer.thickness.min(remaining);
+            let thickness = layer.thickness.min(remaining_depth);
             if thickness > 0.0 {
                 layers.push(SoilLayer { thickness, ..layer.clone() });
             }
-            remaining -= thickness;
+            remaining_depth -= thickness;
         }
-        if remaining > 0.0
+        if remaining_depth > 0.0
             && let Bedrock::HalfPlane { soil, damping } = &self.bedrock
         {
-            layers.push(SoilLayer { soil: *soil, thickness: remaining, damping: damping.clone() });
+            layers.push(SoilLayer {
+                soil: *soil,
+                thickness: remaining_depth,
+                damping: damping.clone(),
+            });
         }
         Self { layers, ..Self::on_rigid_bedrock() }
     }

@@ -45,10 +45,10 @@ impl SoilProfile {
             for (modulus, s) in soil_moduli.iter_mut().zip(s) {
                 *modulus = modulus.scale(soil.shear_modulus());
                 let power = modulus.re * s.re + modulus.im * s.im;
-                let square = modulus.squared_modulus() * s.squared_modulus();
+                let squared_product = modulus.squared_modulus() * s.squared_modulus();
                 are_clearly_passive &= power > 0.0
-                    && power * power > MIN_SQUARED_PASSIVITY * square
-                    && SAFE_SQUARE_RANGE.contains(&square);
+                    && power * power > MIN_SQUARED_PASSIVITY * squared_product
+                    && SAFE_SQUARE_RANGE.contains(&squared_product);
             }
             if !are_clearly_passive {
                 for (modulus, s) in soil_moduli.iter().zip(s) {

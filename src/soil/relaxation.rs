@@ -25,17 +25,17 @@ use crate::linalg::Complex;
 /// /// A standard linear solid.
 /// #[derive(Debug)]
 /// struct Zener {
-///     extra: f64,
+///     extra_modulus: f64,
 ///     rate: f64,
 /// }
 ///
 /// impl Relaxation for Zener {
 ///     fn modulus(&self, s: Complex) -> Complex {
-///         Complex::real(1.0) + s * self.extra / (s + Complex::real(self.rate))
+///         Complex::real(1.0) + s * self.extra_modulus / (s + Complex::real(self.rate))
 ///     }
 /// }
 ///
-/// let law = Zener { extra: 0.2, rate: 6.0 };
+/// let law = Zener { extra_modulus: 0.2, rate: 6.0 };
 /// assert_eq!(law.modulus(Complex::real(6.0)), Complex::real(1.1));
 /// ```
 pub trait Relaxation: Any + Debug + Send + Sync {
@@ -160,7 +160,7 @@ impl Relaxation for KelvinVoigt {
     }
 
     fn describe(&self) -> String {
-        format!("Kelvin–Voigt, {} s", rounded(self.time))
+        format!("Kelvin–Voigt, {} s", rounded_number(self.time))
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
@@ -264,7 +264,7 @@ impl Relaxation for Hysteretic {
     }
 
     fn describe(&self) -> String {
-        format!("hysteretic, {} %", rounded(100.0 * self.ratio))
+        format!("hysteretic, {} %", rounded_number(100.0 * self.ratio))
     }
 
     fn is_causal(&self) -> bool {
@@ -277,6 +277,6 @@ impl Relaxation for Hysteretic {
 }
 
 /// Rounds a number to four digits, for descriptions.
-pub(super) fn rounded(value: f64) -> f64 {
+pub(super) fn rounded_number(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -163,8 +163,9 @@ mod tests {
         }
         let limit_strain = limit(120.0e3).unwrap()[0];
         assert!((limit_strain - (1e-2 + 20.0e3 * 9e-3 / 50.0e3)).abs() < 1e-12);
-        let linear = StrainCurves::Linear { damping: 0.02 }.iwan(1.0e8, 5.0e4, 0.3, 0.0).unwrap();
-        assert_eq!(linear.points(), [[5e-4, 5.0e4]]);
+        let linear_soil =
+            StrainCurves::Linear { damping: 0.02 }.iwan(1.0e8, 5.0e4, 0.3, 0.0).unwrap();
+        assert_eq!(linear_soil.points(), [[5e-4, 5.0e4]]);
     }
 
     #[test]
@@ -172,11 +173,14 @@ mod tests {
         let convex =
             vec![[1e-4, 0.5, 0.01], [1e-3, 0.5, 0.1], [2e-3, 0.48, 0.2], [3e-3, 0.475, 0.2]];
         let descending = vec![[1e-4, 1.0, 0.01], [1e-3, 0.5, 0.1], [1e-2, 0.01, 0.2]];
-        let flat = vec![[1e-4, 1.0, 0.01], [1e-3, 0.5, 0.1], [1e-2, 0.05, 0.2]];
+        let flat_rows = vec![[1e-4, 1.0, 0.01], [1e-3, 0.5, 0.1], [1e-2, 0.05, 0.2]];
         for (rows, part) in [
             (convex, "point 4 of the backbone: slope up to the point"),
             (descending, "point 3 of the backbone: shear stress (Pa) is 10000"),
-            (flat, "shear strength of the soil (Pa) is 2000000, but must be at most the stress"),
+            (
+                flat_rows,
+                "shear strength of the soil (Pa) is 2000000, but must be at most the stress",
+            ),
         ] {
             let text =
                 StrainCurves::Table(rows).iwan(1.0e8, 2.0e6, 0.3, 0.0).unwrap_err().to_string();

@@ -96,7 +96,8 @@ impl StrainCurves {
     /// G/G_max and damping ratio at a `strain` amplitude.
     ///
     /// # Errors
-    /// [`Error::Input`] for a negative strain, parameters out of their range and a table without rows.
+    /// [`Error::Input`] for a negative strain, for parameters out of their range, and for a table without rows or with rows out
+    /// of order or out of range.
     pub fn at(&self, strain: f64) -> Result<[f64; 2]> {
         not_negative("shear strain", strain)?;
         Ok(self.resolved()?.at(strain))
@@ -264,13 +265,13 @@ fn vucetic_dobry(plasticity_index: f64) -> Result<Vec<[f64; 3]>> {
         (plasticity_index - low_curve.parameter) / (high_curve.parameter - low_curve.parameter);
     let low_rows = rows(&NINE_STRAINS, &low_curve.reduction, &low_curve.damping);
     let high_rows = rows(&NINE_STRAINS, &high_curve.reduction, &high_curve.damping);
-    let mut interpolated = Vec::with_capacity(low_rows.len());
+    let mut interpolated_rows = Vec::with_capacity(low_rows.len());
     for (low_row, high_row) in low_rows.iter().zip(high_rows) {
         let reduction = low_row[1] + fraction * (high_row[1] - low_row[1]);
         let damping = low_row[2] + fraction * (high_row[2] - low_row[2]);
-        interpolated.push([low_row[0], reduction, damping]);
+        interpolated_rows.push([low_row[0], reduction, damping]);
     }
-    Ok(interpolated)
+    Ok(interpolated_rows)
 }
 
 /// The rows of a table; an error unless they form a curve.

@@ -199,10 +199,14 @@ fn columns_of_heading(
     let file_columns = Columns { names: result_names.to_vec(), with_warnings };
     let expected_cells = heading(grid, &file_columns);
     for (index, expected_cell) in expected_cells.iter().enumerate() {
-        let found = cells.get(index).map_or("", String::as_str);
-        if found != expected_cell {
+        let found_name = cells.get(index).map_or("", String::as_str);
+        if found_name != expected_cell {
             let quantity = format!("heading of column {}", index + 1);
-            return Err(FileFault::value(quantity, quoted(found), format!("'{expected_cell}'")));
+            return Err(FileFault::value(
+                quantity,
+                quoted(found_name),
+                format!("'{expected_cell}'"),
+            ));
         }
     }
     if cells.len() != expected_cells.len() {
@@ -261,8 +265,8 @@ fn table_row(
         return Ok(TableRow { warnings, ..TableRow::new(case, Ok(numbers)) });
     }
     if results.iter().any(|cell| !cell.is_empty()) {
-        let found = "a row with an error and results";
-        return Err(FileFault::value(format!("case {case}"), found, "a row with either"));
+        let found_text = "a row with an error and results";
+        return Err(FileFault::value(format!("case {case}"), found_text, "a row with either"));
     }
     Ok(TableRow { warnings, ..TableRow::new(case, Err((*reason).to_owned())) })
 }
@@ -303,10 +307,10 @@ pub(super) fn add_rows(
             Entry::Occupied(entry) => {
                 let stored_row = entry.get();
                 if ending == Ending::Whole || stored_row.row != row {
-                    let found = format!("here and in {}", path_text(&stored_row.path));
+                    let found_places = format!("here and in {}", path_text(&stored_row.path));
                     let case = format!("case {}", row.case);
                     return Err(
-                        FileFault::value(case, found, "in one place").of(path_text(path), 0)
+                        FileFault::value(case, found_places, "in one place").of(path_text(path), 0)
                     );
                 }
             }

@@ -153,11 +153,11 @@ impl RelativeContact {
 
     /// Violation of the conditions of friction where the bond has broken.
     fn friction_violation(&self, friction: f64) -> f64 {
-        let open = self.pressure.abs().max(self.shear.abs()).max(-self.gap);
+        let open_violation = self.pressure.abs().max(self.shear.abs()).max(-self.gap);
         let stick = self.slip_increment.abs().max(self.shear.abs() - friction * self.pressure);
-        let closed = self.gap.abs().max(-self.pressure);
+        let closed_violation = self.gap.abs().max(-self.pressure);
         let slip = self.slip_violation(1.0, friction).min(self.slip_violation(-1.0, friction));
-        open.min(closed.max(stick.min(slip)))
+        open_violation.min(closed_violation.max(stick.min(slip)))
     }
 
     /// Violation of the conditions of slip to the right (1) or to the left (−1).
@@ -193,7 +193,7 @@ fn intact_bonds(simulation: &Simulation) -> Vec<bool> {
 struct StepChecker<'a> {
     scene: &'a CohesiveBlock,
     simulation: Simulation,
-    previous: State,
+    previous_state: State,
     is_intact: Vec<bool>,
     scales: ContactScales,
     largest_energy: f64,
@@ -204,7 +204,7 @@ impl<'a> StepChecker<'a> {
         let simulation = scene.build().unwrap();
         Self {
             scene,
-            previous: simulation.state().clone(),
+            previous_state: simulation.state().clone(),
             is_intact: vec![true; scene.elements],
             scales: ContactScales { traction: f64::MIN_POSITIVE, length: f64::MIN_POSITIVE },
             largest_energy: f64::MIN_POSITIVE,
@@ -228,31 +228,32 @@ impl<'a> StepChecker<'a> {
         results.max_bonds_in_a_step = results.max_bonds_in_a_step.max(breaking_bonds);
         self.scales.update(&state);
         results.violation = results.violation.max(self.violation(&state));
-        let dissipated = state.energy_balance.contact - self.previous.energy_balance.contact;
+        let dissipated_energy =
+            state.energy_balance.contact - self.previous_state.energy_balance.contact;
         let energy = state.energy_balance.kinetic.max(state.energy_balance.input.abs());
         self.largest_energy = self.largest_energy.max(energy);
         // Below one joule, the rounding of the weight's tractions dominates.
-        let returned_energy = -dissipated / self.largest_energy.max(1.0);
+        let returned_energy = -dissipated_energy / self.largest_energy.max(1.0);
         results.returned_energy = results.returned_energy.max(returned_energy);
-        self.previous = state;
+        self.previous_state = state;
     }
 
     /// Largest violation of the conditions of all elements at the end of a step.
     fn violation(&self, state: &State) -> f64 {
         let length = self.scales.length.max(MIN_LENGTH_SCALE);
         let scales = ContactScales { length, ..self.scales };
-        let mut largest = 0.0_f64;
+        let mut max_value = 0.0_f64;
         for (e, is_intact) in self.is_intact.iter().enumerate() {
             let contact =
-                RelativeContact::new(&self.previous.contact[e], &state.contact[e], scales);
+                RelativeContact::new(&self.previous_state.contact[e], &state.contact[e], scales);
             let violation = if *is_intact {
                 contact.bond_violation(self.scene.bond, scales.traction)
             } else {
                 contact.friction_violation(self.scene.bond.friction)
             };
-            largest = largest.max(violation);
+            max_value = max_value.max(violation);
         }
-        largest
+        max_value
     }
 }
 
@@ -289,9 +290,10 @@ fn ordinary_scenes_are_solved() {
     assert!(results.violation < 1e-11 && results.returned_energy < 1e-11, "{results:?}");
 }
 
-/// Scenes in which the search would not end if bonds could heal within a step.
+/// Scenes in which the search would not end if bonds could close again within a step.
 ///
-/// An active set that heals bonds returns to bonds that it has broken, and neither Gauss–Seidel nor a path converges.
+/// An active set that restores bonds returns to bonds that it has broken, and neither Gauss–Seidel nor a path
+/// converges.
 fn difficult_scenes() -> [CohesiveBlock; 2] {
     [
         CohesiveBlock {

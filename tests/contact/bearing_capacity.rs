@@ -89,21 +89,22 @@ fn inclined_and_eccentric_loads_follow_a_worked_example() -> Result<()> {
         .with_load(load)?;
     assert_close("width", base.effective_sides()[0], 0.7, 1e-12, 0.0);
     assert_close("area", base.effective_area(), 3.584, 1e-12, 0.0);
-    let deep = base.with_surcharge(7.5e3)?;
-    assert_close("pressure", deep.drained_pressure(&soil, 10.0e3)?, 95.0e3, 0.5e3, 0.0);
-    // Its terms one by one, with N_q = 18.40 and N_γ = 20.09.
-    let by_surcharge = deep.drained_pressure(&soil, 0.0)?;
+    let deep_base = base.with_surcharge(7.5e3)?;
+    assert_close("pressure", deep_base.drained_pressure(&soil, 10.0e3)?, 95.0e3, 0.5e3, 0.0);
+    // The terms of the pressure one by one, with N_q = 18.40 and N_γ = 20.09.
+    let by_surcharge = deep_base.drained_pressure(&soil, 0.0)?;
     let shape = 1.0 + 0.7 / 5.12 * 0.5;
     assert_close("i_q", by_surcharge / (7.5e3 * 18.4011 * shape), 0.493_631, 0.0, 1e-5);
     let by_weight = base.drained_pressure(&soil, 10.0e3)?;
     let shape = 1.0 - 0.3 * 0.7 / 5.12;
     assert_close("i_γ", by_weight / (0.5 * 10.0e3 * 0.7 * 20.0931 * shape), 0.328_062, 0.0, 1e-5);
     // The same base turned by a right angle.
-    let turned = ShallowFooting::rectangle([6.0, 1.0])?
+    let turned_base = ShallowFooting::rectangle([6.0, 1.0])?
         .with_eccentricity([0.44, 0.15])?
         .with_load(FootingLoad { horizontal: [30.0e3, 60.0e3], ..load })?
         .with_surcharge(7.5e3)?;
-    let pressures = [deep, turned].map(|base| base.drained_pressure(&soil, 10.0e3).unwrap());
+    let pressures =
+        [deep_base, turned_base].map(|base| base.drained_pressure(&soil, 10.0e3).unwrap());
     assert_close("turned", pressures[1], pressures[0], 0.0, 1e-14);
     // A cohesion so small that it adds nothing to V.
     let pressure_by_cohesion = base.drained_pressure(&soil.with_cohesion(1e-3)?, 0.0)?;
@@ -129,13 +130,14 @@ fn shape_load_and_tilt_factors_follow_annex_d() -> Result<()> {
     let load = FootingLoad { vertical: 1e6, horizontal: [0.0, 50.0e3] };
     let pressure = ShallowFooting::square(2.0)?.with_load(load)?.undrained_pressure(50.0e3)?;
     assert_close("i_c", pressure / (1.2 * 257.08e3), 0.933_013, 1e-4, 0.0);
-    let tilted = ShallowFooting::strip(2.0)?.with_base_tilt(0.1)?;
-    assert_close("b_c", tilted.undrained_pressure(50.0e3)?, (257.08 - 10.0) * 1e3, 5.0, 0.0);
+    let tilted_strip = ShallowFooting::strip(2.0)?.with_base_tilt(0.1)?;
+    assert_close("b_c", tilted_strip.undrained_pressure(50.0e3)?, (257.08 - 10.0) * 1e3, 5.0, 0.0);
     // (1 − 0.1 tan 30°)² of the terms of surcharge and weight.
     let level = ShallowFooting::strip(2.0)?.with_surcharge(10.0e3)?;
-    let tilted = level.with_base_tilt(0.1)?;
+    let tilted_strip = level.with_base_tilt(0.1)?;
     let soil = strength(30.0);
-    let ratio = tilted.drained_pressure(&soil, 18.0e3)? / level.drained_pressure(&soil, 18.0e3)?;
+    let ratio =
+        tilted_strip.drained_pressure(&soil, 18.0e3)? / level.drained_pressure(&soil, 18.0e3)?;
     assert_close("b_q", ratio, 0.887_863, 1e-6, 0.0);
     // A circle and a square: s_q = 1 + sin φ, s_γ = 0.7.
     for footing in [ShallowFooting::square(2.0)?, ShallowFooting::circle(2.0)?] {
@@ -153,9 +155,9 @@ fn the_bearing_pressure_of_a_centrifuge_test_is_within_ten_percent() -> Result<(
     let footing = ShallowFooting::rectangle(FOOTING_SIDES)?;
     let pressure = footing.drained_pressure(&sand, unit_weight)?;
     assert_close("bearing pressure", pressure, BEARING_PRESSURE, 0.0, 0.1);
-    // Soil 1 mm higher beside the base.
-    let deeper = footing.with_surcharge(1e-3 * unit_weight)?;
-    let growth = (deeper.drained_pressure(&sand, unit_weight)? - pressure) / 1e-3;
+    // The soil beside the base is 1 mm higher.
+    let deeper_footing = footing.with_surcharge(1e-3 * unit_weight)?;
+    let growth = (deeper_footing.drained_pressure(&sand, unit_weight)? - pressure) / 1e-3;
     assert_close("growth", footing.pressure_growth(&sand, unit_weight)?, growth, 0.0, 1e-9);
     let strip = ShallowFooting::strip(FOOTING_SIDES[1])?.pressure_growth(&sand, unit_weight)?;
     assert_close("growth of a strip", strip, 1.39e6, 0.0, 2e-3);

@@ -48,23 +48,23 @@ fn changes(runs: &[ChatterResult; 3], value: impl Fn(&ChatterResult) -> f64) -> 
 fn sliding_block_is_smooth_and_slip_converges() {
     type NamedSlip = (&'static str, fn(&ChatterResult) -> f64);
     let runs = refined_runs(0.3, None);
-    let finest = runs[2];
+    let finest_run = runs[2];
     for outcome in &runs {
         assert!(outcome.penetration < 1e-12 && outcome.energy_error < 1e-11);
     }
     // Content of landings above 20 Hz does not grow when steps are halved; chatter, which alternates from step to
     // step, decreases.
-    assert!(finest.rms_above < 0.02, "{finest:?}");
+    assert!(finest_run.rms_above < 0.02, "{finest_run:?}");
     let change = changes(&runs, |outcome| outcome.rms_above).fine;
-    assert!(change < 0.05 * finest.rms_above, "{change}");
-    assert!(finest.alternating < 0.8 * runs[1].alternating, "{finest:?}");
+    assert!(change < 0.05 * finest_run.rms_above, "{change}");
+    assert!(finest_run.alternating < 0.8 * runs[1].alternating, "{finest_run:?}");
     let slips: [NamedSlip; 2] =
         [("peak", |outcome| outcome.peak_slip), ("residual", |outcome| outcome.residual_slip)];
     for (name, slip) in slips {
         let Changes { coarse, fine } = changes(&runs, slip);
         println!("{name} slip: {coarse:e}, then {fine:e}");
         assert!(fine < 0.6 * coarse, "{name}: {coarse} {fine}");
-        assert!(fine < 0.02 * slip(&finest).abs(), "{name}: {fine}");
+        assert!(fine < 0.02 * slip(&finest_run).abs(), "{name}: {fine}");
     }
 }
 
@@ -82,16 +82,18 @@ fn flexible_block_does_not_chatter() {
 #[test]
 fn dissipation_smooths_accelerations_and_keeps_the_shear() {
     let midpoint = run(0.6, ChatterScheme::Midpoint, 2e-3, Some(1e9));
-    let refined = run(0.6, ChatterScheme::Midpoint, 5e-4, Some(1e9));
-    let error = (midpoint.shear - refined.shear).abs();
+    let refined_run = run(0.6, ChatterScheme::Midpoint, 5e-4, Some(1e9));
+    let error = (midpoint.shear - refined_run.shear).abs();
     for (gamma, max_ratio) in [(0.8, 0.35), (1.0, 0.15)] {
-        let damped = run(0.6, ChatterScheme::Dissipative(gamma), 2e-3, Some(1e9));
+        let dissipative_run = run(0.6, ChatterScheme::Dissipative(gamma), 2e-3, Some(1e9));
         let limit = max_ratio * midpoint.acceleration_alternating;
-        assert!(damped.acceleration_alternating < limit, "γ = {gamma}");
-        assert!((damped.shear - midpoint.shear).abs() < error, "{error}");
-        assert!(damped.algorithmic_energy > 0.0 && damped.algorithmic_energy < 0.01);
-        assert!((damped.rotation / midpoint.rotation - 1.0).abs() < 0.01);
-        assert!(damped.energy_error < 1e-11);
+        assert!(dissipative_run.acceleration_alternating < limit, "γ = {gamma}");
+        assert!((dissipative_run.shear - midpoint.shear).abs() < error, "{error}");
+        assert!(
+            dissipative_run.algorithmic_energy > 0.0 && dissipative_run.algorithmic_energy < 0.01
+        );
+        assert!((dissipative_run.rotation / midpoint.rotation - 1.0).abs() < 0.01);
+        assert!(dissipative_run.energy_error < 1e-11);
     }
 }
 

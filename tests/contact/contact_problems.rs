@@ -1,4 +1,4 @@
-//! GOAL: a step finds a solution of its contact problem wherever brute force finds one.
+//! GOAL: a step finds a solution of its contact problem wherever enumeration finds one.
 //! SCENE: random problems of one to four elements, friction from 0 to 3, in sequences.
 //! REFERENCE: all combinations of modes, one by one. `cargo study contact-problems` runs many more problems.
 
@@ -18,7 +18,7 @@ fn steps_find_a_solution_of_brute_force() {
         assert_eq!((tally.failed_steps, tally.unsolvable_problems), (0, 0), "{tally:?}");
         assert!(tally.max_violation < 1e-10 && tally.max_distance < 1e-9, "{tally:?}");
         assert!(tally.ambiguous_problems == 0 || high > 0.6, "{tally:?}");
-        // Problems whose start is the solution would prove nothing.
+        // Problems whose start is the solution would not test the search.
         assert!(tally.trials > 3 * tally.problems / 2, "{tally:?}");
     }
 }

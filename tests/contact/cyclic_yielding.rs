@@ -28,8 +28,8 @@ fn one_element_follows_the_law_of_the_documents() {
         let compliance = vec![1.0 / spring, 0.0, 0.0, 1.0 / spring];
         let interface = Box::new(law.cyclic_yielding(0.0));
         let mut problem = ContactProblem::new(compliance, vec![interface]).unwrap();
-        let begin = PreviousContact::new(ContactState::default(), Mode::SlipRight, 0.1);
-        let mut start = problem.start(&[begin]).unwrap();
+        let initial_contact = PreviousContact::new(ContactState::default(), Mode::SlipRight, 0.1);
+        let mut start = problem.start(&[initial_contact]).unwrap();
         let mut displacement = 0.0;
         for step in 0..40 {
             displacement += random.within(-1.0, 1.3) * 3.0 * law.reference_settlement;
@@ -83,8 +83,8 @@ fn coupled_elements_satisfy_the_law() {
         }
         let interface = Box::new(law.cyclic_yielding(friction));
         let mut problem = ContactProblem::new(delassus.clone(), vec![interface]).unwrap();
-        let begin = PreviousContact::new(ContactState::default(), Mode::Open, 0.1);
-        let mut start = problem.start(&vec![begin; count]).unwrap();
+        let initial_contact = PreviousContact::new(ContactState::default(), Mode::Open, 0.1);
+        let mut start = problem.start(&vec![initial_contact; count]).unwrap();
         let mut free_jump = vec![0.0; size];
         for step in 0..20 {
             for jump in &mut free_jump {
@@ -102,8 +102,8 @@ fn coupled_elements_satisfy_the_law() {
                 let contact = &solution.states[e];
                 let violation = law.violation(state, contact.pressure, contact.gap);
                 assert!(violation < 1e-7, "{case}, {step}: {contact:?} {state:?} {law:?}");
-                let excess = contact.shear.abs() - friction * contact.pressure;
-                assert!(excess < 1e-9 * law.initial_capacity, "{case}, {step}: {contact:?}");
+                let excess_shear = contact.shear.abs() - friction * contact.pressure;
+                assert!(excess_shear < 1e-9 * law.initial_capacity, "{case}, {step}: {contact:?}");
                 // The jump is that of the tractions.
                 let row = &delassus[e * size..][..size];
                 let elastic_displacement: f64 =
@@ -117,7 +117,7 @@ fn coupled_elements_satisfy_the_law() {
 }
 
 #[test]
-fn impossible_parameters_are_refused() {
+fn impossible_parameters_are_errors() {
     for (pressure, settlement, friction) in [
         (0.0, 1e-3, 0.5),
         (f64::INFINITY, 1e-3, 0.5),

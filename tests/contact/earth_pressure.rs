@@ -20,7 +20,7 @@ fn random_problem(random: &mut Random) -> EnumeratedContact {
     EnumeratedContact::random(random, ranges, |random| {
         let mut bounds = Vec::new();
         for _ in 0..ELEMENT_COUNT {
-            // Soil without active pressure stands without the wall: these elements may open.
+            // Without active pressure the soil needs no wall, and the elements may open.
             let active = if random.chance(0.2) { 0.0 } else { random.within(0.05, 0.3) };
             bounds.push([active, random.within(1.0, 2.0)]);
         }

@@ -81,23 +81,23 @@ fn sampled_run(
     duration: f64,
 ) -> (SampledRun, Run) {
     let mut simulation = builder.gravity(SCENE_GRAVITY).build().unwrap();
-    let mut sampled = SampledRun::default();
+    let mut sampled_run = SampledRun::default();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
     let samples = (duration / SAMPLE_INTERVAL).round() as usize;
     let run = simulation
-        .run(samples * steps_per_sample, |state| sampled.record(state, steps_per_sample))
+        .run(samples * steps_per_sample, |state| sampled_run.record(state, steps_per_sample))
         .unwrap();
-    let changes = &sampled.transitions;
-    let opened = changes.iter().filter(|change| change.to == Mode::Open).count();
-    let closed = changes.iter().filter(|change| change.from == Mode::Open).count();
+    let changes = &sampled_run.transitions;
+    let opened_count = changes.iter().filter(|change| change.to == Mode::Open).count();
+    let closed_count = changes.iter().filter(|change| change.from == Mode::Open).count();
     let counts = [run.mode_changes, run.debondings, run.rebondings];
-    assert_eq!(counts, [changes.len(), opened, closed]);
-    (sampled, run)
+    assert_eq!(counts, [changes.len(), opened_count, closed_count]);
+    (sampled_run, run)
 }
 
 /// Runs with decreasing steps.
 struct RefinedRuns {
-    sampled: Vec<SampledRun>,
+    sampled_runs: Vec<SampledRun>,
     runs: Vec<Run>,
     /// Largest differences between successive runs, relative to the largest displacement.
     differences: Vec<f64>,
@@ -108,7 +108,7 @@ fn refined_runs(
     duration: f64,
     scene: impl Fn(f64) -> SimulationBuilder,
 ) -> RefinedRuns {
-    let mut sampled = Vec::new();
+    let mut sampled_runs = Vec::new();
     let mut runs = Vec::new();
     for steps_per_sample in STEPS_PER_SAMPLE {
         let builder = scene(SAMPLE_INTERVAL / steps_per_sample as f64);
@@ -121,17 +121,17 @@ fn refined_runs(
         assert!(*energy_error < 1e-9, "{name}");
         // A few solves a step find the contact during any event.
         assert!(*trials < 3 * steps, "{name}");
-        sampled.push(sampled_run);
+        sampled_runs.push(sampled_run);
         runs.push(run);
     }
-    let displacements: Vec<Vec<f64>> = sampled.iter().map(SampledRun::displacements).collect();
+    let displacements: Vec<Vec<f64>> = sampled_runs.iter().map(SampledRun::displacements).collect();
     let scale = largest_absolute(displacements[displacements.len() - 1].iter().copied());
     let differences = displacements
         .windows(2)
         .map(|pair| largest_absolute(pair[0].iter().zip(&pair[1]).map(|(a, b)| a - b)) / scale)
         .collect();
     println!("{name}: {differences:?}");
-    RefinedRuns { sampled, runs, differences }
+    RefinedRuns { sampled_runs, runs, differences }
 }
 
 fn largest_absolute(values: impl Iterator<Item = f64>) -> f64 {
@@ -142,11 +142,11 @@ fn largest_absolute(values: impl Iterator<Item = f64>) -> f64 {
 ///
 /// They do not decrease in exact proportion to the step, since a landing may fall on either side of a step's end.
 fn assert_converging(name: &str, differences: &[f64], max_last: f64) {
-    let last = differences[differences.len() - 1];
+    let last_difference = differences[differences.len() - 1];
     let first = differences[0];
     let halvings = i32::try_from(differences.len() - 1).unwrap();
-    assert!(last < first * 0.7_f64.powi(halvings), "{name}: {differences:?}");
-    assert!(last < max_last, "{name}: {differences:?}");
+    assert!(last_difference < first * 0.7_f64.powi(halvings), "{name}: {differences:?}");
+    assert!(last_difference < max_last, "{name}: {differences:?}");
 }
 
 /// A low block on ground that rises by 0.12 m within about 80 ms, and stops.
@@ -167,7 +167,7 @@ fn thrown_block(time_step: f64) -> SimulationBuilder {
 fn whole_base_lifts_off_and_lands() {
     let on_springs = refined_runs("springs", 0.8, |step| thrown_block(step).ground(springs()));
     assert_converging("springs", &on_springs.differences, 0.01);
-    for run in &on_springs.sampled {
+    for run in &on_springs.sampled_runs {
         // All elements are equal here: they open in one step, and land in one.
         assert!(
             run.was_fully_open && run.simultaneous_changes >= 2,
@@ -177,7 +177,7 @@ fn whole_base_lifts_off_and_lands() {
     }
     let on_soil = refined_runs("half-plane", 0.8, |step| on_half_plane(thrown_block(step)));
     assert_converging("half-plane", &on_soil.differences, 0.01);
-    for (sampled, run) in on_soil.sampled.iter().zip(&on_soil.runs) {
+    for (sampled, run) in on_soil.sampled_runs.iter().zip(&on_soil.runs) {
         assert!(sampled.was_fully_open && run.rebondings >= ELEMENT_COUNT, "{}", run.rebondings);
     }
 }
@@ -195,10 +195,10 @@ fn swaying_block(time_step: f64) -> SimulationBuilder {
 fn slip_reverses_in_all_elements() {
     let on_springs = refined_runs("springs", 1.2, |step| swaying_block(step).ground(springs()));
     assert_converging("springs", &on_springs.differences, 0.01);
-    let reversals: Vec<_> = on_springs.sampled.iter().map(SampledRun::reversals).collect();
+    let reversals: Vec<_> = on_springs.sampled_runs.iter().map(SampledRun::reversals).collect();
     println!("{reversals:?} reversals within a step");
     assert!(reversals[0] >= ELEMENT_COUNT);
-    assert!(on_springs.sampled.iter().all(|run| run.simultaneous_changes > 0));
+    assert!(on_springs.sampled_runs.iter().all(|run| run.simultaneous_changes > 0));
     let on_soil = refined_runs("half-plane", 1.2, |step| on_half_plane(swaying_block(step)));
     assert_converging("half-plane", &on_soil.differences, 0.01);
     assert!(on_soil.runs.iter().all(|run| run.whole.residual_slip != 0.0));
@@ -223,7 +223,7 @@ fn rocking_block(time_step: f64) -> SimulationBuilder {
 fn impacts_that_accumulate_end_at_rest() {
     let refined = refined_runs("stiff springs", 5.0, rocking_block);
     assert_converging("stiff springs", &refined.differences, 0.1);
-    for run in &refined.sampled {
+    for run in &refined.sampled_runs {
         let peak = largest_absolute(run.samples.iter().map(|motion| motion[2]));
         let last_samples = &run.samples[run.samples.len() - 100..];
         let end = largest_absolute(last_samples.iter().map(|motion| motion[2]));

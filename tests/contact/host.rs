@@ -70,8 +70,8 @@ fn results_of_simulation() -> Vec<StepResult> {
 
 /// Displacements of the contact elements: down, then to the right.
 fn base_displacement(centers: &[f64], u: &[f64; 4]) -> Vec<f64> {
-    let down = centers.iter().map(|x| -(u[1] + x * u[2]));
-    down.chain(centers.iter().map(|_| u[0])).collect()
+    let downward_displacements = centers.iter().map(|x| -(u[1] + x * u[2]));
+    downward_displacements.chain(centers.iter().map(|_| u[0])).collect()
 }
 
 /// Acceleration of the structure under tractions: pressures, then shear tractions.
@@ -122,10 +122,10 @@ fn results_by_hand() -> Vec<StepResult> {
     let laws: Vec<Box<dyn InterfaceLaw>> = vec![Box::new(law())];
     let problem = ContactProblem::new(delassus_operator(&ground, &centers), laws).unwrap();
     let mut problem = problem.with_static_tractions(static_tractions).unwrap();
-    let pressed = ContactState { pressure, ..ContactState::default() };
-    let element = PreviousContact::new(pressed, Mode::Stick, TIME_STEP);
+    let pressed_element = ContactState { pressure, ..ContactState::default() };
+    let element = PreviousContact::new(pressed_element, Mode::Stick, TIME_STEP);
     let mut start = problem.start(&vec![element; count]).unwrap();
-    let mut previous = [0.0; 4];
+    let mut previous_displacement = [0.0; 4];
     let mut current = [0.0; 4];
     let mut history = vec![0.0; size];
     let mut free_field = vec![0.0; size];
@@ -134,22 +134,25 @@ fn results_by_hand() -> Vec<StepResult> {
         ground.history(&mut history).unwrap();
         ground.free_field(&motion, step as f64 * TIME_STEP, &mut free_field);
         let free = acceleration(&centers, &current, &vec![0.0; size]);
-        let mut next: [f64; 4] = std::array::from_fn(|i| {
-            2.0 * current[i] - previous[i] + TIME_STEP * TIME_STEP * free[i]
+        let mut next_displacement: [f64; 4] = std::array::from_fn(|i| {
+            2.0 * current[i] - previous_displacement[i] + TIME_STEP * TIME_STEP * free[i]
         });
-        let base = base_displacement(&centers, &next);
+        let base = base_displacement(&centers, &next_displacement);
         let jump: Vec<f64> = (0..size).map(|i| free_field[i] + history[i] - base[i]).collect();
         let solution = problem.solve(&jump, &start).unwrap();
         let by_contact = acceleration(&centers, &[0.0; 4], solution.traction);
-        next.iter_mut().zip(by_contact).for_each(|(u, a)| *u += TIME_STEP * TIME_STEP * a);
+        next_displacement
+            .iter_mut()
+            .zip(by_contact)
+            .for_each(|(u, a)| *u += TIME_STEP * TIME_STEP * a);
         ground.commit(solution.traction);
-        let open = solution.modes.iter().filter(|mode| !mode.is_closed()).count();
+        let open_count = solution.modes.iter().filter(|mode| !mode.is_closed()).count();
         let shear = 4.0 * mean(solution.states, |state| state.shear);
         let slip = mean(solution.states, |state| state.slip);
-        results.push([shear, open as f64 / count as f64, slip]);
+        results.push([shear, open_count as f64 / count as f64, slip]);
         solution.commit(&mut start).unwrap();
-        previous = current;
-        current = next;
+        previous_displacement = current;
+        current = next_displacement;
     }
     results
 }
@@ -194,7 +197,7 @@ fn element_at_rest() -> PreviousContact<'static> {
 }
 
 #[test]
-fn invalid_problems_are_refused() {
+fn invalid_problems_are_errors() {
     for size in [0, 1, 3, 5, 9, 15] {
         let result = problem_with_matrix(vec![1.0; size]);
         assert!(matches!(result, Err(Error::Size { .. })), "{size}");
@@ -210,7 +213,7 @@ fn invalid_problems_are_refused() {
 }
 
 #[test]
-fn invalid_starts_and_steps_are_refused() {
+fn invalid_starts_and_steps_are_errors() {
     let mut problem = unit_problem();
     let start = problem.start(&[element_at_rest()]).unwrap();
     assert!(matches!(problem.solve(&[0.0], &start), Err(Error::Size { .. })));
@@ -237,10 +240,13 @@ fn invalid_starts_and_steps_are_refused() {
 fn another_operator_acts_from_the_next_step_on() {
     let mut problem = unit_problem();
     let start = problem.start(&[element_at_rest()]).unwrap();
-    let stiff = problem.solve(&[-1.0, 0.0], &start).unwrap().traction[0];
+    let pressure_on_stiff_ground = problem.solve(&[-1.0, 0.0], &start).unwrap().traction[0];
     problem.set_delassus(&[2.0, 0.0, 0.0, 2.0]).unwrap();
-    let soft = problem.solve(&[-1.0, 0.0], &start).unwrap().traction[0];
-    assert!((stiff - 1.0).abs() < 1e-12 && (soft - 0.5).abs() < 1e-12);
+    let pressure_on_soft_ground = problem.solve(&[-1.0, 0.0], &start).unwrap().traction[0];
+    assert!(
+        (pressure_on_stiff_ground - 1.0).abs() < 1e-12
+            && (pressure_on_soft_ground - 0.5).abs() < 1e-12
+    );
 }
 
 /// One element with a compliance of 1e-7 m/Pa in both directions.
@@ -260,7 +266,7 @@ fn a_bond_in_the_problem_of_a_host_breaks_once() {
     assert_eq!(start.iter().count(), 1);
     // Jump without traction, the pressure and shear that follow from it, and the strength afterwards.
     for (jump, [pressure, shear], strength) in [
-        // Lifted by 0.5 mm: the bond carries 5 kPa of tension.
+        // The element is lifted by 0.5 mm; the bond carries 5 kPa of tension.
         ([5e-4, 0.0], [-5e3, 0.0], 1e4),
         // 0.2 mm and 0.3 mm to the right: 3 kPa are less than friction (10 − 2) kPa.
         ([2e-4, -3e-4], [-2e3, 3e3], 1e4),
@@ -269,7 +275,7 @@ fn a_bond_in_the_problem_of_a_host_breaks_once() {
         // The bond is broken: no traction to the side (0.4 mm of slip) or upwards.
         ([0.0, -9e-4], [0.0, 0.0], 0.0),
         ([5e-4, -9e-4], [0.0, 0.0], 0.0),
-        // Pressed by 1 mm, and pushed by 0.8 mm: friction only.
+        // The element is pressed by 1 mm and pushed by 0.8 mm; only friction acts.
         ([-1e-3, -1.7e-3], [1e4, 5e3], 0.0),
     ] {
         let solution = problem.solve(&jump, &start).unwrap();
@@ -287,8 +293,8 @@ fn hosts_commit_state_variables() {
     let law = SlipWeakening { first: 0.5, residual: 0.2, distance: 1e-3 };
     let problem = compliant_problem(law);
     let mut problem = problem.with_static_tractions(vec![1e4, 0.0]).unwrap();
-    let pressed = ContactState { pressure: 1e4, ..ContactState::default() };
-    let element = PreviousContact::new(pressed, Mode::Stick, TIME_STEP);
+    let pressed_element = ContactState { pressure: 1e4, ..ContactState::default() };
+    let element = PreviousContact::new(pressed_element, Mode::Stick, TIME_STEP);
     let mut start = problem.start(&[element]).unwrap();
     let mut distance = 0.0_f64;
     for step in 1..=20 {
@@ -305,7 +311,7 @@ fn hosts_commit_state_variables() {
         solution.commit(&mut start).unwrap();
         let variable = start.iter().next().unwrap().state_variables[0];
         assert!((variable - distance).abs() < 1e-12);
-        // A start that is made of the elements of another is the same.
+        // A start that is made of the elements of another start equals it.
         let elements: Vec<PreviousContact> = start.iter().collect();
         let copied_start = problem.start(&elements).unwrap();
         assert_eq!(copied_start, start);

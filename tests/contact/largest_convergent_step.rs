@@ -14,7 +14,7 @@ use basemat_problems::wrapped::LawWithNextMode;
 
 /// A block on Coulomb's law, which accepts no mode in steps longer than `limit` (s).
 fn block_with_step_limit(time_step: f64, limit: f64) -> Result<Simulation> {
-    let next = move |mode: Mode, start: &PreviousContact, law_mode: Mode| match mode {
+    let next_mode = move |mode: Mode, start: &PreviousContact, law_mode: Mode| match mode {
         _ if start.time_step <= limit => law_mode,
         Mode::Open => Mode::Stick,
         _ => Mode::Open,
@@ -22,7 +22,7 @@ fn block_with_step_limit(time_step: f64, limit: f64) -> Result<Simulation> {
     Simulation::builder(time_step)
         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
         .ground(SpringGround::new(-2.0..2.0, 3, 8e7, 4e7)?)
-        .interface(InPlane(LawWithNextMode { law: Coulomb::new(0.5)?, next }))
+        .interface(InPlane(LawWithNextMode { law: Coulomb::new(0.5)?, next: next_mode }))
         .motion(el_centro_1940())
         .build()
 }

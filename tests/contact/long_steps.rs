@@ -107,7 +107,7 @@ fn random_scene(seed: u64, max_elements: usize) -> Simulation {
 /// Largest tractions and displacements of contact in a run.
 struct RunScales {
     traction: f64,
-    /// Largest gap or slip, a micrometre at least.
+    /// Largest gap or slip, at least a micrometre.
     length: f64,
 }
 
@@ -127,32 +127,32 @@ impl RunScales {
         let shear = end.shear / self.traction;
         let gap = end.gap / self.length;
         let slip_increment = (end.slip - start.slip) / self.length;
-        let open = pressure.abs().max(shear.abs()).max(-gap);
+        let open_violation = pressure.abs().max(shear.abs()).max(-gap);
         let stuck = gap.abs().max(slip_increment.abs()).max(-pressure);
-        // About to open, under a shear traction along the slip.
+        // An element without pressure that slides under a shear traction along its slip.
         let against_slip = shear.abs().min(-slip_increment * shear.signum());
         let opening = gap.abs().max(pressure.abs()).max(against_slip);
-        open.min(stuck).min(opening)
+        open_violation.min(stuck).min(opening)
     }
 }
 
 /// Largest distance of a run from the contact conditions.
 fn largest_violation(states: &[State]) -> f64 {
     let scales = RunScales::of(states);
-    let mut largest = 0.0_f64;
+    let mut max_value = 0.0_f64;
     for pair in states.windows(2) {
         for (start, end) in pair[0].contact.iter().zip(&pair[1].contact) {
-            largest = largest.max(scales.violation(start, end));
+            max_value = max_value.max(scales.violation(start, end));
         }
     }
-    largest
+    max_value
 }
 
 #[test]
 fn bases_that_never_slide_are_solved_in_long_steps() {
     let scenes = std::env::var("LONG_STEPS").ok().and_then(|text| text.parse().ok());
     let more_scenes = (0..scenes.unwrap_or(100)).map(|k| (7_000_021 + k, 16));
-    let mut failed = Vec::new();
+    let mut failed_scenes = Vec::new();
     let mut violation = 0.0_f64;
     let mut path_steps = 0;
     for (seed, max_elements) in DIFFICULT_SCENES.into_iter().chain(more_scenes) {
@@ -163,7 +163,7 @@ fn bases_that_never_slide_are_solved_in_long_steps() {
                 Ok(state) => states.push(state.clone()),
                 Err(error) => {
                     println!("seed {seed}: {error}");
-                    failed.push(seed);
+                    failed_scenes.push(seed);
                     break;
                 }
             }
@@ -172,6 +172,6 @@ fn bases_that_never_slide_are_solved_in_long_steps() {
         path_steps += states.iter().filter(|state| state.method == SearchMethod::Path).count();
     }
     println!("{path_steps} steps by paths, violation {violation:e}");
-    assert!(failed.is_empty(), "{failed:?}");
+    assert!(failed_scenes.is_empty(), "{failed_scenes:?}");
     assert!(path_steps > 10 && violation < 1e-9, "{path_steps} {violation:e}");
 }

@@ -127,7 +127,7 @@ fn computed_tilt(elements: usize, steps_per_sample: usize, samples: usize) -> (V
     let run = simulation
         .run(steps_per_sample * samples, |state| {
             if state.step % steps_per_sample == 0 {
-                // Counter-clockwise here, down on the right in the reference.
+                // The rotation is counter-clockwise here, and down on the right in the reference.
                 tilt.push(-state.absolute_displacement()[2]);
             }
         })

@@ -47,14 +47,14 @@ fn a_coefficient_of_zero_is_frictionless() {
         states.iter().map(|state| state.absolute_displacement()[0]).collect()
     };
     let expected = sways(&coulomb);
-    let largest = expected.iter().fold(0.0_f64, |largest, sway| largest.max(sway.abs()));
+    let max_magnitude = expected.iter().fold(0.0_f64, |max, sway| max.max(sway.abs()));
     for (a, b) in expected.iter().zip(sways(&variable)) {
-        assert!((a - b).abs() < 1e-9 * largest, "{a:e} {b:e} of {largest:e}");
+        assert!((a - b).abs() < 1e-9 * max_magnitude, "{a:e} {b:e} of {max_magnitude:e}");
     }
 }
 
 #[test]
-fn wrong_settings_are_refused() {
+fn wrong_settings_are_errors() {
     assert!(VariableFriction::new(|_| 0.3).with_tensile_strength(f64::NAN).is_err());
     let negative_gap = UnilateralCondition::Velocity { closed_below: -1.0 };
     assert!(VariableFriction::new(|_| 0.3).with_unilateral_condition(negative_gap).is_err());
@@ -77,8 +77,8 @@ fn coefficient_at(speed: f64) -> f64 {
 fn sliding_elements_have_the_coefficient_of_their_speed() {
     let states = run(VariableFriction::new(|start| coefficient_at(start.slip_rate.abs())));
     let mut sliding_elements = 0;
-    let mut smallest = f64::INFINITY;
-    let mut largest = 0.0_f64;
+    let mut min_coefficient = f64::INFINITY;
+    let mut max_value = 0.0_f64;
     for steps in states.windows(3) {
         for (e, end) in steps[2].contact.iter().enumerate() {
             let increment = steps[1].contact[e].slip - steps[0].contact[e].slip;
@@ -88,13 +88,13 @@ fn sliding_elements_have_the_coefficient_of_their_speed() {
             if steps[2].modes[e].is_slip() {
                 assert!((end.shear.abs() - coefficient * end.pressure).abs() <= tolerance);
                 sliding_elements += 1;
-                smallest = smallest.min(coefficient);
-                largest = largest.max(coefficient);
+                min_coefficient = min_coefficient.min(coefficient);
+                max_value = max_value.max(coefficient);
             }
         }
     }
-    println!("{sliding_elements} sliding elements, coefficients {smallest} to {largest}");
-    assert!(sliding_elements > 100 && largest > smallest + 0.05);
+    println!("{sliding_elements} sliding elements, coefficients {min_coefficient} to {max_value}");
+    assert!(sliding_elements > 100 && max_value > min_coefficient + 0.05);
 }
 
 /// GOAL: an invalid coefficient ends the step with an error, and does not make the base stick.

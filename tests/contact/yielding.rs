@@ -215,7 +215,7 @@ fn bonds_break_once() {
 }
 
 #[test]
-fn impossible_strengths_are_refused() {
+fn impossible_strengths_are_errors() {
     for (tension, cohesion, friction) in
         [(-1.0, 0.0, 0.1), (0.0, f64::NAN, 0.1), (0.0, f64::INFINITY, 0.1), (0.0, 0.0, -0.1)]
     {
@@ -228,10 +228,10 @@ fn impossible_strengths_are_refused() {
 
 /// Static rotation of a pushed block on yielding soil with another law for the fourth element.
 fn rotation_with_law(fourth: impl InterfaceLaw + 'static) -> f64 {
-    let yielding = Yielding::new(1.5e5, 0.6).unwrap();
+    let yielding_soil = Yielding::new(1.5e5, 0.6).unwrap();
     let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
     for _ in 0..8 {
-        laws.push(Box::new(yielding));
+        laws.push(Box::new(yielding_soil));
     }
     laws[3] = Box::new(fourth);
     let soil = Soil::new(20.0e6, 0.3, 1900.0).unwrap();
@@ -257,7 +257,7 @@ fn rotation_with_law(fourth: impl InterfaceLaw + 'static) -> f64 {
 /// A bond beside yielding soil: each element has the state variables of its law.
 #[test]
 fn laws_side_by_side_have_separate_state_variables() {
-    // An element in the middle neither yields nor opens: its law does not matter.
+    // An element in the middle neither yields nor opens: its law has no effect.
     let with_bond = rotation_with_law(Cohesive::new(0.0, 0.0, 0.6).unwrap());
     let with_yielding = rotation_with_law(Yielding::new(1.5e5, 0.6).unwrap());
     assert!((with_bond / with_yielding - 1.0).abs() < 1e-6, "{with_bond} {with_yielding}");

@@ -1,4 +1,4 @@
-//! GOAL: every type that is read refuses unknown keys, also the results of long computations.
+//! GOAL: every type that is read returns an error for unknown keys, also the results of long computations.
 //! SCENE: all types with `Deserialize` in the sources of the library.
 //! REFERENCE: the attributes in the sources.
 
@@ -27,18 +27,18 @@ fn every_type_that_is_read_is_closed() {
         // Types within macros are indented.
         let text = std::fs::read_to_string(&file).unwrap();
         let text: String = text.lines().flat_map(|line| [line.trim_start(), "\n"]).collect();
-        for derived in
+        for attribute in
             text.split("Deserialize))]\n").skip(1).chain(text.split("Deserialize)]\n").skip(1))
         {
             types += 1;
-            let (attributes, body) = derived.split_once(" {").unwrap_or((derived, ""));
+            let (attributes, body) = attribute.split_once(" {").unwrap_or((attribute, ""));
             let body = body.split("\n}").next().unwrap_or_default();
             let rules = ["deny_unknown_fields", "try_from", "transparent"];
             let is_enum = attributes.contains("enum ");
             let has_fields = !is_enum || body.lines().any(|line| line.ends_with(" {"));
             let is_unit = attributes.lines().any(|line| line.ends_with(';'));
-            let closed = rules.iter().any(|rule| attributes.contains(rule));
-            assert!(closed || is_unit || !has_fields, "{}: {attributes}", file.display());
+            let is_closed = rules.iter().any(|rule| attributes.contains(rule));
+            assert!(is_closed || is_unit || !has_fields, "{}: {attributes}", file.display());
         }
     }
     assert!(types > 80, "{types}");

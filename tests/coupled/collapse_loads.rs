@@ -90,17 +90,21 @@ impl Frame {
             }
         }
         stations.sort_by(f64::total_cmp);
-        let mut last = start;
+        let mut previous_node = start;
         for &s in &stations[1..] {
-            let next = if s == 1.0 {
+            let next_node = if s == 1.0 {
                 end
             } else {
                 self.mesh.add_node(a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]))?
             };
-            let beam =
-                FiberBeam::new([last, next], &self.section, BeamQuadrature::Lobatto(5), 100.0)?;
+            let beam = FiberBeam::new(
+                [previous_node, next_node],
+                &self.section,
+                BeamQuadrature::Lobatto(5),
+                100.0,
+            )?;
             self.mesh.add(beam.with_formulation(self.formulation))?;
-            last = next;
+            previous_node = next_node;
         }
         Ok(())
     }
@@ -154,7 +158,7 @@ fn cantilever(formulation: BeamFormulation) -> Result<(FemModel, DofCombination)
     Ok((model, row))
 }
 
-/// M_p/L; unloading is elastic, and the opposite collapse load the same.
+/// The collapse load is M_p/L; unloading is elastic, and the opposite collapse load has the same size.
 #[test]
 fn a_cantilever_collapses_at_its_plastic_moment() {
     for formulation in ALL_FORMULATIONS {
@@ -168,7 +172,7 @@ fn a_cantilever_collapses_at_its_plastic_moment() {
         let stiffness = points[1].force / points[1].displacement;
         let unloading = (points[5].force - points[6].force) / 0.001;
         assert!((unloading / stiffness - 1.0).abs() < 1e-6, "{unloading} {stiffness}");
-        // All that is pushed goes into the soil.
+        // The soil carries the whole force.
         assert!((points[5].base_shear / points[5].force - 1.0).abs() < 1e-5, "{points:?}");
         let moment = points[5].base_moment.abs();
         assert!((moment / PLASTIC_MOMENT - 1.0).abs() < 2e-3, "{moment}");
@@ -242,7 +246,8 @@ fn a_portal_collapses_by_sway() {
     }
 }
 
-/// A strong column tips its footing: the load tends to W b/2 over its height, where the edge carries all.
+/// A strong column overturns its footing: the force tends to W b/2 over its height, at which the edge carries the whole
+/// weight.
 #[test]
 fn a_strong_column_lifts_its_footing() {
     let (model, row) = cantilever(BeamFormulation::ForceBased).unwrap();
@@ -254,10 +259,16 @@ fn a_strong_column_lifts_its_footing() {
         .interface(Coulomb::new(5.0).unwrap())
         .gravity(9.81);
     let curve = pushed(builder, &row, &[0.001, 0.003, 0.01, 0.03]);
-    let last = &curve.points[4];
+    let last_point = &curve.points[4];
     let expected = weight / 3.0 * (1.0 - 1.0 / 40.0);
-    assert!(last.force < expected && last.force > 0.95 * expected, "{last:?} {expected}");
-    assert!(last.uplifted_fraction > 0.85 && last.base_rotation < 0.0, "{last:?}");
+    assert!(
+        last_point.force < expected && last_point.force > 0.95 * expected,
+        "{last_point:?} {expected}"
+    );
+    assert!(
+        last_point.uplifted_fraction > 0.85 && last_point.base_rotation < 0.0,
+        "{last_point:?}"
+    );
 }
 
 /// A block on springs has the curve of the push-over by forces, and slides at μ W.
@@ -307,9 +318,9 @@ fn the_pattern_may_differ_from_the_control() {
         &[0.05, 0.1, 0.2, 0.4],
     )
     .unwrap();
-    let last = &curve.points[4];
-    assert!((last.displacement - 0.4).abs() < 1e-9);
-    assert!((last.base_shear / last.force - 1.0).abs() < 1e-5, "{last:?}");
+    let last_point = &curve.points[4];
+    assert!((last_point.displacement - 0.4).abs() < 1e-9);
+    assert!((last_point.base_shear / last_point.force - 1.0).abs() < 1e-5, "{last_point:?}");
     // Strong beams: the lower storey sways at 4 M_p/h before the upper one.
     check_collapse("two storeys", &curve, 4.0 * PLASTIC_MOMENT / height);
 }
@@ -318,23 +329,23 @@ fn the_pattern_may_differ_from_the_control() {
 fn two_storeys(formulation: BeamFormulation, height: f64) -> (FemModel, [usize; 2]) {
     let mut frame = Frame::new(formulation);
     // Far apart, so that the columns' axial forces take little of the plastic moment.
-    let mut last = [0.0, 20.0].map(|x| frame.add_footing(x).unwrap());
+    let mut column_feet = [0.0, 20.0].map(|x| frame.add_footing(x).unwrap());
     let mut tops = [0; 2];
     for (storey, top) in tops.iter_mut().enumerate() {
         let y = height * (storey + 1) as f64;
         let floor = [0.0, 20.0].map(|x| frame.add_node(x, y).unwrap());
-        for (below, above) in last.into_iter().zip(floor) {
+        for (below, above) in column_feet.into_iter().zip(floor) {
             frame.add_member([below, above]).unwrap();
         }
         frame.mesh.add(Beam::new(floor, 210.0e9, 0.5, 1.0, 100.0).unwrap()).unwrap();
         *top = floor[0];
-        last = floor;
+        column_feet = floor;
     }
     (frame.model().unwrap(), tops)
 }
 
 #[test]
-fn wrong_pushes_are_refused() {
+fn wrong_pushes_are_errors() {
     let row = cantilever(BeamFormulation::ForceBased).unwrap().1;
     let builder = || bonded(cantilever(BeamFormulation::ForceBased).unwrap().0).unwrap();
     let result = push_over_by_displacement(builder(), &row, &row, &[]);

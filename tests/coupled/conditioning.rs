@@ -1,4 +1,4 @@
-//! GOAL: condition numbers are right and bound the error of a run; scenes beyond their limit are refused.
+//! GOAL: condition numbers are right and bound the error of a run; scenes beyond their limit are errors.
 //! SCENE: blocks of hand-written mass, towers stiffened over eight decades, ever lighter blocks.
 //! REFERENCE: the inverse, a closed form, and the rigid block.
 
@@ -17,7 +17,7 @@ fn block(mass: f64, inertia: f64, height: f64) -> RigidBlock {
     RigidBlock::from_mass(4.0, mass, inertia, height).unwrap()
 }
 
-/// 2M/Δt² scaled by its diagonal is [[1, −r], [−r, 1]] for sway and rocking: its condition is (1 + r)/(1 − r).
+/// 2M/Δt² scaled by its diagonal is [[1, −r], [−r, 1]] for sway and rocking; its condition number is (1 + r)/(1 − r).
 #[test]
 fn effective_stiffness_of_a_block_is_known_in_closed_form() {
     for (mass, inertia, height) in [(1e4, 1e5, 1.0), (1e5, 1e4, 30.0), (3.0, 1e-3, 2.0)] {
@@ -68,7 +68,7 @@ fn add_block_compliance(matrix: &mut [f64], elements: &[ContactElement]) {
     }
 }
 
-/// Computed conditions; bonded without a coefficient of friction.
+/// Computed condition numbers; without a coefficient of friction the block is bonded.
 fn conditioning(grading: Grading, count: usize, coefficient: Option<f64>) -> Conditioning {
     let builder = scene(SI_UNITS, 0.0).ground(ground(SI_UNITS, count, grading)).structure(block(
         BLOCK_MASS,
@@ -82,7 +82,7 @@ fn conditioning(grading: Grading, count: usize, coefficient: Option<f64>) -> Con
     builder.build().unwrap().conditioning()
 }
 
-/// W = G¹ + B K_eff⁻¹ Bᵀ A of a block has the condition that its inverse gives.
+/// W = G¹ + B K_eff⁻¹ Bᵀ A of a block has the condition number that its inverse gives.
 #[test]
 fn ground_and_delassus_match_their_inverses() {
     for (grading, count) in [(Grading::Uniform, 3), (Grading::Cosine, 8)] {
@@ -151,11 +151,11 @@ fn rotations(states: &[State]) -> Vec<f64> {
 
 /// A tower tends to a rigid block with its stiffness, until rounding dominates.
 ///
-/// The error stays below sixty roundings times the condition; beyond the limit the scene is refused.
+/// The error stays below sixty roundings times the condition number; beyond the limit the scene is an error.
 #[test]
 fn condition_of_the_stiffness_bounds_the_error() {
-    let rigid = RigidBlock::new(4.0, 6.0, 1500.0).unwrap();
-    let reference = rotations(&run(bonded().structure(rigid).build().unwrap()).states);
+    let rigid_block = RigidBlock::new(4.0, 6.0, 1500.0).unwrap();
+    let reference = rotations(&run(bonded().structure(rigid_block).build().unwrap()).states);
     for power in 11..=19 {
         let young = 10.0_f64.powi(power);
         let simulation = bonded().structure(tower(young)).build().unwrap();
@@ -193,7 +193,7 @@ fn specific_shear(simulation: Simulation, power: i32) -> Vec<f64> {
     states.iter().map(|state| state.base_shear / light_density(power)).collect()
 }
 
-/// The shear of light blocks stays accurate until the ground's compliance is lost beside theirs.
+/// The shear of light blocks stays accurate until the ground's compliance is lost in the rounding of theirs.
 #[test]
 fn the_condition_of_the_delassus_operator_is_harmless_until_the_ground_is_lost() {
     let reference = specific_shear(light_block(9).unwrap(), 9);
@@ -297,26 +297,26 @@ fn flight_error(simulation: Simulation) -> f64 {
     energy_error
 }
 
-/// In flight the energy error stays below sixty roundings times the condition.
+/// In flight the energy error stays below sixty roundings times the condition number.
 ///
 /// K_eff Δu is rounded in proportion to the flight, also near the limit of incompressibility. A reduced tower has the
-/// rounding of the full one's stiffness under rigid motions, whatever its condition is. In modes, where a flight
-/// meets no stiffness, both balances close.
+/// rounding of the full tower's stiffness under rigid motions, whatever its condition number. In modes a flight
+/// meets no stiffness, and both balances close.
 #[test]
 fn flights_of_stiff_structures_open_the_energy_balance_by_rounding_only() {
     for (young, poisson) in [(3e9, 0.2), (3e10, 0.499), (1e12, 0.499), (1e13, 0.4995)] {
         let material = Material::new(young, poisson, 1500.0).unwrap();
         let full_tower = thrown_tower(material, false, Coordinates::Physical);
         let rounding = full_tower.conditioning().effective_stiffness * f64::EPSILON;
-        let full = flight_error(full_tower);
-        let reduced = flight_error(thrown_tower(material, true, Coordinates::Physical));
+        let full_error = flight_error(full_tower);
+        let reduced_error = flight_error(thrown_tower(material, true, Coordinates::Physical));
         let full_in_modes = flight_error(thrown_tower(material, false, Coordinates::Modes));
         let reduced_in_modes = flight_error(thrown_tower(material, true, Coordinates::Modes));
         println!(
-            "E = {young:e}, ν = {poisson}: rounding {rounding:.1e}, full {full:.1e}, reduced \
-             {reduced:.1e}; in modes {full_in_modes:.1e}, {reduced_in_modes:.1e}"
+            "E = {young:e}, ν = {poisson}: rounding {rounding:.1e}, full {full_error:.1e}, reduced \
+             {reduced_error:.1e}; in modes {full_in_modes:.1e}, {reduced_in_modes:.1e}"
         );
-        assert!(full < 60.0 * rounding && reduced < 60.0 * rounding);
+        assert!(full_error < 60.0 * rounding && reduced_error < 60.0 * rounding);
         assert!(full_in_modes < 1e-12 && reduced_in_modes < 1e-10);
     }
 }

@@ -1,4 +1,4 @@
-//! GOAL: short forms of the interface give the same as the long ones, and refuse the same.
+//! GOAL: short forms of the interface have the results and errors of the long ones.
 //! SCENE: soils from wave speeds, grounds under a structure, durations, sweeps, records, recorders.
 //! REFERENCE: the long forms.
 
@@ -98,18 +98,18 @@ fn strips_lie_under_foundations() {
 
     assert_nodes(&ElasticGround::under(soil(), &block(), 8).unwrap(), graded_node);
     assert_nodes(&ground_on(&[Strip::graded(-3.0..3.0, 8).unwrap()]), graded_node);
-    let uniform = Strip::under(&block(), 8, Grading::Uniform).unwrap();
-    assert_nodes(&ground_on(&uniform), uniform_node);
+    let uniform_strip = Strip::under(&block(), 8, Grading::Uniform).unwrap();
+    assert_nodes(&ground_on(&uniform_strip), uniform_node);
     assert_nodes(&ground_on(&[Strip::uniform(-3.0..3.0, 8).unwrap()]), uniform_node);
     assert_eq!(Grading::default(), Grading::Cosine);
 
-    let several = BaseLines(vec![vec![0.0, 1.0, 2.0], vec![5.0, 7.0], vec![10.0, 11.0]]);
-    let ground = ground_on(&Strip::under(&several, 3, Grading::Uniform).unwrap());
+    let base_lines = BaseLines(vec![vec![0.0, 1.0, 2.0], vec![5.0, 7.0], vec![10.0, 11.0]]);
+    let ground = ground_on(&Strip::under(&base_lines, 3, Grading::Uniform).unwrap());
     let strips = [0.0..2.0, 5.0..7.0, 10.0..11.0].map(|range| Strip::uniform(range, 3).unwrap());
     assert_eq!(element_ends(&ground), element_ends(&ground_on(&strips)));
 }
 
-/// Why there is no ground under a base with these nodes.
+/// Error of a ground under a base with these nodes.
 fn error_under(lines: &[&[f64]], count: usize) -> Error {
     let structure = BaseLines(lines.iter().map(|line| line.to_vec()).collect());
     ElasticGround::under(soil(), &structure, count).err().unwrap()
@@ -172,8 +172,8 @@ fn records_of_functions() {
         assert!(Record::from_fn(0.1, value, |t| t).is_err(), "{value}");
     }
     assert!(matches!(Record::from_fn(1e-9, 1.0, |t| t), Err(Error::Memory(_))));
-    let infinite = Record::from_fn(0.1, 1.0, |t| 1.0 / (t - 0.5));
-    assert!(matches!(infinite, Err(Error::NotFinite { index: 5, .. })), "{infinite:?}");
+    let record = Record::from_fn(0.1, 1.0, |t| 1.0 / (t - 0.5));
+    assert!(matches!(record, Err(Error::NotFinite { index: 5, .. })), "{record:?}");
     assert!(matches!(
         Record::from_fn(1.0, 0.1, |t| t),
         Err(Error::Size { found: 1, needed: 2, .. })

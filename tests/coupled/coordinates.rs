@@ -120,8 +120,8 @@ fn modes_and_dofs_agree() {
 
 /// In stiff structures moved by decimetres, K u must be computed without rigid motion.
 ///
-/// K u of a rigid motion cancels to rounding of K times that motion. The translation is left out of it, and in modes
-/// any rigid motion.
+/// K u of a rigid motion cancels to rounding of K times that motion. K u is computed without the translation, and in
+/// modes without any rigid motion.
 #[test]
 fn stiffness_does_not_open_the_energy_balance() {
     for coordinates in [Coordinates::Modes, Coordinates::Physical] {
@@ -133,15 +133,20 @@ fn stiffness_does_not_open_the_energy_balance() {
                 scene(SI_UNITS, strength).motion(shake(SI_UNITS, strength)).interface(Bonded);
             let builder = bonded.structure(model).coordinates(coordinates);
             let run = builder.build().unwrap().run(RUN_STEPS, |_| {}).unwrap();
-            let largest = run.energy_error;
+            let max_energy_error = run.energy_error;
             let end = run.energy_balance.residual();
-            println!("{coordinates:?}, E = {modulus:e}, × {strength}: {largest:.1e}, {end:.1e}");
+            println!(
+                "{coordinates:?}, E = {modulus:e}, × {strength}: {max_energy_error:.1e}, {end:.1e}"
+            );
             // In degrees of freedom K u contains the rocking; a translation of 1 m would give 1e-8.
             let limit = match coordinates {
                 Coordinates::Modes => 1e-12,
                 _ => 1e-10 + 1e-22 * modulus,
             };
-            assert!(largest < limit, "{coordinates:?}, {modulus:e}, × {strength}: {largest:e}");
+            assert!(
+                max_energy_error < limit,
+                "{coordinates:?}, {modulus:e}, × {strength}: {max_energy_error:e}"
+            );
         }
     }
 }
@@ -179,7 +184,7 @@ impl Structure for TowerWithDashpot {
     }
 }
 
-/// Why a structure has no modal coordinates.
+/// Error of a structure in modal coordinates; `None` if it has them.
 fn error_of_modes(structure: impl Structure + 'static) -> Option<Error> {
     let builder = scene(SI_UNITS, 0.1).structure(structure).interface(friction(0.4));
     builder.coordinates(Coordinates::Modes).build().err()
@@ -187,7 +192,7 @@ fn error_of_modes(structure: impl Structure + 'static) -> Option<Error> {
 
 /// A structure whose modes are coupled keeps its degrees of freedom; a request for modes is an error.
 #[test]
-fn modes_are_refused_where_they_do_not_decouple() {
+fn modes_are_errors_where_they_do_not_decouple() {
     let with_dashpot = || TowerWithDashpot(tower(SI_UNITS, None));
     for error in [error_of_modes(with_dashpot()), error_of_modes(Rider { block: block(SI_UNITS) })]
     {

@@ -1,6 +1,6 @@
 //! GOAL: thrusts on walls stay between active and passive thrust of the soil, and energy balances.
-//! SCENE: smooth and rough blocks in trenches in one and two soils, with and without cohesion, pushed to the side and
-//! back; strong shaking on springs and in the half-plane. HEAVY_TESTS: 400 scenes, else 30.
+//! SCENE: blocks with and without friction in trenches in one and two soils, with and without cohesion, pushed to the
+//! side and back; strong shaking on springs and in the half-plane. HEAVY_TESTS: 400 scenes, else 30.
 //! REFERENCE: Rankine's thrusts, integrated by hand; the energy balance.
 
 use std::collections::BTreeSet;
@@ -76,7 +76,7 @@ fn buried_block() -> WithWalls {
     WithWalls::new(block, TRENCH_DEPTH).unwrap()
 }
 
-/// Motion to the right at the height of the walls' thrust, which moves all of the wall.
+/// Motion to the right at the height of the walls' thrust, under which the whole wall moves.
 fn thrust_direction() -> DofCombination {
     DofCombination::of_base(&buried_block(), [0.0, 0.0, TRENCH_DEPTH / 3.0]).unwrap()[0].clone()
 }
@@ -133,7 +133,7 @@ fn thrusts_of_two_soils_are_exact() {
     thrusts.assert_close_to(expected);
 }
 
-/// Above z₀ = 2c/(γ √K_a) cohesive soil stands without the wall, which opens.
+/// Above the depth z₀ = 2c/(γ √K_a) cohesive soil stands without the wall, and the contact opens.
 #[test]
 fn cohesive_soil_stands_to_its_depth_of_tension() {
     let cohesion = 8e3;
@@ -304,25 +304,34 @@ fn run_with_laws(factor: f64, laws: Vec<Box<dyn InterfaceLaw>>) -> Run {
     simulation.run(400, |_| {}).unwrap()
 }
 
-/// Pressure beyond the passive one of strong soil is named; laws that limit it give no warning.
+/// Pressure beyond the passive one of strong soil causes a warning; with laws that limit it there is none.
 #[test]
 fn walls_beyond_passive_pressure_warn() {
     let base = Coulomb::new(0.5).unwrap();
     let wall = Coulomb::new(0.3).unwrap();
-    let strong = run_with_laws(2.0, elements(3).interfaces(base, wall));
-    let [pressure, stress_above, z] = wall_warning(&strong).expect("a warning");
-    let named = strong.envelope.iter().find(|entry| entry.element.center()[2] == z).unwrap();
+    let run_beyond_passive_pressure = run_with_laws(2.0, elements(3).interfaces(base, wall));
+    let [pressure, stress_above, z] =
+        wall_warning(&run_beyond_passive_pressure).expect("a warning");
+    let element_of_the_warning = run_beyond_passive_pressure
+        .envelope
+        .iter()
+        .find(|entry| entry.element.center()[2] == z)
+        .unwrap();
     assert!((stress_above + UNIT_WEIGHT * z).abs() < 1e-9 * stress_above);
     assert!(pressure > 5.83 * stress_above);
-    assert!(named.pressure.highest.value > 0.0 && strong.to_string().contains("soil of 45°"));
-    let limited = ground(soil(), 3).interfaces(base, &[strength(32.0)], STANDARD_GRAVITY).unwrap();
-    assert_eq!(wall_warning(&run_with_laws(2.0, limited)), None);
+    assert!(
+        element_of_the_warning.pressure.highest.value > 0.0
+            && run_beyond_passive_pressure.to_string().contains("soil of 45°")
+    );
+    let passive_laws =
+        ground(soil(), 3).interfaces(base, &[strength(32.0)], STANDARD_GRAVITY).unwrap();
+    assert_eq!(wall_warning(&run_with_laws(2.0, passive_laws)), None);
     assert_eq!(wall_warning(&run_with_laws(0.05, elements(3).interfaces(base, wall))), None);
 }
 
-/// Pressure at rest below the active pressure, and other lists of strengths, are refused.
+/// Pressure at rest below the active pressure, and other lists of strengths, are errors.
 #[test]
-fn impossible_strengths_are_refused() {
+fn impossible_strengths_are_errors() {
     let base = Coulomb::new(0.5).unwrap();
     let ground_at_low_pressure =
         TrenchGround::new(soil(), elements(2)).unwrap().with_pressure_at_rest(0.2).unwrap();
@@ -337,7 +346,7 @@ fn impossible_strengths_are_refused() {
     }
     for count in [0, 2] {
         let strengths = vec![strength(30.0); count];
-        let refused = ground.interfaces(base, &strengths, STANDARD_GRAVITY).map(drop);
-        assert!(matches!(refused, Err(Error::Size { .. })), "{refused:?}");
+        let result = ground.interfaces(base, &strengths, STANDARD_GRAVITY).map(drop);
+        assert!(matches!(result, Err(Error::Size { .. })), "{result:?}");
     }
 }

@@ -18,7 +18,7 @@ use super::trench_springs::{
 /// Weight of the block, N/m.
 const BLOCK_WEIGHT: f64 = 900.0 * TRENCH_WIDTH * BLOCK_HEIGHT * STANDARD_GRAVITY;
 
-/// The base carries the weight, the walls the pressure at rest; nothing moves without motion.
+/// The base carries the weight, and the walls carry the pressure at rest; without ground motion nothing moves.
 #[test]
 fn a_backfilled_block_stays_at_rest() {
     let mut simulation = Simulation::builder(0.01)
@@ -99,7 +99,7 @@ fn a_welded_block_follows_its_fourier_synthesis() {
         .build()
         .unwrap();
     let table = include_str!("../data/embedded/td_SV_h1f_dt02.csv");
-    let mut largest = [0.0_f64; 2];
+    let mut max_values = [0.0_f64; 2];
     let mut difference = [0.0_f64; 2];
     for line in table.lines() {
         let values: Vec<f64> = line.split(',').filter_map(|cell| cell.parse().ok()).collect();
@@ -111,12 +111,12 @@ fn a_welded_block_follows_its_fourier_synthesis() {
         // The table's rotation lowers the right end.
         let computed = [state.absolute_displacement()[0], -state.base_rotation];
         for k in 0..2 {
-            largest[k] = largest[k].max(values[1 + k].abs());
+            max_values[k] = max_values[k].max(values[1 + k].abs());
             difference[k] = difference[k].max((computed[k] - values[1 + k]).abs());
         }
     }
     // The table has twice as many elements.
-    assert!((0..2).all(|k| difference[k] < 0.025 * largest[k]), "{difference:?} {largest:?}");
+    assert!((0..2).all(|k| difference[k] < 0.025 * max_values[k]), "{difference:?} {max_values:?}");
     let energy = simulation.state().energy_balance;
     assert!(energy.residual() < 1e-9 && energy.soil > 0.0, "{energy:?}");
 }
@@ -168,20 +168,20 @@ fn contact_at_rest(load_ratio: f64) -> Vec<ContactState> {
     simulation.state().contact.clone()
 }
 
-/// A tiny load at the start changes tractions by as little: jumps count from the placed state.
+/// A tiny load at the start changes the tractions as little, since jumps of loads count from the state at rest.
 #[test]
 fn a_tiny_load_at_the_start_hardly_changes_tractions() {
-    let unloaded = contact_at_rest(0.0);
-    let loaded = contact_at_rest(1e-6);
+    let unloaded_contact = contact_at_rest(0.0);
+    let loaded_contact = contact_at_rest(1e-6);
     let mean_pressure = BLOCK_WEIGHT / TRENCH_WIDTH;
-    for (a, b) in unloaded.iter().zip(&loaded) {
+    for (a, b) in unloaded_contact.iter().zip(&loaded_contact) {
         let difference = (a.pressure - b.pressure).abs().max((a.shear - b.shear).abs());
         assert!(difference < 1e-5 * mean_pressure, "{a:?} {b:?}");
     }
-    assert!(unloaded.iter().zip(&loaded).any(|(a, b)| a.pressure != b.pressure));
+    assert!(unloaded_contact.iter().zip(&loaded_contact).any(|(a, b)| a.pressure != b.pressure));
 }
 
-/// Uplift and slip are those of the base; a gravity stage and a structure without walls are refused.
+/// Uplift and slip are those of the base; a gravity stage and a structure without walls are errors.
 #[test]
 fn walls_have_separate_results() {
     let mut simulation = Simulation::builder(0.01)
@@ -203,13 +203,13 @@ fn walls_have_separate_results() {
     let right_thrust = state.face(Face::RightWall).thrust;
     let shear = right_thrust - left_thrust + state.face(Face::Base).shear;
     assert!((state.base_shear - shear).abs() < 1e-9 * state.normal_force);
-    let unloaded = Simulation::builder(0.01)
+    let result = Simulation::builder(0.01)
         .structure(walled_block())
         .ground(TrenchSprings::new(&trench_elements(), 4e7, 4e5))
         .interfaces(friction_laws())
         .gravity_stage(GravityStage::Unloaded)
         .build();
-    assert!(matches!(unloaded, Err(Error::Scene { quantity: "gravity stage", .. })));
+    assert!(matches!(result, Err(Error::Scene { quantity: "gravity stage", .. })));
     let on_surface = Simulation::builder(0.01)
         .structure(RigidBlock::new(TRENCH_WIDTH, BLOCK_HEIGHT, 900.0).unwrap())
         .ground(TrenchSprings::new(&trench_elements(), 4e7, 4e5))

@@ -20,7 +20,7 @@ use super::trench_springs::{
 /// Young's modulus of concrete in plane strain, Pa.
 const YOUNG_MODULUS: f64 = 31.0e9;
 
-/// Box in a trench: its sizes in metres and its numbers of intervals.
+/// Box in a trench: its dimensions in metres and its numbers of intervals.
 #[derive(Clone, Copy)]
 struct TrenchOutline {
     width: f64,
@@ -98,7 +98,7 @@ fn solid_block() -> FemModel {
             mesh.add(Quad4::new(nodes, material, QuadFormulation::default())).unwrap();
         }
     }
-    // Two rows are below the surface.
+    // Two rows of nodes are below the surface.
     let nodes = [14, 7, 0, 1, 2, 3, 4, 5, 6, 13, 20];
     FemModel::in_trench(mesh, &nodes).unwrap()
 }
@@ -132,19 +132,19 @@ fn response(state: &State, top: &DofCombination) -> [f64; 8] {
     ]
 }
 
-/// A block of stiff solids and the rigid block open, slide, turn and press alike.
+/// A block of stiff solids and the rigid block have the same openings, slips, rotations and pressures.
 #[test]
 fn stiff_solids_move_as_the_rigid_block() {
     let solid_top = solid_block().row(7 * 8 + 3, Direction::X).unwrap();
     let rigid_block = RigidBlock::new(TRENCH_WIDTH, BLOCK_HEIGHT, 900.0).unwrap();
     let rigid_top = rigid_block.horizontal_at(BLOCK_HEIGHT);
     let mut solids = shaken_in_trench(Box::new(solid_block()));
-    let mut rigid = shaken_in_trench(Box::new(walled_block()));
+    let mut rigid_simulation = shaken_in_trench(Box::new(walled_block()));
     let mut largest = [0.0_f64; 8];
     let mut difference = [0.0_f64; 8];
     for _ in 0..600 {
         let computed = response(solids.step().unwrap(), &solid_top);
-        let expected = response(rigid.step().unwrap(), &rigid_top);
+        let expected = response(rigid_simulation.step().unwrap(), &rigid_top);
         for k in 0..8 {
             largest[k] = largest[k].max(expected[k].abs());
             difference[k] = difference[k].max((computed[k] - expected[k]).abs());
@@ -183,8 +183,8 @@ fn walls_bend_as_cantilevers_under_the_pressure_at_rest() {
     add_beams(&mut mesh, &nodes, thickness, 2500.0);
     let slab = &nodes[40..=46];
     let middle = slab[3];
-    let others: Vec<usize> = slab.iter().copied().filter(|node| *node != middle).collect();
-    let model = FemModel::in_trench(mesh, &nodes).unwrap().with_rigid_link(middle, &others);
+    let other_nodes: Vec<usize> = slab.iter().copied().filter(|node| *node != middle).collect();
+    let model = FemModel::in_trench(mesh, &nodes).unwrap().with_rigid_link(middle, &other_nodes);
     let model = model.unwrap();
     let rows = [nodes[0], nodes[nodes.len() - 1], middle].map(|node| model.row(node, Direction::X));
     let rows = rows.map(Result::unwrap);
@@ -205,9 +205,9 @@ fn walls_bend_as_cantilevers_under_the_pressure_at_rest() {
     assert!((left / deflection - 1.0).abs() < 1e-3, "{left} {deflection}");
     assert!((right / -deflection - 1.0).abs() < 1e-3, "{right} {deflection}");
     // A pressure that grows with depth bends by K₀ ρ g h⁵/(30 EI); constant on four elements, 8 % more.
-    let smooth =
+    let deflection =
         0.5 * SOIL_DENSITY * STANDARD_GRAVITY * TRENCH_DEPTH.powi(5) / (30.0 * bending_stiffness);
-    assert!((left / smooth - 1.0).abs() < 0.1, "{left} {smooth}");
+    assert!((left / deflection - 1.0).abs() < 0.1, "{left} {deflection}");
     let state = simulation.state();
     let weight = 2500.0 * thickness * (TRENCH_WIDTH + 2.0 * TRENCH_DEPTH) * STANDARD_GRAVITY;
     assert!((state.face(Face::Base).thrust / weight - 1.0).abs() < 1e-9);
@@ -324,9 +324,9 @@ fn strutted_box(
     Ok((extension, warnings))
 }
 
-/// A run warns of the number of elements that flexible walls need for errors below 3 %.
+/// A run has a warning with the number of elements that flexible walls need for errors below 3 %.
 ///
-/// It warns of a wall of one element, too; `build` refuses a wall that is eight times as thin.
+/// A wall of one element causes a warning, too; a wall that is eight times as thin is an error.
 #[test]
 fn walls_on_too_few_elements_are_told() {
     let kernels = SharedKernels::default();
@@ -364,9 +364,9 @@ fn model_with_outline(change: impl Fn(&mut Vec<usize>)) -> Result<FemModel> {
     FemModel::in_trench(mesh, &nodes)
 }
 
-/// Outlines in another order, and nodes that do not exist or do not move, are refused.
+/// Outlines in another order, and nodes that do not exist or do not move, are errors.
 #[test]
-fn wrong_outlines_are_refused() {
+fn wrong_outlines_are_errors() {
     assert!(model_with_outline(|_| {}).is_ok());
     assert!(model_with_outline(|nodes| nodes.truncate(3)).is_ok());
     for change in [

@@ -115,19 +115,19 @@ fn errors(step: f64, count: usize, motion: &TrenchMotion) -> [f64; 2] {
         .build()
         .unwrap();
     let mut difference = [0.0_f64; 2];
-    let mut largest = [0.0_f64; 2];
+    let mut max_values = [0.0_f64; 2];
     for expected in &reference {
         let state = simulation.step().unwrap();
         // The state's rotation raises the right end.
         let computed = [state.absolute_displacement()[0], -state.base_rotation];
         for k in 0..2 {
             difference[k] = difference[k].max((computed[k] - expected[k]).abs());
-            largest[k] = largest[k].max(expected[k].abs());
+            max_values[k] = max_values[k].max(expected[k].abs());
         }
     }
     let energy = simulation.state().energy_balance;
     assert!(energy.residual() < 1e-9 && energy.soil > 0.0, "{energy:?}");
-    [0, 1].map(|k| difference[k] / largest[k])
+    [0, 1].map(|k| difference[k] / max_values[k])
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn ground(profile: impl Into<SoilProfile>) -> TrenchGround {
         .unwrap()
 }
 
-/// Block of the trench's size and this density, in place of the soil.
+/// Block of the trench's size and of this density in place of the soil.
 fn buried_block(profile: impl Into<SoilProfile>, density: f64, bonded: bool) -> Simulation {
     let block = RigidBlock::new(TRENCH_WIDTH, TRENCH_DEPTH, density).unwrap();
     let builder = Simulation::builder(0.01)
@@ -270,13 +270,13 @@ fn a_heavy_block_presses_its_walls() {
 fn a_light_block_opens_unless_it_is_bonded() {
     let density = 0.2 * SOIL_DENSITY;
     let weight = STANDARD_GRAVITY * density * TRENCH_WIDTH * TRENCH_DEPTH;
-    let unbonded = buried_block(soil(), density, false);
-    let base = unbonded.state().face(Face::Base);
+    let unbonded_block = buried_block(soil(), density, false);
+    let base = unbonded_block.state().face(Face::Base);
     assert!(base.open_fraction > 0.0 && (base.thrust / weight - 1.0).abs() < 1e-9, "{base:?}");
     let bonded = buried_block(soil(), density, true);
     let state = bonded.state();
     let base = state.face(Face::Base);
-    // Upwards on the soil.
+    // The force acts upwards on the soil.
     let wall_force = state.face(Face::RightWall).shear - state.face(Face::LeftWall).shear;
     assert!(base.open_fraction == 0.0, "{base:?}");
     assert!(wall_force.abs() > 0.1 * weight, "{wall_force} {weight}");

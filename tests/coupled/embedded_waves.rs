@@ -35,11 +35,11 @@ struct StandingWave {
 }
 
 fn standing_wave(speed: f64, depth: f64, time: f64) -> StandingWave {
-    let early = pulse(time + depth / speed);
-    let late = pulse(time - depth / speed);
+    let upgoing_wave = pulse(time + depth / speed);
+    let downgoing_wave = pulse(time - depth / speed);
     StandingWave {
-        motion: [0, 1].map(|k| 0.5 * (early[k] + late[k])),
-        stress: 0.5 * SOIL_DENSITY * speed * (early[1] - late[1]),
+        motion: [0, 1].map(|k| 0.5 * (upgoing_wave[k] + downgoing_wave[k])),
+        stress: 0.5 * SOIL_DENSITY * speed * (upgoing_wave[1] - downgoing_wave[1]),
     }
 }
 
@@ -185,19 +185,24 @@ fn waves_act_on_all_faces_as_in_an_independent_integration() {
         .motion(motion)
         .build()
         .unwrap();
-    let mut largest = [0.0_f64; 3];
+    let mut max_values = [0.0_f64; 3];
     let mut difference = [0.0_f64; 3];
     for expected in &reference {
         let state = simulation.step().unwrap();
         let displacement = state.absolute_displacement();
         let computed = [displacement[0], displacement[1], state.base_rotation];
         for k in 0..3 {
-            largest[k] = largest[k].max(expected[k].abs());
+            max_values[k] = max_values[k].max(expected[k].abs());
             difference[k] = difference[k].max((computed[k] - expected[k]).abs());
         }
     }
     for k in 0..3 {
-        assert!(difference[k] < 0.003 * largest[k], "{k}: {} of {}", difference[k], largest[k]);
+        assert!(
+            difference[k] < 0.003 * max_values[k],
+            "{k}: {} of {}",
+            difference[k],
+            max_values[k]
+        );
     }
-    assert!(largest[2] > 1e-3, "{largest:?}");
+    assert!(max_values[2] > 1e-3, "{max_values:?}");
 }

@@ -1,7 +1,7 @@
-//! GOAL: the energy balance closes in every kind of run, and only if every term is right.
+//! GOAL: the energy balance closes in every kind of run, and only if every term is correct.
 //! SCENE: kinds of law, scheme, damping, structure and ground; stiff structures that
 //! travel far.
-//! REFERENCE: the identity of the energies; perturbing any term must open it.
+//! REFERENCE: the identity of the energies; with any term perturbed it must not close.
 
 use basemat::Simulation;
 use basemat::bem::SpringGround;
@@ -137,7 +137,7 @@ fn energy_balance_closes_and_every_term_counts() {
             *value *= 1.0 + 1e-3;
             // Residuals are relative to the largest energy of the run.
             let relative_size = size / energy_balance.largest;
-            // Terms that matter open the residual when they are off by one in a thousand.
+            // Relevant terms change the residual if they are wrong by one in a thousand.
             if relative_size > 1e-4 {
                 tested_terms[k] = true;
                 let residual = energy_balance.residual();
@@ -185,7 +185,7 @@ fn remainder_of_yielding_springs_is_that_of_their_work() {
     assert!(ratios[0] < 0.1 && ratios[1] < 0.4 * ratios[0] && ratios[2] < 0.4 * ratios[1]);
 }
 
-/// Stiff structures that move far open the energy balance only by rounding of the displacement.
+/// The energy error of stiff structures that move far is rounding of the displacement.
 ///
 /// K u and ½ u·K u belong to a deformation of micrometres on a displacement of decimetres. The residual grows with the
 /// stiffness, and is largest while the motion is weak.
@@ -197,10 +197,15 @@ fn large_displacements_of_the_ground_open_the_energy_balance_by_rounding_only() 
         let model = FemModel::on_base(mesh).unwrap();
         let bonded = scene(SI_UNITS, strength).motion(shake(SI_UNITS, strength)).interface(Bonded);
         let run = run(bonded.structure(model), 300);
-        let largest = run.energy_error;
+        let max_energy_error = run.energy_error;
         let end = run.energy_balance.residual();
-        println!("E = {modulus:e}, strength {strength}: {largest:.1e}, at the end {end:.1e}");
-        assert!(largest < 1e-21 * modulus, "E = {modulus:e}, strength {strength}: {largest:e}");
+        println!(
+            "E = {modulus:e}, strength {strength}: {max_energy_error:.1e}, at the end {end:.1e}"
+        );
+        assert!(
+            max_energy_error < 1e-21 * modulus,
+            "E = {modulus:e}, strength {strength}: {max_energy_error:e}"
+        );
         assert!(end < 3e-22 * modulus, "E = {modulus:e}, strength {strength}: {end:e}");
     }
 }
@@ -217,63 +222,70 @@ fn rest_closes_the_energy_balance() {
     assert!(run.energy_error < 1e-14 && run.warnings.is_empty(), "{}", run.energy_error);
 }
 
-/// Residuals are relative to the largest energy so far, and so do not rise when energies decay.
+/// Residuals are relative to the largest energy so far, and therefore do not grow while energies decay.
 #[test]
 fn residuals_are_relative_to_the_largest_energy_so_far() {
     let mut simulation = on_tower(friction(0.3)).build().unwrap();
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     for _ in 0..600 {
         let mut energy_balance = simulation.step().unwrap().energy_balance;
         for (_, value) in terms(&mut energy_balance) {
-            largest = largest.max(value.abs());
+            max_magnitude = max_magnitude.max(value.abs());
         }
-        assert!(energy_balance.largest >= largest && energy_balance.residual() < 1e-12);
+        assert!(energy_balance.largest >= max_magnitude && energy_balance.residual() < 1e-12);
         energy_balance.input += 1e-3 * energy_balance.largest;
         assert!((energy_balance.residual() / 1e-3 - 1.0).abs() < 2e-3);
     }
-    assert!(largest > 0.0);
+    assert!(max_magnitude > 0.0);
 }
 
 /// On a frictionless base, below which the ground moves, the scale is the energy of its motion.
 #[test]
 fn residuals_are_relative_to_the_motion_of_the_ground() {
-    let smooth = scene(SI_UNITS, 0.0).motion(basemat::motion::el_centro_1940());
-    let mut simulation =
-        smooth.structure(block(SI_UNITS)).interface(friction(0.0)).build().unwrap();
+    let frictionless_scene = scene(SI_UNITS, 0.0).motion(basemat::motion::el_centro_1940());
+    let mut simulation = frictionless_scene
+        .structure(block(SI_UNITS))
+        .interface(friction(0.0))
+        .build()
+        .unwrap();
     let mass = block(SI_UNITS).total_mass();
     let mut previous_free_field = [0.0; 2];
-    let mut largest = 0.0_f64;
+    let mut max_value = 0.0_f64;
     for _ in 0..400 {
         let state = simulation.step().unwrap();
         let velocity = [0, 1].map(|k| (state.free_field[k] - previous_free_field[k]) / 2.5e-3);
         previous_free_field = state.free_field;
         let kinetic = 0.5 * mass * (velocity[0] * velocity[0] + velocity[1] * velocity[1]);
-        largest = largest.max(kinetic);
+        max_value = max_value.max(kinetic);
         let energy_balance = state.energy_balance;
-        assert!((energy_balance.largest / largest - 1.0).abs() < 1e-9, "{energy_balance}");
+        assert!((energy_balance.largest / max_value - 1.0).abs() < 1e-9, "{energy_balance}");
     }
 }
 
 /// A run without energy balance has the same states, and energies that are NaN.
 #[test]
 fn an_energy_balance_that_is_left_out_changes_nothing_else() {
-    let mut complete = on_tower(friction(0.3)).build().unwrap();
-    let mut reduced = on_tower(friction(0.3)).without_energy_balance().build().unwrap();
-    let complete_run = complete.run(200, |_| {}).unwrap();
-    let reduced_run = reduced.run(200, |_| {}).unwrap();
+    let mut complete_simulation = on_tower(friction(0.3)).build().unwrap();
+    let mut simulation_without_balance =
+        on_tower(friction(0.3)).without_energy_balance().build().unwrap();
+    let complete_run = complete_simulation.run(200, |_| {}).unwrap();
+    let reduced_run = simulation_without_balance.run(200, |_| {}).unwrap();
     assert!(complete_run.energy_error < 1e-9);
     assert!(reduced_run.energy_error.is_nan() && reduced_run.energy_balance.soil.is_nan());
     assert!(reduced_run.to_string().contains("energy balance omitted"));
     assert_eq!(reduced_run.warnings, complete_run.warnings);
-    assert_eq!(complete.state().contact, reduced.state().contact);
-    assert_eq!(complete.state().probes, reduced.state().probes);
-    assert_eq!(complete.state().displacement(), reduced.state().displacement());
+    assert_eq!(complete_simulation.state().contact, simulation_without_balance.state().contact);
+    assert_eq!(complete_simulation.state().probes, simulation_without_balance.state().probes);
+    assert_eq!(
+        complete_simulation.state().displacement(),
+        simulation_without_balance.state().displacement()
+    );
     // A checkpoint contains whether there is an energy balance.
-    let checkpoint = reduced.checkpoint().unwrap();
-    assert!(complete.resume(&checkpoint).is_err());
-    let mut resumed = on_tower(friction(0.3)).without_energy_balance().build().unwrap();
-    resumed.resume(&checkpoint).unwrap();
-    assert!(resumed.step().unwrap().energy_balance.residual().is_nan());
+    let checkpoint = simulation_without_balance.checkpoint().unwrap();
+    assert!(complete_simulation.resume(&checkpoint).is_err());
+    let mut resumed_simulation = on_tower(friction(0.3)).without_energy_balance().build().unwrap();
+    resumed_simulation.resume(&checkpoint).unwrap();
+    assert!(resumed_simulation.step().unwrap().energy_balance.residual().is_nan());
 }
 
 /// Absolute and relative input energy agree once the ground has come to rest, and not before.
@@ -305,8 +317,8 @@ fn bouncing_block(theta: f64) -> SimulationBuilder {
 
 /// GOAL: Newmark's method conserves energy on springs that act at the end of a step (θ = 1) only.
 /// SCENE: a block that bounces on springs without dashpots.
-/// REFERENCE: the energy e^(ω²Δt t/2) of an oscillator with a dashpot of ratio −ωΔt/4, which springs that act at mid-step
-/// are to Newmark's method; the midpoint rule.
+/// REFERENCE: the energy e^(ω²Δt t/2) of an oscillator with a dashpot of ratio −ωΔt/4, to which springs that act at
+/// mid-step are equivalent in Newmark's method; the midpoint rule.
 #[test]
 fn newmark_on_springs_needs_theta_one() {
     let unstable = run(bouncing_block(0.5).scheme(Newmark::default()), 2000);

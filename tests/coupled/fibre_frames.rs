@@ -1,4 +1,4 @@
-//! GOAL: frames of fibres on ground that they may leave: linear limit, both formulations, energy.
+//! GOAL: frames of fibres that may lift off their ground: linear limit, both formulations, energy.
 //! SCENE: a portal on two footings on springs, bonded or with friction, shaken.
 //! REFERENCE: the same portal of linear beams; the other formulation; balance of energy.
 
@@ -21,7 +21,7 @@ const ROOF_MASS: f64 = 30.0e3;
 const ALL_FORMULATIONS: [BeamFormulation; 2] =
     [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased];
 
-/// What the columns are made of.
+/// Elements and material of the columns.
 #[derive(Clone, Copy)]
 enum PortalColumns<'a> {
     Linear { young_modulus: f64, area: f64, second_moment: f64 },
@@ -31,15 +31,15 @@ enum PortalColumns<'a> {
 /// A portal on footings 2 m wide whose columns have elements of these lengths; returns the right end of its beam, too.
 fn portal(columns: PortalColumns<'_>, lengths: &[f64]) -> Result<(FemModel, usize)> {
     let mut mesh = Mesh::new();
-    let stiff = |ends| Beam::new(ends, 30.0e9, 0.5, 0.01, 0.0);
+    let stiff_beam = |ends| Beam::new(ends, 30.0e9, 0.5, 0.01, 0.0);
     let mut lines = Vec::new();
     let mut tops = Vec::new();
     for x in [0.0, BAY_WIDTH] {
         let left = mesh.add_node(x - 1.0, 0.0)?;
         let foot = mesh.add_node(x, 0.0)?;
         let right = mesh.add_node(x + 1.0, 0.0)?;
-        mesh.add(stiff([left, foot])?)?;
-        mesh.add(stiff([foot, right])?)?;
+        mesh.add(stiff_beam([left, foot])?)?;
+        mesh.add(stiff_beam([foot, right])?)?;
         lines.push(vec![left, foot, right]);
         let mut below = foot;
         let mut height = 0.0;
@@ -68,7 +68,7 @@ fn portal(columns: PortalColumns<'_>, lengths: &[f64]) -> Result<(FemModel, usiz
         mesh.add(LumpedMass::new(below, ROOF_MASS)?)?;
         tops.push(below);
     }
-    mesh.add(stiff([tops[0], tops[1]])?)?;
+    mesh.add(stiff_beam([tops[0], tops[1]])?)?;
     let model = FemModel::on_foundations(mesh, &lines)?;
     Ok((model.with_rayleigh(RayleighDamping::new(0.0, 1e-3)?), tops[1]))
 }
@@ -126,8 +126,9 @@ fn a_frame_of_elastic_fibres_is_the_linear_frame() {
         .with_rectangle([[-0.15, -0.05], [0.15, 0.05]], [10, 1], elastic)
         .unwrap();
     let second_moment: f64 = (0..10).map(|i| 0.003 * (-0.135 + 0.03 * f64::from(i)).powi(2)).sum();
-    let linear = PortalColumns::Linear { young_modulus: 210.0e9, area: 0.03, second_moment };
-    let expected = shaken(linear, &[2.0, 2.0], Bonded, 1.0).unwrap();
+    let linear_columns =
+        PortalColumns::Linear { young_modulus: 210.0e9, area: 0.03, second_moment };
+    let expected = shaken(linear_columns, &[2.0, 2.0], Bonded, 1.0).unwrap();
     for formulation in ALL_FORMULATIONS {
         let fibers = PortalColumns::Fibers { section: &section, formulation };
         let computed = shaken(fibers, &[2.0, 2.0], Bonded, 1.0).unwrap();
@@ -142,10 +143,10 @@ fn a_frame_of_elastic_fibres_is_the_linear_frame() {
 #[test]
 fn both_formulations_yield_alike() {
     let section = steel_section(0.01).unwrap();
-    let graded = [0.1, 0.2, 0.4, 0.6, 1.4, 0.6, 0.4, 0.2, 0.1];
+    let graded_lengths = [0.1, 0.2, 0.4, 0.6, 1.4, 0.6, 0.4, 0.2, 0.1];
     let [by_displacements, by_forces] = ALL_FORMULATIONS
         .map(|formulation| PortalColumns::Fibers { section: &section, formulation });
-    let expected = shaken(by_displacements, &graded, Bonded, 2.0).unwrap();
+    let expected = shaken(by_displacements, &graded_lengths, Bonded, 2.0).unwrap();
     let computed = shaken(by_forces, &[COLUMN_HEIGHT], Bonded, 2.0).unwrap();
     for run in [&expected, &computed] {
         println!("energy open by {:.1e}, hysteresis {:.2}", run.energy_error, run.hysteresis);

@@ -1,4 +1,4 @@
-//! GOAL: settings and records are read as they were written, and refused where their constructors refuse them.
+//! GOAL: settings and records are read as they were written, with the errors of their constructors.
 //! SCENE: every such type; fields that are missing, unknown or out of range.
 //! REFERENCE: the value that was written.
 
@@ -38,20 +38,21 @@ use serde_json::{Value, json};
 
 /// Writes and reads a value, which must not change, and returns its form.
 ///
-/// The form with one more key anywhere must be refused.
+/// A form with one more key at any place must be an error.
 #[track_caller]
 pub(super) fn assert_round_trip<T: Serialize + DeserializeOwned + PartialEq + Debug>(
     value: &T,
 ) -> Value {
     let text = serde_json::to_string(value).unwrap();
-    let reread: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
-    assert_eq!(&reread, value, "{text}");
+    let value_read: T =
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    assert_eq!(&value_read, value, "{text}");
     let form = serde_json::from_str(&text).unwrap();
     count_closed_objects::<T>(&form);
     form
 }
 
-/// Number of objects within the form, none of which may accept an unknown key (a misspelt one, say).
+/// Number of objects within the form, none of which may accept an unknown key, such as a misspelt one.
 #[track_caller]
 pub(super) fn count_closed_objects<T: DeserializeOwned>(form: &Value) -> usize {
     /// Adds an unknown key to the object of this index, in order of depth.
@@ -70,12 +71,15 @@ pub(super) fn count_closed_objects<T: DeserializeOwned>(form: &Value) -> usize {
     }
 
     for index in 0.. {
-        let mut misspelt = form.clone();
-        add_unknown_key(&mut misspelt, &mut { index });
-        if misspelt == *form {
+        let mut misspelt_form = form.clone();
+        add_unknown_key(&mut misspelt_form, &mut { index });
+        if misspelt_form == *form {
             return index;
         }
-        assert!(serde_json::from_value::<T>(misspelt.clone()).is_err(), "{misspelt} is read");
+        assert!(
+            serde_json::from_value::<T>(misspelt_form.clone()).is_err(),
+            "{misspelt_form} is read"
+        );
     }
     unreachable!("every form ends")
 }
@@ -89,9 +93,9 @@ pub(super) fn assert_form<T: Serialize + DeserializeOwned + PartialEq + Debug>(
     assert_eq!(assert_round_trip(value), form.into());
 }
 
-/// Checks that the form is refused with an error that contains `reason`.
+/// Checks that reading the form returns an error that contains `reason`.
 #[track_caller]
-pub(super) fn assert_refused<T: DeserializeOwned + Debug>(form: Value, reason: &str) {
+pub(super) fn assert_errors<T: DeserializeOwned + Debug>(form: Value, reason: &str) {
     let text = form.to_string();
     let error = serde_json::from_value::<T>(form).unwrap_err().to_string();
     assert!(error.contains(reason), "{text}: {error}");
@@ -102,51 +106,45 @@ fn soils_materials_and_their_damping() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     assert_form(&soil, json!({"shear_modulus": 80.0e6, "poisson": 0.33, "density": 1900.0}));
     let incompressible = json!({"shear_modulus": 1.0, "poisson": 0.5, "density": 1.0});
-    assert_refused::<Soil>(incompressible, "Poisson's ratio of the soil is 0.5");
-    assert_refused::<Soil>(
+    assert_errors::<Soil>(incompressible, "Poisson's ratio of the soil is 0.5");
+    assert_errors::<Soil>(
         json!({"shear_modulus": -1.0, "poisson": 0.3, "density": 1.0}),
         "shear modulus",
     );
-    assert_refused::<Soil>(
-        json!({"shear_modulus": 1.0, "poisson": 0.3}),
-        "missing field `density`",
-    );
+    assert_errors::<Soil>(json!({"shear_modulus": 1.0, "poisson": 0.3}), "missing field `density`");
     let typo = json!({"shear_modulus": 1.0, "poisson": 0.3, "density": 1.0, "damping": 0.05});
-    assert_refused::<Soil>(typo, "unknown field `damping`");
+    assert_errors::<Soil>(typo, "unknown field `damping`");
     assert_round_trip(&Material::new(200e9, 0.25, 0.0).unwrap());
-    let bad = json!({"young_modulus": 0.0, "poisson": 0.3, "density": 1.0});
-    assert_refused::<Material>(bad, "Young's modulus is 0");
+    let invalid_form = json!({"young_modulus": 0.0, "poisson": 0.3, "density": 1.0});
+    assert_errors::<Material>(invalid_form, "Young's modulus is 0");
     let clay = Iwan::new(&[[1e-3, 2.0e4], [1e-2, 5.0e4]], 0.45, 1800.0).unwrap();
     let points = json!([[1e-3, 2.0e4], [1e-2, 5.0e4]]);
     assert_form(&clay, json!({"points": points, "poisson": 0.45, "density": 1800.0}));
-    assert_refused::<Iwan>(
+    assert_errors::<Iwan>(
         json!({"points": [[1e-3, 2.0e4], [2e-3, 5.0e4]], "poisson": 0.45, "density": 1800.0}),
         "point 2 of the backbone: slope",
     );
     let elastic = Material::new(8.0e7, 0.3, 1900.0).unwrap();
     assert_round_trip(&DruckerPrager::new(elastic, 1.0e3, 0.6, 0.1).unwrap());
     let elastic = json!({"young_modulus": 8.0e7, "poisson": 0.3, "density": 1900.0});
-    assert_refused::<DruckerPrager>(
+    assert_errors::<DruckerPrager>(
         json!({"elastic": elastic, "cohesion": 0.0, "friction_angle": 0.5, "dilation_angle": 0.6}),
         "dilation angle of the soil (rad) is 0.6",
     );
     assert_round_trip(&Elastic);
     assert_round_trip(&KelvinVoigt::with_ratio(0.05, 3.0).unwrap());
-    assert_refused::<KelvinVoigt>(json!({"time": -1.0}), "relaxation time");
+    assert_errors::<KelvinVoigt>(json!({"time": -1.0}), "relaxation time");
     assert_round_trip(&Kjartansson::new(0.05, 3.0).unwrap());
-    assert_refused::<Kjartansson>(json!({"exponent": 1.5, "reference": 1.0}), "exponent");
-    assert_refused::<Kjartansson>(
-        json!({"exponent": 0.1, "reference": 0.0}),
-        "reference frequency",
-    );
+    assert_errors::<Kjartansson>(json!({"exponent": 1.5, "reference": 1.0}), "exponent");
+    assert_errors::<Kjartansson>(json!({"exponent": 0.1, "reference": 0.0}), "reference frequency");
     assert_round_trip(&Hysteretic::new(0.05).unwrap());
-    assert_refused::<Hysteretic>(json!({"ratio": 1.0}), "damping ratio");
-    let fitted = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
-    assert_round_trip(&fitted);
-    let bad = json!({"long_term": 1.0, "ratios": [-0.1], "rates": [1.0]});
-    assert_refused::<GeneralizedMaxwell>(bad, "ratio of a Maxwell mechanism");
-    let bad = json!({"long_term": 1.0, "ratios": [0.1], "rates": []});
-    assert_refused::<GeneralizedMaxwell>(bad, "rates of a generalised Maxwell body");
+    assert_errors::<Hysteretic>(json!({"ratio": 1.0}), "damping ratio");
+    let fitted_law = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
+    assert_round_trip(&fitted_law);
+    let invalid_form = json!({"long_term": 1.0, "ratios": [-0.1], "rates": [1.0]});
+    assert_errors::<GeneralizedMaxwell>(invalid_form, "ratio of a Maxwell mechanism");
+    let invalid_form = json!({"long_term": 1.0, "ratios": [0.1], "rates": []});
+    assert_errors::<GeneralizedMaxwell>(invalid_form, "rates of a generalised Maxwell body");
 }
 
 #[test]
@@ -161,24 +159,24 @@ fn interface_laws() {
     );
     assert_eq!(assert_round_trip(&Coulomb::uplift_only())["friction"], "inf");
     assert_eq!(serde_json::from_value::<Coulomb>(json!({"friction": 1})).unwrap().friction(), 1.0);
-    assert_refused::<Coulomb>(json!({"friction": -0.1}), "friction coefficient is -0.1");
-    assert_refused::<Coulomb>(json!({"friction": null}), "friction coefficient is NaN");
-    assert_refused::<Coulomb>(json!({"friction": "much"}), "expected a number, null");
-    assert_refused::<Coulomb>(
+    assert_errors::<Coulomb>(json!({"friction": -0.1}), "friction coefficient is -0.1");
+    assert_errors::<Coulomb>(json!({"friction": null}), "friction coefficient is NaN");
+    assert_errors::<Coulomb>(json!({"friction": "much"}), "expected a number, null");
+    assert_errors::<Coulomb>(
         json!({"friction": 0.1, "tensile_strength": -1.0}),
         "tensile strength",
     );
-    let bad = json!({"friction": 0.1, "condition": {"velocity": {"closed_below": -1.0}}});
-    assert_refused::<Coulomb>(bad, "gap below which");
+    let invalid_form = json!({"friction": 0.1, "condition": {"velocity": {"closed_below": -1.0}}});
+    assert_errors::<Coulomb>(invalid_form, "gap below which");
     let form = json!({"tension": 1e5, "cohesion": 8e4, "friction": 0.6});
     assert_form(&Cohesive::new(1e5, 8e4, 0.6).unwrap(), form);
-    assert_refused::<Cohesive>(
+    assert_errors::<Cohesive>(
         json!({"tension": -1.0, "cohesion": 0.0, "friction": 0.6}),
         "tensile strength",
     );
     let form = json!({"bearing_pressure": 3e5, "friction": "inf"});
     assert_form(&Yielding::new(3e5, f64::INFINITY).unwrap(), form);
-    assert_refused::<Yielding>(
+    assert_errors::<Yielding>(
         json!({"bearing_pressure": 0.0, "friction": 0.6}),
         "bearing pressure",
     );
@@ -189,42 +187,42 @@ fn interface_laws() {
     });
     assert_form(&law, form.clone());
     form["elastic_range"] = json!(0.0);
-    assert_refused::<CyclicYielding>(form.clone(), "elastic range");
+    assert_errors::<CyclicYielding>(form.clone(), "elastic range");
     form["elastic_range"] = json!(0.1);
     form["depth_gradient"] = json!(-1.0);
-    assert_refused::<CyclicYielding>(form.clone(), "growth of the bearing pressure");
+    assert_errors::<CyclicYielding>(form.clone(), "growth of the bearing pressure");
     form["depth_gradient"] = json!(1e6);
     form["reference_settlement"] = json!(-1.0);
-    assert_refused::<CyclicYielding>(form, "reference settlement");
+    assert_errors::<CyclicYielding>(form, "reference settlement");
     let layer = ThinLayer::from_stiffness(1e9, 3e8, 0.4).unwrap();
     assert_round_trip(&layer);
     let layer = layer.with_thickness_ratio(0.1).unwrap().with_debonded_ratio(0.0).unwrap();
     let layer = layer.with_slip_stiffness_ratio(0.5).unwrap().with_slip_sense(SlipSense::Velocity);
     let mut form = assert_round_trip(&layer.with_friction_limit(FrictionLimit::Lagged));
     form["thickness_ratio"] = json!(0.0);
-    assert_refused::<ThinLayer>(form.clone(), "thickness ratio");
+    assert_errors::<ThinLayer>(form.clone(), "thickness ratio");
     form["thickness_ratio"] = json!(0.1);
     form["debonded_ratio"] = json!(2.0);
-    assert_refused::<ThinLayer>(form, "left in debonding");
+    assert_errors::<ThinLayer>(form, "left in debonding");
 }
 
 #[test]
 fn schemes_dampings_strips_and_limits() {
     assert_round_trip(&Midpoint);
     assert_round_trip(&Theta::new(0.6).unwrap());
-    assert_refused::<Theta>(json!({"theta": 0.4}), "theta is 0.4");
+    assert_errors::<Theta>(json!({"theta": 0.4}), "theta is 0.4");
     assert_round_trip(&Newmark::new(0.6, 0.4).unwrap());
-    assert_refused::<Newmark>(json!({"gamma": 0.5, "beta": 0.1}), "beta is 0.1");
+    assert_errors::<Newmark>(json!({"gamma": 0.5, "beta": 0.1}), "beta is 0.1");
     assert_round_trip(&DissipativeMidpoint::new(0.7).unwrap());
-    assert_refused::<DissipativeMidpoint>(json!({"gamma": 0.4}), "gamma is 0.4");
+    assert_errors::<DissipativeMidpoint>(json!({"gamma": 0.4}), "gamma is 0.4");
     assert_round_trip(&HhtAlpha::new(-0.1).unwrap());
-    assert_refused::<HhtAlpha>(json!({"alpha": 0.1}), "alpha is 0.1");
+    assert_errors::<HhtAlpha>(json!({"alpha": 0.1}), "alpha is 0.1");
     assert_round_trip(&RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap());
-    assert_refused::<RayleighDamping>(json!({"mass": -1.0, "stiffness": 0.0}), "mass-proportional");
+    assert_errors::<RayleighDamping>(json!({"mass": -1.0, "stiffness": 0.0}), "mass-proportional");
     assert_round_trip(&ModalDamping::new(&[0.05, 0.02]).unwrap());
-    assert_refused::<ModalDamping>(json!({"ratios": []}), "list of damping ratios");
+    assert_errors::<ModalDamping>(json!({"ratios": []}), "list of damping ratios");
     assert_round_trip(&Strip::graded(-5.0..5.0, 7).unwrap());
-    assert_refused::<Strip>(json!({"nodes": [0.0, 1.0, 1.0]}), "length of a contact element");
+    assert_errors::<Strip>(json!({"nodes": [0.0, 1.0, 1.0]}), "length of a contact element");
     let limits =
         Serviceability { slip: Some(5e-3), rotation: Some(0.05), ..Serviceability::default() };
     assert_round_trip(&limits);
@@ -233,10 +231,10 @@ fn schemes_dampings_strips_and_limits() {
         Serviceability::default()
     );
     for name in ["slip", "gap", "uplifted_fraction", "rotation"] {
-        assert_refused::<Serviceability>(json!({ name: -1.0 }), "allowable");
+        assert_errors::<Serviceability>(json!({ name: -1.0 }), "allowable");
         assert_round_trip(&serde_json::from_value::<Serviceability>(json!({ name: 0.5 })).unwrap());
     }
-    assert_refused::<Serviceability>(json!({"slipp": 1.0}), "unknown field `slipp`");
+    assert_errors::<Serviceability>(json!({"slipp": 1.0}), "unknown field `slipp`");
     assert_round_trip(&Recorder::new().every(2).contact(10));
     let recorder: Recorder = serde_json::from_value(json!({"motion": 5})).unwrap();
     assert_eq!(recorder, Recorder::new().motion(5));
@@ -309,7 +307,7 @@ fn probes_storeys_layers_and_formats_of_files() {
     let form = json!({"name": "roof", "unit": "m/s²", "acceleration": [[7, 1.0]]});
     let probe: Probe = serde_json::from_value(form).unwrap();
     assert_eq!(probe, Probe::acceleration("roof", 7));
-    assert_refused::<Probe>(json!({"nam": "roof"}), "unknown field `nam`");
+    assert_errors::<Probe>(json!({"nam": "roof"}), "unknown field `nam`");
     assert_form(&DofCombination::from([(3, 1.0), (0, -0.5)]), json!([[3, 1.0], [0, -0.5]]));
     let storey = json!({"height": 3.0, "mass": 2e4, "stiffness": 4e7});
     assert_eq!(serde_json::from_value::<Storey>(storey).unwrap(), Storey::new(3.0, 2e4, 4e7));
@@ -360,6 +358,6 @@ fn records_are_written_as_their_samples() {
         (json!({"time_step": 0.1, "acceleration": [0.0, null]}), "invalid type: null"),
         (json!({"time_step": 1e200, "acceleration": [0.0, 1e200]}), "of the record is inf"),
     ] {
-        assert_refused::<Record>(form, reason);
+        assert_errors::<Record>(form, reason);
     }
 }

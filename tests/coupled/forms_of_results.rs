@@ -38,14 +38,14 @@ fn simulation_after_run() -> Simulation {
 fn runs_are_read_as_written() {
     let (simulation, run) = run_block();
     let text = serde_json::to_string(&run).unwrap();
-    let mut reread: Run = serde_json::from_str(&text).unwrap();
+    let mut run_read: Run = serde_json::from_str(&text).unwrap();
     assert!(count_closed_objects::<Run>(&serde_json::from_str(&text).unwrap()) > 20);
     count_closed_objects::<Checkpoint>(
         &serde_json::to_value(simulation.checkpoint().unwrap()).unwrap(),
     );
-    assert_eq!(serde_json::to_string(&reread).unwrap(), text);
-    assert_eq!(reread.to_string(), run.to_string());
-    assert_eq!((reread.wall, reread.energy_balance), (run.wall, run.energy_balance));
+    assert_eq!(serde_json::to_string(&run_read).unwrap(), text);
+    assert_eq!(run_read.to_string(), run.to_string());
+    assert_eq!((run_read.wall, run_read.energy_balance), (run.wall, run.energy_balance));
     assert!(
         !run.foundations[0].sliding.events.is_empty()
             && !run.warnings.is_empty()
@@ -64,11 +64,11 @@ fn runs_are_read_as_written() {
     assert_round_trip(&run.warnings);
     assert_round_trip(&simulation.conditioning());
 
-    // A run that is read records no more states, and ending it again changes nothing.
-    reread.record(simulation.state());
-    assert_eq!(reread.steps, run.steps);
-    let ended = simulation.end_run(reread);
-    assert_eq!(serde_json::to_string(&ended).unwrap(), text);
+    // A run that was read records no further states, and ending it again changes nothing.
+    run_read.record(simulation.state());
+    assert_eq!(run_read.steps, run.steps);
+    let ended_run = simulation.end_run(run_read);
+    assert_eq!(serde_json::to_string(&ended_run).unwrap(), text);
 }
 
 #[test]
@@ -78,28 +78,28 @@ fn time_series_are_read_as_written() {
     simulation.run(40, |state| series.record(state)).unwrap();
     let form = serde_json::to_value(&series).unwrap();
     assert!(count_closed_objects::<TimeSeries>(&form) > 20);
-    let mut reread: TimeSeries = serde_json::from_value(form.clone()).unwrap();
-    assert_eq!(serde_json::to_value(&reread).unwrap(), form);
-    assert_eq!(reread.times(), series.times());
+    let mut series_read: TimeSeries = serde_json::from_value(form.clone()).unwrap();
+    assert_eq!(serde_json::to_value(&series_read).unwrap(), form);
+    assert_eq!(series_read.times(), series.times());
     let safety = Quantity::OverturningSafety;
-    assert_eq!(reread.series(safety), series.series(safety));
-    assert_eq!(reread.contact_frames().count(), 21);
-    assert!(reread.contact_frames().eq(series.contact_frames()));
-    assert!(reread.motion_frames().eq(series.motion_frames()));
+    assert_eq!(series_read.series(safety), series.series(safety));
+    assert_eq!(series_read.contact_frames().count(), 21);
+    assert!(series_read.contact_frames().eq(series.contact_frames()));
+    assert!(series_read.motion_frames().eq(series.motion_frames()));
     // An acceleration has a record if every step up to the end is there.
-    assert_eq!(reread.acceleration_record("roof").map(|record| record.len()), Ok(41));
+    assert_eq!(series_read.acceleration_record("roof").map(|record| record.len()), Ok(41));
     let mut form_of_later_end = form.clone();
     form_of_later_end["end"] = json!(series.times()[40] + 1.0);
     let incomplete: TimeSeries = serde_json::from_value(form_of_later_end).unwrap();
     assert!(incomplete.acceleration_record("roof").is_err());
-    // A series that is read records no more steps.
+    // A series that was read records no further steps.
     simulation.step().unwrap();
-    reread.record(simulation.state()).unwrap();
-    assert_eq!(reread.times().len(), 41);
+    series_read.record(simulation.state()).unwrap();
+    assert_eq!(series_read.times().len(), 41);
 }
 
 #[test]
-fn time_series_of_unequal_lists_are_refused() {
+fn time_series_of_unequal_lists_are_errors() {
     let mut simulation = simulation_after_run();
     let mut series = Recorder::new().contact(2).motion(5).start(&simulation).unwrap();
     simulation.run(40, |state| series.record(state)).unwrap();
@@ -111,14 +111,14 @@ fn time_series_of_unequal_lists_are_refused() {
         ("energy_balances", "list of energy balances has length 40, but must have 41"),
         ("elements", "whole frames"),
     ] {
-        let mut short = form.clone();
-        short[list].as_array_mut().unwrap().pop().unwrap();
-        let error = serde_json::from_value::<TimeSeries>(short).unwrap_err().to_string();
+        let mut short_form = form.clone();
+        short_form[list].as_array_mut().unwrap().pop().unwrap();
+        let error = serde_json::from_value::<TimeSeries>(short_form).unwrap_err().to_string();
         assert!(error.contains(reason), "{list}: {error}");
     }
-    let mut short = form;
-    short["probe_values"][0].as_array_mut().unwrap().pop().unwrap();
-    assert!(serde_json::from_value::<TimeSeries>(short).is_err());
+    let mut short_form = form;
+    short_form["probe_values"][0].as_array_mut().unwrap().pop().unwrap();
+    assert!(serde_json::from_value::<TimeSeries>(short_form).is_err());
 }
 
 #[test]

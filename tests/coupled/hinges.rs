@@ -83,9 +83,9 @@ fn a_rigid_plastic_cantilever_turns_by_its_closed_form() {
         .unwrap();
     let run = simulation.run(4000, |_| {}).unwrap();
     let peak = run.probe("top").unwrap().highest.value / COLUMN_HEIGHT;
-    let excess = force * COLUMN_HEIGHT - PLASTIC_MOMENT;
+    let excess_moment = force * COLUMN_HEIGHT - PLASTIC_MOMENT;
     let expected =
-        force * excess * duration * duration / (2.0 * mass * COLUMN_HEIGHT * PLASTIC_MOMENT);
+        force * excess_moment * duration * duration / (2.0 * mass * COLUMN_HEIGHT * PLASTIC_MOMENT);
     println!("{peak} for {expected}, energy open by {:.1e}", run.energy_error);
     assert!((peak / expected - 1.0).abs() < 5e-3, "{peak} {expected}");
     assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
@@ -148,8 +148,8 @@ fn a_portal_becomes_a_mechanism_of_four_hinges() {
     let (model, top) = portal(1.0e13, 1.0e3, &hinge).unwrap();
     let displacement = 0.08;
     let force = pushed(&model, top, displacement);
-    let plastic = displacement / COLUMN_HEIGHT - PLASTIC_MOMENT / stiffness;
-    let moment = PLASTIC_MOMENT + hardening_ratio * stiffness * plastic;
+    let plastic_rotation = displacement / COLUMN_HEIGHT - PLASTIC_MOMENT / stiffness;
+    let moment = PLASTIC_MOMENT + hardening_ratio * stiffness * plastic_rotation;
     let expected = 4.0 * moment / COLUMN_HEIGHT;
     println!("{force} for {expected}");
     assert!((force / expected - 1.0).abs() < 1e-3, "{force} {expected}");

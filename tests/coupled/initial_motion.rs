@@ -1,4 +1,4 @@
-//! GOAL: runs begin with the motion they are told: its energy, its fall and its landing.
+//! GOAL: runs begin with the prescribed motion: its energy, its fall and its landing.
 //! SCENE: buildings that are struck, blocks that are dropped or tilted and released.
 //! REFERENCE: energy, free fall, Housner's block.
 
@@ -47,15 +47,18 @@ fn an_initial_velocity_is_the_energy_that_a_run_begins_with() {
             assert!((acceleration - expected).abs() < 1e-9, "{acceleration} {expected}");
             let run = simulation.run(1000, |_| {}).unwrap();
             assert!(run.energy_error < 1e-9, "{run}");
-            // The soil has taken the rest.
+            // The soil has absorbed the other part of the energy.
             let energy_balance = simulation.state().energy_balance;
-            let remaining = energy_balance.kinetic + energy_balance.strain;
-            assert!(remaining < 0.9 * (kinetic + strain) && energy_balance.soil > 0.0, "{run}");
+            let remaining_energy = energy_balance.kinetic + energy_balance.strain;
+            assert!(
+                remaining_energy < 0.9 * (kinetic + strain) && energy_balance.soil > 0.0,
+                "{run}"
+            );
         }
     }
 }
 
-/// A block falls freely until it lands, h = g t²/2, and then bounces no higher.
+/// A block falls freely, h = g t²/2, until it lands, and then bounces to less than half of h.
 #[test]
 fn a_dropped_block_falls_freely_and_lands() {
     let height = 0.05;
@@ -74,9 +77,9 @@ fn a_dropped_block_falls_freely_and_lands() {
         let expected = height - 0.5 * STANDARD_GRAVITY * state.time.powi(2);
         assert!((state.displacement()[1] - expected).abs() < 1e-12, "{}", state.time);
     }
-    let mut highest = 0.0_f64;
-    let run = simulation.run(600, |state| highest = highest.max(state.contact[3].gap)).unwrap();
-    assert!(run.energy_error < 1e-9 && highest < 0.5 * height, "{highest}");
+    let mut max_gap = 0.0_f64;
+    let run = simulation.run(600, |state| max_gap = max_gap.max(state.contact[3].gap)).unwrap();
+    assert!(run.energy_error < 1e-9 && max_gap < 0.5 * height, "{max_gap}");
     // At the end the soil carries the weight.
     assert!((simulation.state().normal_force / BLOCK_WEIGHT - 1.0).abs() < 0.01, "{run}");
 }
@@ -96,7 +99,7 @@ fn a_weight_that_acts_from_the_start_accelerates_at_once() {
         let simulation = builder.build().unwrap();
         assert!((simulation.state().acceleration()[1] + STANDARD_GRAVITY).abs() < 1e-9);
     }
-    // A law that needs a static pressure is refused where there is none.
+    // A law that needs a static pressure is an error where there is none.
     let layer =
         ThinLayer::new(soil(), 1.0, 0.4).unwrap().with_friction_limit(FrictionLimit::Static);
     assert!(falling_block().interface(layer).build().is_err());
@@ -107,7 +110,7 @@ fn housner_block() -> RockingBlock {
     RockingBlock::new(0.5, 2.0, STANDARD_GRAVITY).unwrap()
 }
 
-/// Angle of release of the slender block.
+/// Tilt at which the slender block is released.
 fn initial_tilt() -> f64 {
     0.3 * housner_block().slenderness_angle()
 }
@@ -171,8 +174,11 @@ fn a_tilted_block_rocks_as_housner_s_on_stiff_soil() {
             "{speed} m/s: quarter {quarter_period_ratio:.4}, loss {loss:.4} ({fewer_elements:.4} \
              {shorter_steps:.4})"
         );
-        for other in [fewer_elements, shorter_steps] {
-            assert!(((1.0 - other) / loss - 1.0).abs() < 0.05, "{speed}: {loss} {other}");
+        for refined_ratio in [fewer_elements, shorter_steps] {
+            assert!(
+                ((1.0 - refined_ratio) / loss - 1.0).abs() < 0.05,
+                "{speed}: {loss} {refined_ratio}"
+            );
         }
         losses.push(loss);
     }

@@ -77,7 +77,7 @@ fn exact_displacements(record: &Record, period: f64, ratio: f64) -> Vec<f64> {
 /// Largest error of the drift on a fixed base, in this many steps per sample of the record.
 fn drift_error(record: &Record, period: f64, ratio: f64, steps_per_sample: u32) -> f64 {
     let expected = exact_displacements(record, period, ratio);
-    let largest = largest_absolute(&expected);
+    let max_magnitude = largest_absolute(&expected);
     let building = oscillator(period, ratio, 4.0);
     let probe = Probe::displacement("drift", building.drift(0).unwrap());
     let time_step = record.time_step() / f64::from(steps_per_sample);
@@ -88,10 +88,10 @@ fn drift_error(record: &Record, period: f64, ratio: f64, steps_per_sample: u32) 
     let steps = (expected.len() - 1) * steps_per_sample as usize;
     let run = simulation.run(steps, |state| series.record(state)).unwrap();
     assert!(run.energy_error < 1e-9 && run.whole.uplifted_fraction.highest.value == 0.0);
-    assert!(run.whole.base_rotation.magnitude() < 1e-6 * largest / BASE_WIDTH);
+    assert!(run.whole.base_rotation.magnitude() < 1e-6 * max_magnitude / BASE_WIDTH);
     let pairs = series.probe("drift").unwrap().iter().zip(&expected);
     let errors: Vec<f64> = pairs.map(|(computed, expected)| computed - expected).collect();
-    largest_absolute(&errors) / largest
+    largest_absolute(&errors) / max_magnitude
 }
 
 /// Errors fall to a quarter with half the step, as by the midpoint rule.

@@ -64,7 +64,7 @@ fn one_undamped_half_plane_is_the_closed_form_to_the_last_bit() {
     let by_soil = run_half_plane(graded_ground(soil(SI_UNITS), 8));
     assert!(by_profile.states == by_soil.states);
     assert!(by_profile.choice == by_soil.choice && by_soil.choice.unwrap().stages.is_none());
-    // Convolution quadrature takes the place of the closed form on request, and is close.
+    // On request convolution quadrature replaces the closed form, with nearly the same results.
     let by_quadrature = run_half_plane(graded_ground(profile, 8).with_stages(Stages::Two));
     assert_eq!(by_quadrature.choice.unwrap().stages, Some(2));
     let ratio = largest_shear(&by_quadrature.states) / largest_shear(&by_soil.states);
@@ -87,9 +87,9 @@ fn interrupted_and_resumed_runs_have_the_same_bits() {
             let mut second = with_history(history);
             second.run(17, |_| {}).unwrap();
             second.resume(&checkpoint).unwrap();
-            let resumed = states(&mut second, 300 - interruption);
+            let resumed_states = states(&mut second, 300 - interruption);
             assert!(
-                resumed[1..] == expected[interruption + 1..],
+                resumed_states[1..] == expected[interruption + 1..],
                 "{history:?}, interrupted at {interruption}"
             );
         }
@@ -107,13 +107,13 @@ fn the_stages_are_described_and_follow_the_rule() {
     let two_stages = choice(layered(3), 0.002);
     assert_eq!(two_stages.stages, Some(2));
     assert!(two_stages.to_string().contains("Radau IIA of 2 stages"), "{two_stages}");
-    // n (ωΔt)⁴/72 = 1.3e-3 for 3 m and back at 178 m/s in steps of 6 ms.
+    // n (ωΔt)⁴/72 = 1.3e-3 for the way of 6 m to the rock and back at 178 m/s in steps of 6 ms.
     assert_eq!(choice(layered(3), 0.006).stages, Some(3));
     assert_eq!(choice(layered(3).with_stages(Stages::Two), 0.006).stages, Some(2));
 }
 
 #[test]
-fn exponentials_are_refused() {
+fn exponentials_are_errors() {
     let mut ground = layered(3).with_history(HistoryMethod::Exponentials).unwrap();
     let error = ground.prepare(0.002, None, &mut unobserved).unwrap_err();
     assert!(matches!(error, Error::Scene { quantity: "history by exponentials", .. }), "{error}");
@@ -129,36 +129,40 @@ fn run_with_kernels(kernels: &SharedKernels, coefficient: f64) -> Vec<State> {
 /// Equal profiles share one kernel in a sweep; other stages, tolerances and laws have separate ones.
 #[test]
 fn shared_kernels_are_distinguished_and_change_no_bit() {
-    let shared = SharedKernels::default();
+    let kernels = SharedKernels::default();
     let coefficients = [0.2, 0.4, f64::INFINITY];
     let mut results = vec![vec![]; coefficients.len()];
     Sweep::new(coefficients.len()).run(
-        |case| Ok::<_, Error>(run_with_kernels(&shared, coefficients[case.index])),
+        |case| Ok::<_, Error>(run_with_kernels(&kernels, coefficients[case.index])),
         |index, states| results[index] = states.unwrap(),
     );
-    assert_eq!(shared.count(), 1);
+    assert_eq!(kernels.count(), 1);
     for (states, coefficient) in results.iter().zip(coefficients) {
         let expected = run_with_kernels(&SharedKernels::default(), coefficient);
         assert!(*states == expected, "friction {coefficient}");
     }
-    let others = [
+    let other_grounds = [
         layered(6).with_stages(Stages::Three),
         layered(6).with_tolerance(1e-8).unwrap(),
         graded_ground(profile().with_bedrock_damping(constant_q(0.02)), 6),
     ];
-    for (index, ground) in others.into_iter().enumerate() {
+    for (index, ground) in other_grounds.into_iter().enumerate() {
         ground
-            .with_shared_kernels(&shared)
+            .with_shared_kernels(&kernels)
             .prepare(TIME_STEP, None, &mut unobserved)
             .unwrap();
-        assert_eq!(shared.count(), 2 + index);
+        assert_eq!(kernels.count(), 2 + index);
     }
 }
 
 #[test]
 fn two_foundations_interact_through_the_layers() {
-    let other = RigidBlock::new(3.0, 5.0, 1500.0).unwrap();
-    let pair = StructureGroup::new().with(block(SI_UNITS), -4.0).unwrap().with(other, 3.0).unwrap();
+    let other_block = RigidBlock::new(3.0, 5.0, 1500.0).unwrap();
+    let pair = StructureGroup::new()
+        .with(block(SI_UNITS), -4.0)
+        .unwrap()
+        .with(other_block, 3.0)
+        .unwrap();
     let ground =
         ElasticGround::new(profile(), Strip::under(&pair, 4, Grading::Uniform).unwrap()).unwrap();
     assert_eq!(ground.elements().len(), 8);
@@ -207,10 +211,10 @@ fn neighbour_weights(profile: SoilProfile) -> [Vec<f64>; 3] {
 fn layers_are_half_planes_until_waves_return() {
     let layer = neighbour_weights(layer_on_rock(6.0));
     let half_plane = neighbour_weights(SoilProfile::on_half_plane(upper_soil()));
-    let largest = half_plane[0].iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let tolerance = 10.0 * (1e-10_f64.powf(2.0 / 3.0) + 1e-10) * largest;
+    let max_magnitude = half_plane[0].iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+    let tolerance = 10.0 * (1e-10_f64.powf(2.0 / 3.0) + 1e-10) * max_magnitude;
     for (computed, expected) in layer.iter().zip(&half_plane) {
-        // Pressure waves return after 12/1.87 = 6.4: the method's fronts come a little early.
+        // Pressure waves return after 12/1.87 = 6.4; the fronts of the method arrive a little earlier.
         for lag in 0..50 {
             let error = (computed[lag] - expected[lag]).abs();
             assert!(error < tolerance, "lag {}: {error:e} of {tolerance:e}", lag + 1);
@@ -241,25 +245,25 @@ fn thick_layers_tend_to_the_half_plane() {
     assert!(previous.iter().all(|error| *error < 1e-2), "{previous:?}");
 }
 
-/// A soft layer over rock radiates less than a half-plane of its soil, and more of the base uplifts.
+/// A soft layer over rock radiates less than a half-plane of its soil, and a larger part of the base uplifts.
 ///
 /// Damping of the layer reduces the difference.
 #[test]
 fn a_layer_on_rock_uplifts_more_than_the_half_plane() {
-    let soft = Soil::from_shear_wave_speed(150.0, 1.0 / 3.0, 1800.0).unwrap();
+    let soft_soil = Soil::from_shear_wave_speed(150.0, 1.0 / 3.0, 1800.0).unwrap();
     let rock = Soil::from_shear_wave_speed(500.0, 0.3, 2200.0).unwrap();
-    let plane = SoilProfile::on_half_plane(soft);
-    let elastic = SoilProfile::on_half_plane(rock).with_layer(soft, 6.0).unwrap();
-    let damped =
+    let plane = SoilProfile::on_half_plane(soft_soil);
+    let elastic = SoilProfile::on_half_plane(rock).with_layer(soft_soil, 6.0).unwrap();
+    let damped_layer =
         elastic.clone().with_damping(constant_q(0.05)).with_bedrock_damping(constant_q(0.01));
     // Base shear (kN/m) and open elements of 12, with coefficients of another program.
     for (name, profile, sliding, shear, open) in [
         ("half-plane", &plane, false, 224.9, 7.0),
         ("elastic layer on rock", &elastic, false, 274.5, 10.0),
-        ("damped layer on rock", &damped, false, 239.0, 8.0),
+        ("damped layer on rock", &damped_layer, false, 239.0, 8.0),
         ("half-plane", &plane, true, 164.5, 4.0),
         ("elastic layer on rock", &elastic, true, 175.7, 6.0),
-        ("damped layer on rock", &damped, true, 167.1, 5.0),
+        ("damped layer on rock", &damped_layer, true, 167.1, 5.0),
     ] {
         let law = if sliding { Coulomb::new(0.3).unwrap() } else { Coulomb::uplift_only() };
         let ground =

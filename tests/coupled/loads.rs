@@ -1,4 +1,4 @@
-//! GOAL: loads and static stages are what mechanics says, and the energy balance contains them.
+//! GOAL: loads and static stages follow mechanics, and the energy balance contains them.
 //! SCENE: blocks, frames and towers that are pushed, pulled and released.
 //! REFERENCE: statics, a structure that carries the same load itself, energy.
 
@@ -45,9 +45,9 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
 
     let roof = DofCombination::from(building(5).roof());
     let law = Coulomb::new(0.6).unwrap();
-    let pulled =
+    let pulled_building =
         StructureWithForce { structure: building(5), along: roof.clone(), force: roof_force };
-    let mut by_structure = on_half_plane(pulled).interface(law).build().unwrap();
+    let mut by_structure = on_half_plane(pulled_building).interface(law).build().unwrap();
     // Two loads, of which one is rounded otherwise.
     let mut by_builder = on_half_plane(building(5))
         .interface(law)
@@ -60,9 +60,9 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
     assert!(structure_run.whole.uplifted_fraction.largest().value > 0.1, "{structure_run}");
     let expected = by_structure.state().displacement();
     let computed = by_builder.state().displacement();
-    let largest = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let max_magnitude = expected.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
     assert!(
-        expected.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-10 * largest),
+        expected.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-10 * max_magnitude),
         "{expected:?} {computed:?}"
     );
     assert!(structure_run.energy_error < 1e-9 && builder_run.energy_error < 1e-9);
@@ -86,9 +86,9 @@ fn static_loads_are_carried_by_statics() {
     ] {
         let height = 3.0;
         let load = Load::constant(block().horizontal_at(height), force);
-        let down = Load::constant(block().vertical_at(1.0), -1.0e5);
+        let downward_load = Load::constant(block().vertical_at(1.0), -1.0e5);
         let mut simulation =
-            on_half_plane(block()).interface(law).load(load).load(down).build().unwrap();
+            on_half_plane(block()).interface(law).load(load).load(downward_load).build().unwrap();
         let state = simulation.state();
         assert_near(state.base_shear, force);
         assert_near(state.normal_force, BLOCK_WEIGHT + 1.0e5);
@@ -99,8 +99,8 @@ fn static_loads_are_carried_by_statics() {
         let run = simulation.run(100, |_| {}).unwrap();
         assert_near(run.whole.base_shear.magnitude(), force.abs());
         let displacement = simulation.state().displacement();
-        let largest = displacement.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        assert!(largest < 1e-9, "{largest:e} from {static_state:?}");
+        let max_magnitude = displacement.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+        assert!(max_magnitude < 1e-9, "{max_magnitude:e} from {static_state:?}");
     }
 }
 
@@ -123,7 +123,7 @@ fn elements_slide_while_a_load_is_applied() {
     assert!(elements_at_limit > 0 && elements_at_limit < 8, "{elements_at_limit}");
 }
 
-/// Tables interpolate between values whose difference overflows.
+/// Tables interpolate also between values whose difference overflows.
 #[test]
 fn tables_of_huge_values_stay_finite() {
     let load = Load::table(0, &[0.0, 1.0, 2.0], &[-1e308, 1e308, 0.0]).unwrap();
@@ -147,17 +147,17 @@ fn a_released_load_leaves_its_energy() {
     let run = simulation.run(8000, |_| {}).unwrap();
     assert!(run.energy_error < 1e-9);
     // At the end the roof has returned by F/k of the storey, and by the displacement of base and soil.
-    let returned = roof.value(simulation.state().displacement());
+    let roof_displacement = roof.value(simulation.state().displacement());
     assert!(
-        static_displacement > force / 4.0e6 && returned < -force / 4.0e6,
-        "{static_displacement} {returned}"
+        static_displacement > force / 4.0e6 && roof_displacement < -force / 4.0e6,
+        "{static_displacement} {roof_displacement}"
     );
     // The storey stores half of the work of −F; the other half is radiated.
     let energy_balance = simulation.state().energy_balance;
     let stored = 0.5 * 4.0e6 * (force / 4.0e6_f64).powi(2);
     assert!((energy_balance.strain / stored - 1.0).abs() < 1e-2, "{energy_balance}");
     assert!(
-        energy_balance.soil > stored && energy_balance.soil < 2.0 * -force * returned,
+        energy_balance.soil > stored && energy_balance.soil < 2.0 * -force * roof_displacement,
         "{energy_balance}"
     );
 }
@@ -207,12 +207,12 @@ fn hysteretic_storeys_start_from_their_static_state() {
         .load(Load::released(roof.clone(), 15.0e3))
         .build()
         .unwrap();
-    let mut dissipated = simulation.state().energy_balance.hysteresis;
+    let mut dissipated_energy = simulation.state().energy_balance.hysteresis;
     let run = simulation
         .run(400, |state| {
             let energy_balance = state.energy_balance;
-            assert!(energy_balance.hysteresis >= dissipated - 1e-9, "{energy_balance}");
-            dissipated = energy_balance.hysteresis;
+            assert!(energy_balance.hysteresis >= dissipated_energy - 1e-9, "{energy_balance}");
+            dissipated_energy = energy_balance.hysteresis;
         })
         .unwrap();
     assert!(run.energy_error < 1e-9);
@@ -233,17 +233,17 @@ fn dropped_block(gravity: f64) -> Simulation {
         .unwrap()
 }
 
-/// Runs with loads and initial motion resume to the last bit; another weight is refused.
+/// Runs with loads and initial motion resume to the last bit; another weight is an error.
 #[test]
 fn runs_with_loads_and_initial_motion_resume() {
-    let mut uninterrupted = dropped_block(STANDARD_GRAVITY);
-    uninterrupted.run(77, |_| {}).unwrap();
-    let checkpoint = uninterrupted.checkpoint().unwrap();
-    uninterrupted.run(100, |_| {}).unwrap();
-    let mut resumed = dropped_block(STANDARD_GRAVITY);
-    resumed.resume(&checkpoint).unwrap();
-    resumed.run(100, |_| {}).unwrap();
-    assert_eq!(resumed.state(), uninterrupted.state());
+    let mut uninterrupted_simulation = dropped_block(STANDARD_GRAVITY);
+    uninterrupted_simulation.run(77, |_| {}).unwrap();
+    let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
+    uninterrupted_simulation.run(100, |_| {}).unwrap();
+    let mut resumed_simulation = dropped_block(STANDARD_GRAVITY);
+    resumed_simulation.resume(&checkpoint).unwrap();
+    resumed_simulation.run(100, |_| {}).unwrap();
+    assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
     let error = dropped_block(1.62).resume(&checkpoint).unwrap_err();
     assert!(error.to_string().contains("static state"), "{error}");
 }
@@ -279,35 +279,38 @@ fn a_load_that_is_set_acts_from_then_on() {
     assert!(by_function.state().base_shear.abs() > 50.0e3);
 
     // A checkpoint and `None` restore the load's function.
-    let mut unloaded = block_under_two_loads(|_| 0.0);
+    let mut simulation_with_function = block_under_two_loads(|_| 0.0);
     by_setting.resume(&start).unwrap();
     let mut unset = block_under_two_loads(|_| 0.0);
     unset.set_load(1, 1e6).unwrap();
     unset.set_load(1, None).unwrap();
-    for simulation in [&mut by_setting, &mut unset, &mut unloaded] {
+    for simulation in [&mut by_setting, &mut unset, &mut simulation_with_function] {
         simulation.run(20, |_| {}).unwrap();
     }
-    assert_eq!(by_setting.state().displacement(), unloaded.state().displacement());
-    assert_eq!(unset.state().displacement(), unloaded.state().displacement());
-    let unknown = unloaded.set_load(2, 1.0).unwrap_err();
+    assert_eq!(by_setting.state().displacement(), simulation_with_function.state().displacement());
+    assert_eq!(unset.state().displacement(), simulation_with_function.state().displacement());
+    let unknown = simulation_with_function.set_load(2, 1.0).unwrap_err();
     assert!(matches!(unknown, Error::Index { index: 2, bound: 2, .. }), "{unknown}");
-    assert!(matches!(unloaded.set_load(0, f64::NAN), Err(Error::NotFinite { index: 0, .. })));
+    assert!(matches!(
+        simulation_with_function.set_load(0, f64::NAN),
+        Err(Error::NotFinite { index: 0, .. })
+    ));
 }
 
 /// A checkpoint contains the force that is set, also for another simulation.
 #[test]
 fn a_load_that_is_set_acts_after_a_checkpoint() {
-    let mut pushed = block_under_two_loads(|_| 0.0);
-    pushed.set_load(1, 100e3).unwrap();
-    pushed.run(30, |_| {}).unwrap();
-    let checkpoint = pushed.checkpoint().unwrap();
-    let mut resumed = block_under_two_loads(|_| 0.0);
-    resumed.resume(&checkpoint).unwrap();
+    let mut pushed_simulation = block_under_two_loads(|_| 0.0);
+    pushed_simulation.set_load(1, 100e3).unwrap();
+    pushed_simulation.run(30, |_| {}).unwrap();
+    let checkpoint = pushed_simulation.checkpoint().unwrap();
+    let mut resumed_simulation = block_under_two_loads(|_| 0.0);
+    resumed_simulation.resume(&checkpoint).unwrap();
     let mut with_changed_load = block_under_two_loads(|_| 0.0);
     with_changed_load.resume_changed(&checkpoint, &[Change::Load]).unwrap();
-    for simulation in [&mut pushed, &mut resumed, &mut with_changed_load] {
+    for simulation in [&mut pushed_simulation, &mut resumed_simulation, &mut with_changed_load] {
         simulation.run(20, |_| {}).unwrap();
     }
-    assert_eq!(resumed.state(), pushed.state());
-    assert_ne!(with_changed_load.state().displacement(), pushed.state().displacement());
+    assert_eq!(resumed_simulation.state(), pushed_simulation.state());
+    assert_ne!(with_changed_load.state().displacement(), pushed_simulation.state().displacement());
 }

@@ -45,6 +45,7 @@ mod sweep;
 mod travel;
 mod trench_springs;
 mod unstable_states;
+mod water;
 mod wave_passage;
 mod yielding_column;
 mod yielding_order;

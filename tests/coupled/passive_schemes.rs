@@ -1,5 +1,5 @@
 //! GOAL: the midpoint rule and its dissipative form are passive together with the soil; Newmark's method
-//! and HHT-α are not, and say so.
+//! and HHT-α are not, which causes a warning.
 //! SCENE: random forced steps; a shaken tower; a light block on soft soil; a shear building.
 //! REFERENCE: the identity of `docs/theory.md`, section 8; accelerations of the states; a run in short steps.
 
@@ -116,9 +116,9 @@ impl Matrices {
             for i in 0..n {
                 effective[i] = add_scaled(&effective[i], &matrix[i], row[0]);
             }
-            let previous = combine_each(row, &zero, &start.velocity, &start.acceleration);
-            let previous = add_scaled(&previous, offset, 1.0);
-            right = add_scaled(&right, &multiply(matrix, &previous), -1.0);
+            let force_of_the_start = combine_each(row, &zero, &start.velocity, &start.acceleration);
+            let force_of_the_start = add_scaled(&force_of_the_start, offset, 1.0);
+            right = add_scaled(&right, &multiply(matrix, &force_of_the_start), -1.0);
         }
         solve(effective, right)
     }
@@ -208,18 +208,18 @@ fn algorithmic_energy_follows_from_the_accelerations() {
     for gamma in [0.6, 0.8, 1.0] {
         let states = shaken(dissipative(gamma), 300);
         let kappa = 2.5e-3_f64.powi(2) * (beta(gamma) - 0.5 * gamma);
-        let mut dissipated = 0.0;
+        let mut dissipated_energy = 0.0;
         for pair in states.windows(2) {
             let acceleration = pair[1].acceleration();
             let change = add_scaled(acceleration, pair[0].acceleration(), -1.0);
-            dissipated += kappa * (gamma - 0.5) * mass_form(&mass, &change);
-            let expected = dissipated + 0.5 * kappa * mass_form(&mass, acceleration);
+            dissipated_energy += kappa * (gamma - 0.5) * mass_form(&mass, &change);
+            let expected = dissipated_energy + 0.5 * kappa * mass_form(&mass, acceleration);
             let energy_balance = &pair[1].energy_balance;
             let error = (energy_balance.algorithmic - expected).abs() / energy_balance.largest;
             assert!(error < 1e-11, "γ = {gamma}: {} {expected}", energy_balance.algorithmic);
         }
         let end = &states.last().unwrap().energy_balance;
-        assert!(dissipated > 1e-8 * end.largest && end.residual() < 1e-11, "{end}");
+        assert!(dissipated_energy > 1e-8 * end.largest && end.residual() < 1e-11, "{end}");
     }
 }
 
@@ -283,7 +283,7 @@ fn run_building(scheme: impl TimeScheme + 'static, time_step: f64) -> Run {
     simulation.run(steps, |_| {}).unwrap()
 }
 
-/// Newmark's coupling raises the shear of an ordinary building, and the run says so.
+/// Newmark's coupling increases the shear of an ordinary building, with a warning.
 ///
 /// The midpoint rule and its dissipative form agree.
 #[test]

@@ -14,7 +14,7 @@ const BLOCK_HEIGHT: f64 = 6.0;
 
 /// A block of ten columns on ten elements, without lateral contraction.
 ///
-/// Under its weight on smooth flat ground it is stressed in one direction only.
+/// Under its weight on frictionless flat ground it is stressed in one direction only.
 fn block_on_soil(stiffness_ratio: f64) -> Simulation {
     let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0).unwrap();
     let young = 2.0 * (1.0 + soil.poisson()) * soil.shear_modulus() * stiffness_ratio;
@@ -44,7 +44,7 @@ fn soft_structures_stand() {
 
 #[test]
 fn soft_structures_press_evenly() {
-    // On ground that is rigid beside it every column carries its own weight: p = ρ g h.
+    // On ground that is rigid compared with the block every column carries its own weight: p = ρ g h.
     let pressure = GRAVITY_ACCELERATION * MASS_DENSITY * BLOCK_HEIGHT;
     for decade in [-8, -7, -6] {
         for contact in &block_on_soil(10.0_f64.powi(decade)).state().contact {

@@ -8,7 +8,7 @@ use basemat::soil::{
 use basemat::{Complex, Soil};
 use serde_json::json;
 
-use super::forms::{assert_refused, count_closed_objects};
+use super::forms::{assert_errors, count_closed_objects};
 
 /// Relaxation law of a user whose identity may begin as that of a law of the crate.
 #[derive(Debug)]
@@ -55,17 +55,17 @@ fn profiles_with_every_law_of_the_crate() {
     let on_rock = SoilProfile::on_rigid_bedrock().with_layer(soil, 3.0).unwrap();
     for profile in [with_all_laws, on_rock, SoilProfile::on_half_plane(soil)] {
         let text = serde_json::to_string(&profile).unwrap();
-        let reread: SoilProfile = serde_json::from_str(&text).unwrap();
-        assert_eq!(damping_identities(&reread), damping_identities(&profile));
-        assert_eq!(format!("{reread:?}"), format!("{profile:?}"));
-        assert_eq!(serde_json::to_string(&reread).unwrap(), text);
+        let profile_read: SoilProfile = serde_json::from_str(&text).unwrap();
+        assert_eq!(damping_identities(&profile_read), damping_identities(&profile));
+        assert_eq!(format!("{profile_read:?}"), format!("{profile:?}"));
+        assert_eq!(serde_json::to_string(&profile_read).unwrap(), text);
         assert!(count_closed_objects::<SoilProfile>(&serde_json::to_value(&profile).unwrap()) > 2);
     }
-    let rigid = json!({"layers": [], "bedrock": "rigid"});
-    assert_refused::<SoilProfile>(rigid, "list of soil layers has length 0");
+    let rigid_form = json!({"layers": [], "bedrock": "rigid"});
+    assert_errors::<SoilProfile>(rigid_form, "list of soil layers has length 0");
     let constants = json!({"shear_modulus": 1e8, "poisson": 0.3, "density": 2e3});
     let layer = json!({"soil": constants, "thickness": -1.0, "damping": "elastic"});
-    assert_refused::<SoilProfile>(json!({"layers": [layer], "bedrock": "rigid"}), "thickness");
+    assert_errors::<SoilProfile>(json!({"layers": [layer], "bedrock": "rigid"}), "thickness");
 
     for identity in [None, Some(vec![]), Some(vec![17.0]), Some(vec![4.0, 1.0, 3.0, 0.1, 0.2, 0.3])]
     {

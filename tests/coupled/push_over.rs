@@ -122,8 +122,8 @@ fn displacements_are_met_by_their_forces() {
     }
     // The curve of pushing to the left is the mirror image.
     let to_the_left = PushControl::Displacements { targets: vec![-0.03], first_force: -20.0e3 };
-    let mirrored = scene.push_over(&to_the_left);
-    assert!((mirrored.points[1].force / curve.points[2].force + 1.0).abs() < 1e-2);
+    let mirrored_curve = scene.push_over(&to_the_left);
+    assert!((mirrored_curve.points[1].force / curve.points[2].force + 1.0).abs() < 1e-2);
 }
 
 /// Thirty forces that grow by `increment`.
@@ -136,10 +136,10 @@ fn growing_forces(increment: f64) -> PushControl {
 fn the_limits_are_overturning_and_friction() {
     let scene = BlockOnSprings::OVERTURNING_SCENE;
     let curve = scene.push_over(&growing_forces(12.0e3));
-    let [limit, beyond] = curve.limit.unwrap();
+    let [limit, force_beyond_limit] = curve.limit.unwrap();
     let expected = BLOCK_WEIGHT * (2.5 - 0.5 * 5.0 / scene.elements as f64) / 8.0;
     assert!(limit <= expected * 1.0001 && limit > 0.99 * expected, "{limit} {expected}");
-    assert!(beyond >= limit && beyond < limit * 1.001);
+    assert!(force_beyond_limit >= limit && force_beyond_limit < limit * 1.001);
     assert!(curve.cause.is_some_and(|cause| cause.contains("overturn")));
     assert!(curve.points[curve.points.len() - 1].uplifted_fraction > 0.85);
 
@@ -149,8 +149,9 @@ fn the_limits_are_overturning_and_friction() {
     assert!((limit / expected - 1.0).abs() < 1e-3, "{limit} {expected}");
     assert!(curve.cause.is_some_and(|cause| cause.contains("pushes it off")));
     // A curve by displacements ends at the same force.
-    let far = PushControl::Displacements { targets: vec![1e-4, 50.0], first_force: 1e3 };
-    let limit = BlockOnSprings::SLIDING_SCENE.push_over(&far).limit.unwrap()[0];
+    let displacement_control =
+        PushControl::Displacements { targets: vec![1e-4, 50.0], first_force: 1e3 };
+    let limit = BlockOnSprings::SLIDING_SCENE.push_over(&displacement_control).limit.unwrap()[0];
     assert!((limit / expected - 1.0).abs() < 1e-3, "{limit} {expected}");
 }
 
@@ -195,7 +196,7 @@ fn coarse_scene(force: f64) -> Result<Simulation> {
 }
 
 #[test]
-fn wrong_paths_are_refused() {
+fn wrong_paths_are_errors() {
     let top = RigidBlock::new(5.0, 8.0, 2000.0).unwrap().horizontal_at(8.0);
     let no_forces = push_over(&top, &PushControl::Forces(vec![]), coarse_scene);
     assert!(matches!(no_forces, Err(Error::Size { .. })));

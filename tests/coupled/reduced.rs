@@ -82,12 +82,12 @@ fn bonded_tower() -> SimulationBuilder {
 
 #[test]
 fn bonded_towers_keep_the_tolerance() {
-    let mut previous = f64::INFINITY;
+    let mut previous_error = f64::INFINITY;
     for tolerance in [1e-3, 1e-5, 1e-8] {
         let errors = errors(bonded_tower, tolerance);
         assert_below(&errors, tolerance);
-        assert!(errors[3] < previous, "{errors:?}");
-        previous = 0.3 * errors[3];
+        assert!(errors[3] < previous_error, "{errors:?}");
+        previous_error = 0.3 * errors[3];
     }
     // Without a tolerance nothing is reduced.
     let auto = run_states(bonded_tower().expected_steps(RUN_STEPS), Coordinates::Auto);
@@ -207,9 +207,9 @@ fn loads_that_jump_keep_it() {
 
 /// Two towers of different damping beside each other.
 fn two_towers() -> StructureGroup {
-    let softer = RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap();
+    let softer_damping = RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap();
     let left = undamped_tower(-7.0..-3.0, 10, 20).with_rayleigh(damping());
-    let right = undamped_tower(3.0..8.0, 12, 20).with_rayleigh(softer);
+    let right = undamped_tower(3.0..8.0, 12, 20).with_rayleigh(softer_damping);
     StructureGroup::new().with(left, 0.0).unwrap().with(right, 0.0).unwrap()
 }
 
@@ -232,16 +232,16 @@ fn sliding_tower(tolerance: f64) -> Simulation {
 
 #[test]
 fn runs_resume_to_the_bit() {
-    let mut uninterrupted = sliding_tower(1e-5);
-    uninterrupted.run(100, |_| {}).unwrap();
-    let checkpoint = uninterrupted.checkpoint().unwrap();
-    uninterrupted.run(100, |_| {}).unwrap();
-    let mut resumed = sliding_tower(1e-5);
-    resumed.resume(&checkpoint).unwrap();
-    resumed.run(100, |_| {}).unwrap();
-    assert_eq!(resumed.state(), uninterrupted.state());
-    let refused = sliding_tower(1e-8).resume(&checkpoint);
-    assert!(matches!(refused, Err(Error::Checkpoint(_))));
+    let mut uninterrupted_simulation = sliding_tower(1e-5);
+    uninterrupted_simulation.run(100, |_| {}).unwrap();
+    let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
+    uninterrupted_simulation.run(100, |_| {}).unwrap();
+    let mut resumed_simulation = sliding_tower(1e-5);
+    resumed_simulation.resume(&checkpoint).unwrap();
+    resumed_simulation.run(100, |_| {}).unwrap();
+    assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
+    let result = sliding_tower(1e-8).resume(&checkpoint);
+    assert!(matches!(result, Err(Error::Checkpoint(_))));
 }
 
 fn small_building() -> ShearBuilding {
@@ -291,7 +291,7 @@ impl Structure for DampedTowerWithDashpot {
     }
 }
 
-/// Why this bonded scene cannot be reduced.
+/// Error of this bonded scene in reduced coordinates.
 fn error_of_reduction(builder: SimulationBuilder, tolerance: f64) -> Error {
     let builder = builder.interface(Bonded).motion(el_centro_1940());
     match builder.coordinates(reduced(tolerance)).build() {
@@ -317,9 +317,9 @@ fn structures_that_cannot_be_reduced_are_named() {
 }
 
 #[test]
-fn tolerances_that_cannot_be_reached_are_refused() {
-    let undamped = scene(SI_UNITS, 0.1).structure(undamped_tower(-2.0..2.0, 20, 25));
-    let error = error_of_reduction(undamped.probe(Probe::acceleration("roof", roof())), 1e-3);
+fn tolerances_that_cannot_be_reached_are_errors() {
+    let undamped_scene = scene(SI_UNITS, 0.1).structure(undamped_tower(-2.0..2.0, 20, 25));
+    let error = error_of_reduction(undamped_scene.probe(Probe::acceleration("roof", roof())), 1e-3);
     assert!(matches!(error, Error::Accuracy { reached, .. } if reached > 1e-3), "{error}");
     let error = error_of_reduction(scene(SI_UNITS, 0.1).structure(tower()), 1e-15);
     let Error::Accuracy { tolerance, reached, remedy, .. } = &error else {

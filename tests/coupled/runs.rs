@@ -58,7 +58,7 @@ fn all_ways_to_run_have_the_same_summary() {
     }
     assert_eq!(summary(stepped.end_run(run)), expected);
 
-    // In parts, which the run and the time series observe.
+    // A run in parts, of which run and time series record all states.
     let mut parts = rocking_block();
     let mut run = parts.begin_run();
     let mut time_series = Recorder::new().start(&parts).unwrap();
@@ -87,31 +87,31 @@ fn disk_full() -> Error {
 
 #[test]
 fn observers_stop_and_fail() {
-    let mut stopped = rocking_block();
-    let run = stopped.run(RUN_STEPS, break_at_uplift).unwrap();
+    let mut stopped_simulation = rocking_block();
+    let run = stopped_simulation.run(RUN_STEPS, break_at_uplift).unwrap();
     assert!(run.steps > 0 && run.steps < RUN_STEPS && run.whole.uplift.count == 1);
-    assert!(is_uplifted(stopped.state()));
+    assert!(is_uplifted(stopped_simulation.state()));
 
     // The run returns the observer's error and keeps the steps before it.
-    let mut failed = rocking_block();
-    let mut steps_before = failed.begin_run();
-    let result = failed.run(RUN_STEPS, |state| {
+    let mut failed_simulation = rocking_block();
+    let mut steps_before = failed_simulation.begin_run();
+    let result = failed_simulation.run(RUN_STEPS, |state| {
         steps_before.record(state);
         if is_uplifted(state) { Err(disk_full()) } else { Ok(()) }
     });
     assert_eq!(result.unwrap_err(), disk_full());
-    assert_eq!(failed.state(), stopped.state());
-    assert_eq!(summary(failed.end_run(steps_before)), summary(run));
+    assert_eq!(failed_simulation.state(), stopped_simulation.state());
+    assert_eq!(summary(failed_simulation.end_run(steps_before)), summary(run));
 
-    // An observer that may do both.
-    let mut both = rocking_block();
-    let run = both.run(RUN_STEPS, |state| {
+    // An observer may both stop and fail the run.
+    let mut simulation_with_both = rocking_block();
+    let run = simulation_with_both.run(RUN_STEPS, |state| {
         if state.time < 0.0 {
             return Err(disk_full());
         }
         Ok(break_at_uplift(state))
     });
-    assert_eq!(run.unwrap().end, stopped.state().time);
+    assert_eq!(run.unwrap().end, stopped_simulation.state().time);
 }
 
 #[test]

@@ -21,9 +21,9 @@ fn amplification(scheme: &dyn TimeScheme, omega: f64) -> [[f64; 3]; 3] {
         let u = unit[0];
         let v = unit[1];
         let a = unit[2];
-        let previous =
+        let start_force =
             combine(acceleration, 0.0, v, a) + square * (u + combine(displacement, 0.0, v, a));
-        let du = -previous / (acceleration[0] + square * displacement[0]);
+        let du = -start_force / (acceleration[0] + square * displacement[0]);
         matrix[0][k] = u + du;
         matrix[1][k] = combine(new_velocity, du, v, a);
         matrix[2][k] = combine(new_acceleration, du, v, a);
@@ -54,9 +54,9 @@ fn spectral_radius(m: &[[f64; 3]; 3]) -> f64 {
             let z = roots[i];
             let value = ((z - Complex::real(trace)) * z + Complex::real(minors)) * z
                 - Complex::real(determinant);
-            let others =
+            let differences =
                 (0..3).filter(|j| *j != i).fold(one, |product, j| product * (z - roots[j]));
-            roots[i] = z - value / others;
+            roots[i] = z - value / differences;
         }
     }
     roots.iter().map(|root| root.abs()).fold(0.0, f64::max)
@@ -74,8 +74,11 @@ fn spectral_radius_is_that_of_the_table() {
             let radius = spectral_radius(&amplification(&dissipative(gamma), omega));
             assert!((radius - expected).abs() < 6e-5, "γ = {gamma}, ωΔt = {omega}: {radius}");
         }
-        let stiff = spectral_radius(&amplification(&dissipative(gamma), 1e5));
-        assert!(stiff <= 1.0 + 1e-9 && stiff > 0.999, "{stiff}");
+        let radius_at_high_frequency = spectral_radius(&amplification(&dissipative(gamma), 1e5));
+        assert!(
+            radius_at_high_frequency <= 1.0 + 1e-9 && radius_at_high_frequency > 0.999,
+            "{radius_at_high_frequency}"
+        );
     }
 }
 
@@ -90,18 +93,18 @@ const FORCE_FREQUENCY: f64 = 2.0;
 fn driven_oscillator(time: f64) -> f64 {
     let omega = NATURAL_FREQUENCY;
     let ratio = DAMPING_RATIO;
-    let driven = FORCE_FREQUENCY;
-    let natural = omega * (1.0 - ratio * ratio).sqrt();
-    let stiff = omega * omega - driven * driven;
-    let drag = 2.0 * ratio * omega * driven;
-    let size = stiff * stiff + drag * drag;
-    let sine = stiff / size;
+    let force_frequency = FORCE_FREQUENCY;
+    let damped_frequency = omega * (1.0 - ratio * ratio).sqrt();
+    let stiffness_difference = omega * omega - force_frequency * force_frequency;
+    let drag = 2.0 * ratio * omega * force_frequency;
+    let size = stiffness_difference * stiffness_difference + drag * drag;
+    let sine = stiffness_difference / size;
     let cosine = -drag / size;
     let p = -cosine;
-    let q = (ratio * omega * p - driven * sine) / natural;
-    let free = p * (natural * time).cos() + q * (natural * time).sin();
-    sine * (driven * time).sin()
-        + cosine * (driven * time).cos()
+    let q = (ratio * omega * p - force_frequency * sine) / damped_frequency;
+    let free = p * (damped_frequency * time).cos() + q * (damped_frequency * time).sin();
+    sine * (force_frequency * time).sin()
+        + cosine * (force_frequency * time).cos()
         + free * (-ratio * omega * time).exp()
 }
 
@@ -118,13 +121,13 @@ fn oscillator_error(gamma: f64, steps: u32) -> f64 {
     let mut largest_error = 0.0_f64;
     for n in 0..steps {
         let force = (FORCE_FREQUENCY * step * (f64::from(n) + scheme.load_fraction)).sin();
-        let previous = inertia * combine(scheme.acceleration, 0.0, v, a)
+        let start_force = inertia * combine(scheme.acceleration, 0.0, v, a)
             + dashpot * combine(scheme.velocity, 0.0, v, a)
             + spring * (u + combine(scheme.displacement, 0.0, v, a));
         let effective = inertia * scheme.acceleration[0]
             + dashpot * scheme.velocity[0]
             + spring * scheme.displacement[0];
-        let du = (force - previous) / effective;
+        let du = (force - start_force) / effective;
         let new_velocity = combine(scheme.new_velocity, du, v, a);
         a = combine(scheme.new_acceleration, du, v, a);
         v = new_velocity;

@@ -87,7 +87,7 @@ fn scene() -> SimulationBuilder {
     Simulation::builder(0.02).ground(ground()).interface(Bonded).expected_steps(4)
 }
 
-/// Largest entry of a list by amount.
+/// Largest magnitude in a list.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, value| largest.max(value.abs()))
 }
@@ -107,7 +107,7 @@ fn assert_stresses_at_rest(simulation: &Simulation, tolerance: f64) {
     }
 }
 
-/// GOAL: neither displacements nor tractions, in two soils whose boundary lies within elements.
+/// GOAL: there are neither displacements nor tractions in two soils whose boundary lies within elements.
 #[test]
 fn soil_at_rest_does_not_move_under_its_weight() {
     let sand = DruckerPrager::new(elastic(), 1.0e3, 0.6, 0.3).unwrap();
@@ -161,12 +161,12 @@ fn soil_at_rest_carries_the_weight_of_a_block() {
     let strong_model = with_block(soil_box(clay(1.0e9))).model();
     let top = elastic_model.mesh().node_at(0.0, 2.0).unwrap();
     let row = elastic_model.row(top, Direction::Y).unwrap();
-    let reduced = CraigBampton::new(30).reduce(elastic_model.clone()).unwrap();
-    let reduced_row = reduced.recovery().row(row.clone()).unwrap();
+    let reduced_structure = CraigBampton::new(30).reduce(elastic_model.clone()).unwrap();
+    let reduced_row = reduced_structure.recovery().row(row.clone()).unwrap();
     let models: [(&str, Box<dyn Structure>, _, GravityStage); 5] = [
         ("elastic", Box::new(elastic_model.clone()), row.clone(), GravityStage::Frictionless),
         ("strong clay", Box::new(strong_model), row.clone(), GravityStage::Frictionless),
-        ("reduced", Box::new(reduced), reduced_row, GravityStage::Frictionless),
+        ("reduced", Box::new(reduced_structure), reduced_row, GravityStage::Frictionless),
         ("frictional", Box::new(elastic_model.clone()), row.clone(), GravityStage::Frictional),
         ("wished", Box::new(elastic_model), row, GravityStage::WishedInPlace),
     ];
@@ -182,7 +182,7 @@ fn soil_at_rest_carries_the_weight_of_a_block() {
     }
     assert!(settlements[0] < -1e-4, "{settlements:?}");
     for (index, settlement) in settlements.iter().enumerate() {
-        // The modes of the reduction have the deformation of the block by its weight in part.
+        // The modes of the reduction contain only a part of the deformation of the block by its weight.
         let limit = if index == 2 { 2e-4 } else { 1e-9 };
         assert!((settlement / settlements[0] - 1.0).abs() < limit, "{settlements:?}");
     }
@@ -222,12 +222,12 @@ fn error_text<T>(result: basemat::Result<T>) -> String {
     result.err().expect("an error").to_string()
 }
 
-/// GOAL: what would be wrong is refused, with place, value and need.
+/// GOAL: impossible initial states are errors with place, value and need.
 #[test]
-fn soil_at_rest_that_would_be_wrong_is_refused() {
+fn soil_at_rest_that_would_be_wrong_is_an_error() {
     // |s| = √(2/3) σ_v (1 − K₀) = √2 τ_n.
     let lines = [-1.0, 0.0, 1.0];
-    let weak = |strength: f64| {
+    let result_for_strength = |strength: f64| {
         Mesh::quad8_block(&lines, &[-3.0, -1.5, 0.0], |_, _| clay(strength))
             .unwrap()
             .with_stress_at_rest(&StressAtRest::new(10.0, 2000.0, 0.4).unwrap())
@@ -235,8 +235,8 @@ fn soil_at_rest_that_would_be_wrong_is_refused() {
     // The lowest points of the mesh are at −(1.5 + 0.75 (1 + 1/√3)) m.
     let depth = 1.5 + 0.75 * (1.0 + 1.0 / 3.0_f64.sqrt());
     let needed = 20.0e3 * depth * 0.6 / 3.0_f64.sqrt();
-    assert!(weak(1.001 * needed).is_ok());
-    let text = error_text(weak(0.999 * needed));
+    assert!(result_for_strength(1.001 * needed).is_ok());
+    let text = error_text(result_for_strength(0.999 * needed));
     assert!(text.contains("element 0") && text.contains("depth of 2.683 m"), "{text}");
 
     let soil = soil_box(elastic());
@@ -248,7 +248,7 @@ fn soil_at_rest_that_would_be_wrong_is_refused() {
     let text = error_text(with_spring.with_stress_at_rest(&stress(PRESSURE_RATIO)));
     assert!(text.contains("quadrilaterals"), "{text}");
 
-    // Soil without ground at its walls.
+    // The soil has no ground at its walls.
     let base = soil.mesh.nodes_at_height(-BOX_DEPTH, 1e-9).unwrap();
     let text = error_text(FemModel::in_trench(soil.mesh.clone(), &base));
     assert!(text.contains("side") && text.contains("pressure at rest"), "{text}");
@@ -261,8 +261,8 @@ fn soil_at_rest_that_would_be_wrong_is_refused() {
     let friction = scene().structure(soil.model()).interface(Coulomb::new(0.5).unwrap());
     let text = error_text(friction.build());
     assert!(text.contains("interface law of soil at rest"), "{text}");
-    let unloaded = scene().structure(soil.model()).gravity_stage(GravityStage::Unloaded);
-    assert!(error_text(unloaded.build()).contains("gravity stage"));
+    let unloaded_scene = scene().structure(soil.model()).gravity_stage(GravityStage::Unloaded);
+    assert!(error_text(unloaded_scene.build()).contains("gravity stage"));
     for (depth, density, ratio) in [(0.0, 1900.0, 0.5), (2.0, -1.0, 0.5), (2.0, 1900.0, f64::NAN)] {
         let fault = stress(PRESSURE_RATIO).with_soil_below(depth, density, ratio);
         assert!(fault.is_err(), "{depth} {density} {ratio}");

@@ -106,19 +106,19 @@ fn block_motion(soil: Soil, density: f64, kernels: &SharedKernels) -> BlockMotio
         .build()
         .unwrap();
     let mut difference = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut always_stuck = true;
     let run = simulation
         .run(RUN_STEPS, |state| {
             let surface = record.at(state.time).displacement;
             let computed = top.value(state.absolute_displacement());
             difference = difference.max((computed - surface).abs());
-            largest = largest.max(surface.abs());
+            max_magnitude = max_magnitude.max(surface.abs());
             always_stuck &= state.modes.iter().all(|mode| *mode == Mode::Stick);
         })
         .unwrap();
     assert!(run.energy_error < 1e-9);
-    BlockMotion { difference: difference / largest, always_stuck }
+    BlockMotion { difference: difference / max_magnitude, always_stuck }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! GOAL: frames of fibres in space on ground that they may leave: linear limit, energy, no direction of its own.
+//! GOAL: frames of fibres in space that may lift off their ground: linear limit, energy, independence of the direction.
 //! SCENE: a table on four columns on a mat in plan, or on a fixed base, shaken along both axes.
 //! REFERENCE: the same table of linear beams; balance of energy; the table turned about the vertical.
 
@@ -70,15 +70,15 @@ fn shaken(table: &FiberTable, builder: SimulationBuilder, steps: usize) -> Resul
 /// Largest difference of two motions, relative to the peak of each component.
 fn difference(a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
     assert_eq!(a.len(), b.len());
-    let mut largest = 0.0_f64;
+    let mut max_error = 0.0_f64;
     for component in 0..4 {
         let peak = a.iter().fold(0.0_f64, |max, values| max.max(values[component].abs()));
         for (x, y) in a.iter().zip(b) {
             let error = (x[component] - y[component]).abs() / peak;
-            largest = if error.is_nan() { f64::NAN } else { largest.max(error) };
+            max_error = if error.is_nan() { f64::NAN } else { max_error.max(error) };
         }
     }
-    largest
+    max_error
 }
 
 /// Elastic fibres move as linear beams of their area, second moments and torsion, over 1000 steps.
@@ -92,8 +92,9 @@ fn a_table_of_elastic_fibres_is_the_linear_table() {
     let second_moments = [second_moment(0.1, 5.0), second_moment(0.12, 7.0)];
     let section = BeamSection::new(area, second_moments, torsion_constant).unwrap();
     let columns = TableColumns::Linear { material, section };
-    let linear = FiberTable { columns, parts: vec![0.4, 0.6], angle: 0.3 };
-    let expected = shaken(&linear, scene(&linear, 0.5, Bonded).unwrap(), 1000).unwrap();
+    let linear_columns = FiberTable { columns, parts: vec![0.4, 0.6], angle: 0.3 };
+    let expected =
+        shaken(&linear_columns, scene(&linear_columns, 0.5, Bonded).unwrap(), 1000).unwrap();
     let section = FiberSection::new()
         .with_rectangle([[-0.06, -0.05], [0.06, 0.05]], [7, 5], material)
         .unwrap()
@@ -101,7 +102,7 @@ fn a_table_of_elastic_fibres_is_the_linear_table() {
         .unwrap();
     for formulation in ALL_FORMULATIONS {
         let columns = TableColumns::Fibers { section: section.clone(), formulation };
-        let fibers = FiberTable { columns, ..linear.clone() };
+        let fibers = FiberTable { columns, ..linear_columns.clone() };
         let computed = shaken(&fibers, scene(&fibers, 0.5, Bonded).unwrap(), 1000).unwrap();
         let error = difference(&expected.motion, &computed.motion);
         println!("{formulation:?}: {error:.1e}; energy open by {:.1e}", computed.energy_error);

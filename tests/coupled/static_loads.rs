@@ -1,7 +1,7 @@
 //! GOAL: loads at t = 0 act as weight or as a slow ramp, by the rule of `GravityStage`.
 //! SCENE: blocks on elastic ground in the plane and in plan, under weight, moment, side load and settlement.
-//! REFERENCE: the closed form of a bonded and of a smooth strip; the same weight as a mass; the same loads as ramps in
-//! time.
+//! REFERENCE: the closed form of a bonded and of a frictionless strip; the same weight as a mass; the same loads as
+//! ramps in time.
 
 use std::f64::consts::{PI, TAU};
 
@@ -128,15 +128,16 @@ impl RelaxingGround {
         let size = if in_space { 3 } else { 2 } * count;
         let mut compliance = vec![0.0; size * size];
         ground.static_compliance(&mut compliance).unwrap();
-        // Displacements in the plane have no datum: the farthest element does not move.
+        // Displacements in the plane have no datum: the element that is farthest away does not move.
         if !in_space {
             for component in 0..2 {
                 let places = component * count..(component + 1) * count;
                 let entries = places
                     .clone()
                     .flat_map(|row| places.clone().map(move |column| row * size + column));
-                let lowest = entries.clone().map(|at| compliance[at]).fold(f64::INFINITY, f64::min);
-                entries.for_each(|at| compliance[at] -= lowest);
+                let min_compliance =
+                    entries.clone().map(|at| compliance[at]).fold(f64::INFINITY, f64::min);
+                entries.for_each(|at| compliance[at] -= min_compliance);
             }
         }
         Self { ground, compliance, relaxation_steps: 0.0, displacement: vec![0.0; size] }
@@ -233,13 +234,13 @@ impl RampComparison {
     fn new(in_space: bool, law: &dyn Fn() -> BoxedLaw) -> Self {
         let static_loads = under_loads(in_space, law(), false);
         let mut ramp = under_loads(in_space, law(), true);
-        let unloaded = ramp.state().clone();
+        let unloaded_state = ramp.state().clone();
         ramp.run(300, |_| {}).unwrap();
         let contact = &ramp.state().contact;
         let friction_ratios = contact.iter().map(|element| element.shear.abs() / element.pressure);
         Self {
             error: traction_difference(static_loads.state(), ramp.state()),
-            change_by_loads: traction_difference(&unloaded, static_loads.state()),
+            change_by_loads: traction_difference(&unloaded_state, static_loads.state()),
             elements_slid: contact.iter().filter(|element| element.slip.abs() > 1e-8).count(),
             largest_friction_ratio: friction_ratios.fold(0.0, f64::max),
         }
@@ -278,20 +279,20 @@ fn the_static_state_of_loads_is_the_end_of_their_slow_ramp() {
     }
 }
 
-/// Rocking stiffness of a rigid strip is π G b²/(2 (1 − ν)) if smooth, 1 + 4 ε² times as much if bonded.
+/// Rocking stiffness of a rigid strip is π G b²/(2 (1 − ν)) if frictionless, 1 + 4 ε² times as much if bonded.
 ///
 /// ε = ln(3 − 4ν)/2π (Muskhelishvili 1953, § 114).
 #[test]
 fn a_bonded_base_is_bonded_under_loads() {
     let soil = soil();
     let exponent = (3.0 - 4.0 * soil.poisson()).ln() / TAU;
-    let smooth = PI * soil.shear_modulus() * BASE_HALF_WIDTH * BASE_HALF_WIDTH
+    let frictionless_stiffness = PI * soil.shear_modulus() * BASE_HALF_WIDTH * BASE_HALF_WIDTH
         / (2.0 * (1.0 - soil.poisson()));
-    let bonded = smooth * (1.0 + 4.0 * exponent * exponent);
+    let bonded = frictionless_stiffness * (1.0 + 4.0 * exponent * exponent);
     let cases: [(&str, BoxedLaw, f64); 3] = [
         ("bonded", Box::new(Bonded), bonded),
         ("sticks", Box::new(Coulomb::new(0.5).unwrap()), bonded),
-        ("smooth", Box::new(Coulomb::new(0.0).unwrap()), smooth),
+        ("smooth", Box::new(Coulomb::new(0.0).unwrap()), frictionless_stiffness),
     ];
     for (name, law, expected) in cases {
         let BodyOnGround { structure, ground, weight, dofs } = body_on_ground(false);

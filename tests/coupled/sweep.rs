@@ -13,7 +13,7 @@ use basemat::{Error, Soil, unobserved};
 
 use basemat_problems::scenes::{SI_UNITS, block, scene, soil, states};
 
-/// Coefficients of friction by case, of which the negative one is refused.
+/// Coefficients of friction by case, of which the negative one is an error.
 const FRICTION_COEFFICIENTS: [f64; 5] = [0.2, 0.6, -1.0, 0.4, f64::INFINITY];
 
 fn run_case(index: usize) -> Result<Vec<State>, Error> {
@@ -98,14 +98,14 @@ fn run_with_kernels(grading: Grading, kernels: &SharedKernels, steps: usize) -> 
 #[test]
 fn shared_kernels_change_no_bit() {
     for grading in [Grading::Uniform, Grading::Cosine] {
-        let shared = SharedKernels::default();
+        let kernels = SharedKernels::default();
         let step_counts = [150, 40, 700, 90];
         let mut results = vec![Vec::new(); step_counts.len()];
         Sweep::new(step_counts.len()).run(
-            |case| Ok::<_, Error>(run_with_kernels(grading, &shared, step_counts[case.index])),
+            |case| Ok::<_, Error>(run_with_kernels(grading, &kernels, step_counts[case.index])),
             |index, states| results[index] = states.unwrap(),
         );
-        assert_eq!(shared.count(), 1);
+        assert_eq!(kernels.count(), 1);
         for (states, steps) in results.iter().zip(step_counts) {
             let expected = run_with_kernels(grading, &SharedKernels::default(), steps);
             assert!(*states == expected, "{grading:?}, {steps} steps");

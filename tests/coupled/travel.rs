@@ -36,7 +36,7 @@ fn building() -> ShearBuilding {
         .unwrap()
 }
 
-/// A concrete wall, stiff against everything around it.
+/// A concrete wall, much stiffer than its ground.
 fn wall() -> FemModel {
     let concrete = Material::new(3e10, 0.2, 2400.0).unwrap();
     let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, concrete)]).unwrap();
@@ -299,23 +299,25 @@ fn combined_motion(pulse_factor: f64, travel_factor: f64) -> FreeFieldFn {
     let travel = GroundTravel { distance: 1e3, period: 400.0 };
     let pulses = shake(SI_UNITS, 0.6);
     FreeFieldFn::new(move |x, time| {
-        let slow = travel.displacement(time);
-        let fast = pulses.displacement(x, time);
-        [0, 1].map(|k| travel_factor * slow[k] + pulse_factor * fast[k])
+        let slow_displacement = travel.displacement(time);
+        let fast_displacement = pulses.displacement(x, time);
+        [0, 1].map(|k| travel_factor * slow_displacement[k] + pulse_factor * fast_displacement[k])
     })
 }
 
 #[test]
 fn travel_superposes_on_a_record() {
-    let combined = building_response(combined_motion(1.0, 1.0));
+    let combined_response = building_response(combined_motion(1.0, 1.0));
     let by_travel = building_response(combined_motion(0.0, 1.0));
     let by_pulses = building_response(combined_motion(1.0, 0.0));
     for k in 0..3 {
         let mut peak = 0.0_f64;
         let mut difference = 0.0_f64;
-        for ((combined, travel), pulses) in combined.iter().zip(&by_travel).zip(&by_pulses) {
+        for ((combined_response, travel), pulses) in
+            combined_response.iter().zip(&by_travel).zip(&by_pulses)
+        {
             peak = peak.max(pulses[k].abs());
-            difference = difference.max((combined[k] - travel[k] - pulses[k]).abs());
+            difference = difference.max((combined_response[k] - travel[k] - pulses[k]).abs());
         }
         println!("quantity {k}: {:.1e} of the peak", difference / peak);
         assert!(difference < 1e-9 * peak, "quantity {k}: {:.1e}", difference / peak);

@@ -1,4 +1,4 @@
-//! GOAL: scenes that cannot stand, and loads and initial motions that cannot be, are refused with their cause.
+//! GOAL: scenes without a static state, and impossible loads and initial motions, are errors with their cause.
 //! SCENE: blocks pushed off, turned over, lifted or on weak soil; mechanisms; springs too soft for their weight.
 //! REFERENCE: statics of the rigid block; Euler's load on springs.
 
@@ -12,7 +12,7 @@ use basemat::{Error, Simulation};
 
 use super::loads::{BLOCK_WEIGHT, block, on_half_plane};
 
-/// Why the static state of this scene is refused.
+/// The cause of the error of a scene without a static state.
 fn stability_error(builder: SimulationBuilder) -> StabilityError {
     match builder.build().map(|_| ()).unwrap_err() {
         Error::Stability(cause) => *cause,
@@ -31,7 +31,7 @@ fn pushed(height: f64, force: f64) -> SimulationBuilder {
 }
 
 #[test]
-fn sliding_is_refused_with_its_resistance() {
+fn sliding_is_an_error_with_its_resistance() {
     let StabilityError::Sliding { horizontal, normal, resistance, ratio, .. } =
         stability_error(pushed(0.0, -0.6 * BLOCK_WEIGHT))
     else {
@@ -41,7 +41,7 @@ fn sliding_is_refused_with_its_resistance() {
     assert!((normal / BLOCK_WEIGHT - 1.0).abs() < 1e-9);
     assert!((resistance / BLOCK_WEIGHT - 0.5).abs() < 1e-9 && (ratio - 1.2).abs() < 1e-9);
 
-    // In a group the ends of its base name the member.
+    // In a group the error names the member by the ends of its base.
     let group = StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 20.0).unwrap();
     let push = group.row(1, block().horizontal_at(0.0)).unwrap();
     let load = Load::constant(push, 0.6 * BLOCK_WEIGHT);
@@ -54,7 +54,7 @@ fn sliding_is_refused_with_its_resistance() {
 }
 
 #[test]
-fn overturning_is_refused_with_its_moment() {
+fn overturning_is_an_error_with_its_moment() {
     let StabilityError::Overturning { moment, eccentricity, ratio, .. } =
         stability_error(pushed(9.0, 0.4 * BLOCK_WEIGHT))
     else {
@@ -80,7 +80,7 @@ fn overturning_is_refused_with_its_moment() {
 }
 
 #[test]
-fn a_lifted_block_is_refused_with_its_upward_force() {
+fn a_lifted_block_is_an_error_with_its_upward_force() {
     let lift = Load::constant(block().vertical_at(0.0), 1.5 * BLOCK_WEIGHT);
     let StabilityError::Uplift { upward, .. } =
         stability_error(on_half_plane(block()).interface(coulomb()).load(lift))
@@ -90,17 +90,17 @@ fn a_lifted_block_is_refused_with_its_upward_force() {
     assert!((upward / BLOCK_WEIGHT - 0.5).abs() < 1e-9);
 }
 
-/// Soil bears 0.8 of the weight; or 1.2 of it, but one metre off the middle on 6 − 2 m only.
+/// Soil bears 0.8 of the weight; or 1.2 of it, but 6 − 2 m of soil bear a weight that is one metre off the middle.
 #[test]
-fn bearing_failure_is_refused_with_its_width() {
+fn bearing_failure_is_an_error_with_its_width() {
     for (bearing_ratio, eccentricity, expected_ratio, expected_width) in
         [(0.8, 0.0, 1.25, 6.0), (1.2, 1.0, 1.25, 4.0)]
     {
-        let soft = Yielding::new(bearing_ratio * BLOCK_WEIGHT / 6.0, 0.5).unwrap();
+        let weak_soil = Yielding::new(bearing_ratio * BLOCK_WEIGHT / 6.0, 0.5).unwrap();
         let force = eccentricity * BLOCK_WEIGHT / 9.0;
         let load = Load::constant(block().horizontal_at(9.0), force);
         let StabilityError::BearingFailure { ratio, width, .. } =
-            stability_error(on_half_plane(block()).interface(soft).load(load))
+            stability_error(on_half_plane(block()).interface(weak_soil).load(load))
         else {
             panic!()
         };
@@ -116,7 +116,7 @@ fn add_beam(mesh: &mut Mesh, nodes: [usize; 2]) {
 
 /// A column hinged on a footing turns about the hinge: its two trusses are in line.
 #[test]
-fn a_mechanism_is_refused_with_its_place() {
+fn a_mechanism_is_an_error_with_its_place() {
     let mut mesh = Mesh::new();
     let footing = [-1.0, 0.0, 1.0].map(|x| mesh.add_node(x, 0.0).unwrap());
     for pair in footing.windows(2) {
@@ -162,7 +162,7 @@ fn mast_on_solids(clamped: bool, lean: f64) -> SimulationBuilder {
 
 /// Solids have no rotations: a beam on one of their nodes turns freely, on two it is clamped.
 ///
-/// So it does where it stands upright and nothing turns it over.
+/// The same holds for an upright beam, on which no moment acts.
 #[test]
 fn a_beam_hinged_on_solids_is_a_mechanism() {
     for lean in [0.0, 1.0] {
@@ -206,7 +206,7 @@ fn unloaded_block() -> SimulationBuilder {
 }
 
 #[test]
-fn initial_motions_and_loads_that_make_no_sense_are_refused() {
+fn initial_motions_and_loads_that_make_no_sense_are_errors() {
     let bonded = unloaded_block().interface(Bonded);
     for (builder, reason) in [
         (standing_block().initial_displacement([0.0, 0.0]), "initial displacement"),
@@ -246,7 +246,7 @@ fn loads_that_are_not_finite_later_fail_in_their_step() {
 }
 
 #[test]
-fn tables_of_loads_interpolate_or_are_refused() {
+fn tables_of_loads_interpolate_or_are_errors() {
     for (times, forces) in
         [(vec![], vec![]), (vec![0.0, 0.0], vec![1.0, 1.0]), (vec![0.0], vec![f64::INFINITY])]
     {
@@ -259,7 +259,7 @@ fn tables_of_loads_interpolate_or_are_refused() {
     }
 }
 
-/// A block on springs too soft for it (P–Δ) is refused with the load factor k_θ/(W h).
+/// A block on springs too soft for it (P–Δ) is an error with the load factor k_θ/(W h).
 #[test]
 fn a_block_that_its_ground_cannot_support_names_its_load_factor() {
     let springs = 8;

@@ -36,10 +36,10 @@ fn base_shear(motion: impl FreeField + 'static) -> Vec<f64> {
 }
 
 /// Largest difference of two series over the largest value of the first.
-fn relative_difference(reference: &[f64], other: &[f64]) -> f64 {
-    let largest = reference.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let pairs = reference.iter().zip(other);
-    pairs.fold(0.0_f64, |largest, (a, b)| largest.max((a - b).abs())) / largest
+fn relative_difference(reference: &[f64], series: &[f64]) -> f64 {
+    let max_magnitude = reference.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+    let pairs = reference.iter().zip(series);
+    pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / max_magnitude
 }
 
 /// Fast and steep waves tend to vertical incidence; slow and flat ones differ.

@@ -1,7 +1,7 @@
 //! GOAL: Newton's method on columns of yielding springs: few iterations, static state, tangents, errors.
 //! SCENE: 40 cells in series with twelve corners each, bonded to springs; a column under its own weight; friction between
 //! masses; a force that jumps.
-//! REFERENCE: the closed form of the column under its weight; own runs with another tangent.
+//! REFERENCE: the closed form of the column under its weight; runs with another tangent.
 
 use std::any::Any;
 use std::f64::consts::PI;
@@ -49,11 +49,13 @@ fn piecewise_linear_columns_take_few_iterations() {
             .unwrap();
         let mean = iterations.iter().sum::<usize>() as f64 / iterations.len() as f64;
         let max = iterations.iter().max().unwrap();
-        let plastic = run.energy_balance.hysteresis / run.energy_balance.input;
-        println!("Δt = {time_step}: {mean:.2} iterations, at most {max}; hysteresis {plastic:.2}");
+        let hysteresis_ratio = run.energy_balance.hysteresis / run.energy_balance.input;
+        println!(
+            "Δt = {time_step}: {mean:.2} iterations, at most {max}; hysteresis {hysteresis_ratio:.2}"
+        );
         println!("energy open by {:.1e}", run.energy_error);
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
-        assert!(plastic > 0.3, "{plastic}");
+        assert!(hysteresis_ratio > 0.3, "{hysteresis_ratio}");
         assert!(mean < max_mean && *max <= 40, "{time_step}: {mean} {max}");
     }
 }
@@ -87,7 +89,7 @@ fn columns_at_rest_with_an_offset_take_few_iterations() {
     assert!(top.abs() > 1e-4 && mean < 6.0, "{top} {mean}");
 }
 
-/// Column of masses that carry their weight on springs in a row.
+/// Number of masses of a column that stand on springs in series.
 const WEIGHT_COUNT: usize = 10;
 const WEIGHT_MASS: f64 = 1e4;
 const SPRING_STIFFNESS: f64 = 1e8;
@@ -107,21 +109,24 @@ fn standing_column(strength: f64) -> WithYieldingSprings<Masses> {
 fn compression(force: f64, strength: f64) -> f64 {
     let reference = strength / SPRING_STIFFNESS;
     let limit = 1.0 / (1.0 / strength - 1.0 / (200.0 * strength));
-    let mut last = [0.0, 0.0];
+    let mut previous_point = [0.0, 0.0];
     for j in 0..12 {
         let deformation = 0.02 * reference * 10_f64.powf(4.0 * f64::from(j) / 11.0);
-        let linear = SPRING_STIFFNESS * deformation;
-        let point = [deformation, if j == 0 { linear } else { linear / (1.0 + linear / limit) }];
+        let elastic_force = SPRING_STIFFNESS * deformation;
+        let point = [
+            deformation,
+            if j == 0 { elastic_force } else { elastic_force / (1.0 + elastic_force / limit) },
+        ];
         if force <= point[1] {
-            let fraction = (force - last[1]) / (point[1] - last[1]);
-            return last[0] + fraction * (point[0] - last[0]);
+            let fraction = (force - previous_point[1]) / (point[1] - previous_point[1]);
+            return previous_point[0] + fraction * (point[0] - previous_point[0]);
         }
-        last = point;
+        previous_point = point;
     }
     panic!("{force} exceeds the strength");
 }
 
-/// The weight is carried beyond the first yielding, and the dynamic stage starts from there.
+/// The springs carry the weight beyond first yielding, and the dynamic stage starts from this state.
 #[test]
 fn yielding_columns_stand_under_their_weight() {
     let weight = WEIGHT_COUNT as f64 * WEIGHT_MASS * SCENE_GRAVITY;
@@ -130,17 +135,17 @@ fn yielding_columns_stand_under_their_weight() {
         let builder = bonded(standing_column(strength), 0.01).motion(AtRest).gravity(SCENE_GRAVITY);
         let mut simulation = builder.build().unwrap();
         let displacement = simulation.static_displacement().to_vec();
-        let mut settled = 0.0;
+        let mut settlement = 0.0;
         for k in 0..WEIGHT_COUNT {
             let carried = (WEIGHT_COUNT - k) as f64 * WEIGHT_MASS * SCENE_GRAVITY;
-            settled += compression(carried, strength);
+            settlement += compression(carried, strength);
             let computed = displacement[1] - displacement[3 + k];
-            let error = (computed / settled - 1.0).abs();
-            assert!(error < 1e-7, "{ratio}, {k}: {computed} {settled} {error:e}");
+            let error = (computed / settlement - 1.0).abs();
+            assert!(error < 1e-7, "{ratio}, {k}: {computed} {settlement} {error:e}");
         }
         let run = simulation.run(200, |_| {}).unwrap();
-        let moved = run.energy_balance.kinetic.abs() + run.energy_balance.hysteresis.abs();
-        assert!(moved < 1e-9 * weight * settled, "{ratio}: {}", run.energy_balance);
+        let dynamic_energy = run.energy_balance.kinetic.abs() + run.energy_balance.hysteresis.abs();
+        assert!(dynamic_energy < 1e-9 * weight * settlement, "{ratio}: {}", run.energy_balance);
         let structure: &dyn Any = simulation.structure();
         let column = structure.downcast_ref::<WithYieldingSprings<Masses>>().unwrap();
         assert!(column.largest_plastic_deformation() > 0.1 * compression(weight, strength));
@@ -168,10 +173,10 @@ impl RubbingMass {
 
     /// Pressing force, rubbing force, and whether the mass slips.
     fn forces(&self, u: &[f64]) -> ([f64; 2], bool) {
-        let pressing = (1e5 - PRESSING_STIFFNESS * (u[4] - u[1])).max(1e4);
+        let pressing_force = (1e5 - PRESSING_STIFFNESS * (u[4] - u[1])).max(1e4);
         let trial = RUBBING_STIFFNESS * (u[3] - u[0] - self.slip);
-        let limit = FRICTION_COEFFICIENT * pressing;
-        ([pressing, trial.clamp(-limit, limit)], trial.abs() > limit)
+        let limit = FRICTION_COEFFICIENT * pressing_force;
+        ([pressing_force, trial.clamp(-limit, limit)], trial.abs() > limit)
     }
 }
 
@@ -206,11 +211,11 @@ impl NonlinearForce for RubbingMass {
     }
 
     fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
-        let ([pressing, rubbing], slips) = self.forces(u);
+        let ([pressing_force, rubbing_force], slips) = self.forces(u);
         matrix.add_spring(0, 3, if slips { 0.0 } else { RUBBING_STIFFNESS });
-        let changes = slips && pressing > 1e4;
+        let changes = slips && pressing_force > 1e4;
         let slope = if changes {
-            -FRICTION_COEFFICIENT * rubbing.signum() * PRESSING_STIFFNESS
+            -FRICTION_COEFFICIENT * rubbing_force.signum() * PRESSING_STIFFNESS
         } else {
             0.0
         };
@@ -251,9 +256,9 @@ fn unsymmetric_tangents_are_used_as_they_are() {
     let [(motion, iterations), (other_motion, other_iterations)] = [run(false), run(true)];
     println!("{iterations} iterations, {other_iterations} with the symmetric part");
     assert!(iterations < 3 * 600 && 5 * iterations < 4 * other_iterations);
-    let largest = motion.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
+    let max_magnitude = motion.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
     for (a, b) in motion.iter().zip(&other_motion) {
-        assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
+        assert!((a - b).abs() < 1e-9 * max_magnitude, "{a} {b}");
     }
 }
 
@@ -281,7 +286,7 @@ impl NonlinearForce for UnsymmetricBody {
 }
 
 #[test]
-fn unsymmetric_tangents_are_refused_in_plan() {
+fn unsymmetric_tangents_are_errors_in_plan() {
     let body = UnsymmetricBody(RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap());
     let ground = SpringGround::under(&body, 4, 5e7, 4e7).unwrap();
     let builder = Simulation::builder(0.01).ground(ground).interface(Bonded).structure(body);

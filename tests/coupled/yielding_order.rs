@@ -1,9 +1,9 @@
 //! GOAL: bonded columns that yield are of second order in the time step, on a fixed base and on ground that radiates.
 //! SCENE: a chain of yielding springs; clay (Iwan's model) of `Quad8` in simple shear, bonded to a half-plane.
-//! REFERENCE: own runs with a far shorter step.
+//! REFERENCE: runs with a far shorter step.
 //!
 //! Corners of the law excite vibrations of all frequencies. The order is therefore that of the scheme once the step resolves
-//! the fastest vibration of the column; before, single corners decide the errors.
+//! the fastest vibration of the column; with longer steps single corners determine the errors.
 
 use std::any::Any;
 use std::f64::consts::PI;
@@ -64,16 +64,19 @@ fn slopes(motion: impl Fn(usize) -> Vec<[f64; 2]>, reference_halvings: usize) ->
             let differences: Vec<f64> =
                 motion.iter().zip(&reference).map(|(a, b)| (a[k] - b[k]).abs()).collect();
             let square_sum: f64 = differences.iter().map(|d| d * d).sum();
-            let largest = differences.iter().fold(0.0_f64, |max, d| max.max(*d));
-            [(square_sum / differences.len() as f64).sqrt(), largest]
+            let max_magnitude = differences.iter().fold(0.0_f64, |max, d| max.max(*d));
+            [(square_sum / differences.len() as f64).sqrt(), max_magnitude]
         }));
     }
     println!("errors {errors:?}");
-    let fit = |k: usize, norm: usize| {
+    let log_error_slope = |k: usize, norm: usize| {
         let terms = (-2..=2).zip(&errors).map(|(x, e)| -f64::from(x) * e[k][norm].log2());
         terms.sum::<f64>() / 10.0
     };
-    let slopes = [[fit(0, 0), fit(0, 1)], [fit(1, 0), fit(1, 1)]];
+    let slopes = [
+        [log_error_slope(0, 0), log_error_slope(0, 1)],
+        [log_error_slope(1, 0), log_error_slope(1, 1)],
+    ];
     println!("slopes {slopes:.2?}");
     slopes
 }

@@ -1,7 +1,7 @@
 //! GOAL: blocks of soil that yields, shaken on a half-plane: the balance closes with the remainder of the laws.
 //! SCENE: a block of `Quad8` of clay (Iwan) or sand (Drucker–Prager) that slides and uplifts or is bonded; few and many
 //! elements.
-//! REFERENCE: the identity of the energies, in which force, energies and remainder come from formulas of their own.
+//! REFERENCE: the identity of the energies, in which force, energies and remainder come from separate formulas.
 
 use basemat::coupled::{EnergyBalance, State};
 use basemat::fem::{Direction, DruckerPrager, Iwan, Material, Mesh, SharedMaterial};
@@ -50,7 +50,7 @@ fn shaken_block(
 
 /// Checks the balance, and that the heat of the soil grows; with `is_associated` also the remainder.
 fn assert_energies(run: &Run, balances: &[EnergyBalance], is_associated: bool) {
-    let largest = run.energy_balance.largest;
+    let largest_energy = run.energy_balance.largest;
     assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
     assert!(run.energy_balance.algorithmic == 0.0);
     assert!(
@@ -58,11 +58,11 @@ fn assert_energies(run: &Run, balances: &[EnergyBalance], is_associated: bool) {
         "{}",
         run.energy_balance
     );
-    assert!(run.energy_balance.midstep_remainder.abs() > 1e-6 * largest);
+    assert!(run.energy_balance.midstep_remainder.abs() > 1e-6 * largest_energy);
     for pair in balances.windows(2) {
-        assert!(pair[1].hysteresis >= pair[0].hysteresis - 1e-13 * largest);
+        assert!(pair[1].hysteresis >= pair[0].hysteresis - 1e-13 * largest_energy);
         let remainder = pair[1].midstep_remainder - pair[0].midstep_remainder;
-        assert!(!is_associated || remainder >= -1e-13 * largest, "{remainder:e}");
+        assert!(!is_associated || remainder >= -1e-13 * largest_energy, "{remainder:e}");
     }
 }
 
@@ -90,8 +90,9 @@ fn springs_around_clay_close_the_balance() {
         };
         let drift = row_at(4.0) - row_at(0.0);
         let damper = Bilinear::new(5e6, 3e3, 0.0).unwrap();
-        let sprung = WithSprings::new(model).spring(drift, damper).unwrap();
-        let builder = scene(SI_UNITS, 0.6).structure(sprung).gravity(0.0).interface(Bonded);
+        let block_with_damper = WithSprings::new(model).spring(drift, damper).unwrap();
+        let builder =
+            scene(SI_UNITS, 0.6).structure(block_with_damper).gravity(0.0).interface(Bonded);
         builder.build().unwrap()
     };
     let mut simulation = damped_block();

@@ -30,9 +30,9 @@ fn block_on_soil(elements: usize, graded: bool) -> SimulationBuilder {
     Simulation::builder(1e-3).structure(block()).ground(ground).gravity(9.81)
 }
 
-/// Checks that a scene is refused by an error with all these words.
+/// Checks that the error of a scene contains all these words.
 #[track_caller]
-fn assert_refused_with(words: &[&str], builder: SimulationBuilder) {
+fn assert_build_error(words: &[&str], builder: SimulationBuilder) {
     let Err(error) = builder.build() else { panic!("accepted: {words:?}") };
     let message = error.to_string();
     for expected in words {
@@ -62,32 +62,32 @@ fn a_resultant_beyond_the_last_middle_is_named_with_its_place() {
         let ratio = 1.005 * outer_middle;
         let place = format!("passes at x = {:.4}", 0.5 * BLOCK_WIDTH * ratio);
         let words = [&place[..], &range, "middles of the outer elements"];
-        assert_refused_with(&words, with_resultant_at(ratio));
-        assert_refused_with(&["overturn"], with_resultant_at(1.02));
+        assert_build_error(&words, with_resultant_at(ratio));
+        assert_build_error(&["overturn"], with_resultant_at(1.02));
     }
     let law = Coulomb::new(2.0).unwrap();
     let one_element = block_on_soil(1, false).interface(law).load(push(6.0, 0.01));
     let words = ["a base of one element resists no moment", "passes at x = 0.06"];
-    assert_refused_with(&words, one_element);
+    assert_build_error(&words, one_element);
 }
 
 #[test]
 fn loads_that_push_a_base_off_are_named_for_every_law() {
     let variable = || VariableFriction::new(|start| 0.3 + 0.0 * start.slip_rate);
     block_on_soil(8, true).interface(variable()).load(push(0.0, 0.29)).build().unwrap();
-    let pushed = block_on_soil(8, true).interface(variable()).load(push(0.0, 0.6));
-    assert_refused_with(&["pushes it off", "2.000 times the friction"], pushed);
+    let pushed_block = block_on_soil(8, true).interface(variable()).load(push(0.0, 0.6));
+    assert_build_error(&["pushes it off", "2.000 times the friction"], pushed_block);
     // A bond that carries a third of the load, beside the friction that remains.
     let bond = Cohesive::new(1e6, 0.2 * BLOCK_WEIGHT / BLOCK_WIDTH, 0.2).unwrap();
     block_on_soil(8, true).interface(bond).load(push(0.0, 0.1)).build().unwrap();
-    let pushed = block_on_soil(8, true).interface(bond).load(push(0.0, 0.6));
+    let pushed_block = block_on_soil(8, true).interface(bond).load(push(0.0, 0.6));
     let words = ["bond of the interface breaks", "pushes it off", "3.000 times the friction"];
-    assert_refused_with(&words, pushed);
+    assert_build_error(&words, pushed_block);
     // A bond that is pulled off.
     let lift = Load::constant(block().vertical_at(0.0), 1.5 * BLOCK_WEIGHT);
     let weak_bond = Cohesive::new(1e3, 1e6, 0.2).unwrap();
-    let lifted = block_on_soil(8, true).interface(weak_bond).load(lift);
-    assert_refused_with(&["bond of the interface breaks", "lift it"], lifted);
+    let lifted_block = block_on_soil(8, true).interface(weak_bond).load(lift);
+    assert_build_error(&["bond of the interface breaks", "lift it"], lifted_block);
 }
 
 #[test]
@@ -95,8 +95,8 @@ fn a_friction_coefficient_below_zero_is_named() {
     for value in [-0.1, f64::NAN] {
         let law =
             VariableFriction::new(move |start| if start.slip_rate == 0.0 { value } else { 0.2 });
-        let built = block_on_soil(8, true).interface(law).build();
-        let result = built.and_then(|mut simulation| simulation.step().map(drop));
+        let result_of_build = block_on_soil(8, true).interface(law).build();
+        let result = result_of_build.and_then(|mut simulation| simulation.step().map(drop));
         let Err(error) = result else { panic!("{value} was accepted") };
         let message = error.to_string();
         let words = format!("friction coefficient is {value}, but must be zero or more");
@@ -115,10 +115,10 @@ fn loads_that_are_not_finite_are_named_with_number_and_value() {
         let entry = format!("entry 1 is {value}");
         let at_start = Load::new(block().horizontal_at(3.0), move |_| value);
         let words = ["external load at t = 0", &entry];
-        assert_refused_with(&words, block_under_two_loads(at_start));
-        let later =
+        assert_build_error(&words, block_under_two_loads(at_start));
+        let later_load =
             Load::new(block().horizontal_at(3.0), move |t| if t > 0.0032 { value } else { 0.0 });
-        let mut simulation = block_under_two_loads(later).build().unwrap();
+        let mut simulation = block_under_two_loads(later_load).build().unwrap();
         let error = error_with("external load", simulation.run(10, |_| {}));
         assert!(error.to_string().contains(&entry), "{error}");
     }
@@ -150,9 +150,9 @@ impl NumberedFrame {
     /// The same frame in a random numbering.
     fn renumbered(&self, random: &mut Random) -> Self {
         let mut dof_numbers = self.dof_numbers.clone();
-        for last in (1..dof_numbers.len()).rev() {
-            let other = random.pick(&(0..=last).collect::<Vec<_>>());
-            dof_numbers.swap(last, other);
+        for last_dof in (1..dof_numbers.len()).rev() {
+            let other_dof = random.pick(&(0..=last_dof).collect::<Vec<_>>());
+            dof_numbers.swap(last_dof, other_dof);
         }
         Self { dof_numbers, ..self.clone() }
     }
@@ -206,7 +206,7 @@ fn bar(from: [usize; 2], to: [usize; 2], direction: [f64; 2], stiffness: f64) ->
     FrameSpring { elongation, stiffness }
 }
 
-/// Pendulums, side by side and one on another, are mechanisms: nothing restrains their masses across the bars.
+/// Pendulums, side by side and one on another, are mechanisms: their masses are free to move across the bars.
 #[test]
 fn mechanisms_are_the_same_in_any_numbering() {
     let mut random = Random(11);
@@ -230,8 +230,8 @@ fn mechanisms_are_the_same_in_any_numbering() {
         for _ in 0..1200 {
             let frame = frame.renumbered(&mut random);
             let with_friction = frame.scene().interface(Coulomb::new(0.5).unwrap());
-            assert_refused_with(&words, with_friction);
-            assert_refused_with(&words, frame.scene().interface(Bonded).gravity(0.0));
+            assert_build_error(&words, with_friction);
+            assert_build_error(&words, frame.scene().interface(Bonded).gravity(0.0));
         }
     }
 }
@@ -244,9 +244,9 @@ fn a_base_without_mass_is_named() {
     let words = ["nothing resists a motion of [1, 2]", "neither stiffness nor damping nor mass"];
     for gravity in [0.0, 9.81] {
         let scene = frame.scene().gravity(gravity);
-        assert_refused_with(&words, scene.interface(Bonded));
+        assert_build_error(&words, scene.interface(Bonded));
         let scene = frame.scene().gravity(gravity);
-        assert_refused_with(&words, scene.interface(Coulomb::new(0.5).unwrap()));
+        assert_build_error(&words, scene.interface(Coulomb::new(0.5).unwrap()));
     }
 }
 

@@ -11,7 +11,7 @@ use basemat::interface::{
 use basemat::motion::FreeField;
 use basemat::{Error, Result, Simulation};
 
-use super::{NEGATIVE_OR_NOT_FINITE, NOT_FINITE, NOT_POSITIVE_FINITE, assert_refused, error_with};
+use super::{NEGATIVE_OR_NOT_FINITE, NOT_FINITE, NOT_POSITIVE_FINITE, assert_errors, error_with};
 use basemat_problems::block_on_springs::{bed, block};
 
 /// A complete scene, in which a test may change one part.
@@ -32,21 +32,21 @@ fn build_with_time_step(time_step: f64) -> Result<()> {
 }
 
 #[test]
-fn builders_refuse_missing_parts_and_invalid_numbers() {
+fn builders_return_errors_for_missing_parts_and_invalid_numbers() {
     assert!(complete_scene().build().is_ok());
-    assert_refused("time step", &NOT_POSITIVE_FINITE, build_with_time_step);
+    assert_errors("time step", &NOT_POSITIVE_FINITE, build_with_time_step);
     for time_step in [1e300, 1e155, 1e-300] {
         error_with("square of the time step", build_with_time_step(time_step));
     }
-    assert_refused("gravity", &NEGATIVE_OR_NOT_FINITE, |x| {
+    assert_errors("gravity", &NEGATIVE_OR_NOT_FINITE, |x| {
         complete_scene().gravity(x).build().map(drop)
     });
-    assert_refused("moment center", &NOT_FINITE, |x| {
+    assert_errors("moment center", &NOT_FINITE, |x| {
         complete_scene().moment_center(x).build().map(drop)
     });
 
-    let empty = Simulation::builder(1e-3);
-    assert!(matches!(build_error("structure", empty), Error::Scene { .. }));
+    let builder = Simulation::builder(1e-3);
+    assert!(matches!(build_error("structure", builder), Error::Scene { .. }));
     let without_ground = Simulation::builder(1e-3).structure(block());
     assert!(matches!(build_error("ground", without_ground), Error::Scene { .. }));
     let without_law = Simulation::builder(1e-3).structure(block()).ground(bed(4));
@@ -58,11 +58,15 @@ fn bonded_laws(count: usize) -> Vec<Box<dyn InterfaceLaw>> {
 }
 
 #[test]
-fn builders_refuse_parts_that_do_not_fit() {
+fn builders_return_errors_for_parts_that_do_not_fit() {
     assert!(complete_scene().interfaces(bonded_laws(4)).build().is_ok());
-    for found in [2, 3, 5] {
-        let error = build_error("interface laws", complete_scene().interfaces(bonded_laws(found)));
-        assert_eq!(error, Error::Size { quantity: "list of interface laws", found, needed: 4 });
+    for law_count in [2, 3, 5] {
+        let error =
+            build_error("interface laws", complete_scene().interfaces(bonded_laws(law_count)));
+        assert_eq!(
+            error,
+            Error::Size { quantity: "list of interface laws", found: law_count, needed: 4 }
+        );
     }
     assert!(matches!(
         build_error("interface law", complete_scene().interfaces(vec![])),
@@ -91,13 +95,13 @@ fn builders_refuse_parts_that_do_not_fit() {
     assert!(complete_scene().probes(probes[..2].to_vec()).build().is_ok());
 
     // Twice as wide as the block.
-    let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
+    let wide_bed = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
     let error = build_error(
         "extends beyond the structure's base, -2 to 2 m",
-        complete_scene().ground(wide),
+        complete_scene().ground(wide_bed),
     );
     assert!(matches!(error, Error::Part { .. }));
-    assert_refused("free field at t = 0", &NOT_FINITE, |x| {
+    assert_errors("free field at t = 0", &NOT_FINITE, |x| {
         complete_scene().motion(ConstantField(x)).build().map(drop)
     });
 }
@@ -141,7 +145,7 @@ impl TimeScheme for SchemeWithNan {
 }
 
 #[test]
-fn builders_refuse_defective_laws_and_schemes() {
+fn builders_return_errors_for_defective_laws_and_schemes() {
     assert!(matches!(
         build_error("modes", complete_scene().interface(InPlane(LawWithoutModes))),
         Error::Scene { .. }

@@ -16,13 +16,13 @@ use basemat::{Error, FileError, FileFault, MemoryError, Simulation};
 /// Checks that `error` prints `inner_text` once, both alone and with its sources.
 #[track_caller]
 fn assert_printed_once(error: &dyn StandardError, inner_text: &str) {
-    let alone = error.to_string();
-    assert!(alone.contains(inner_text), "'{inner_text}' is not in '{alone}'");
-    let mut texts = vec![alone];
-    let mut next = error.source();
-    while let Some(source) = next {
+    let error_text = error.to_string();
+    assert!(error_text.contains(inner_text), "'{inner_text}' is not in '{error_text}'");
+    let mut texts = vec![error_text];
+    let mut next_source = error.source();
+    while let Some(source) = next_source {
         texts.push(source.to_string());
-        next = source.source();
+        next_source = source.source();
     }
     let chain = texts.join(": ");
     assert_eq!(chain.matches(inner_text).count(), 1, "{chain}");
@@ -71,7 +71,8 @@ fn errors_print_what_is_inside_them_once() {
     assert_printed_once(&unusable, text);
     let checkpoint = CheckpointError::Unsupported { part: "roof" };
     assert_printed_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
-    let uplift = StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0 };
+    let uplift =
+        StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0, buoyancy: 0.0 };
     assert_printed_once(&Error::Stability(Box::new(uplift.clone())), &uplift.to_string());
     let quantity = "rows";
     let remedy = "less";

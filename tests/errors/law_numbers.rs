@@ -237,15 +237,15 @@ impl PlaneLaw for LawWithStateVariables {
 }
 
 #[test]
-fn more_state_variables_than_memory_holds_are_refused() {
+fn more_state_variables_than_memory_holds_are_errors() {
     for count in [268_435_457, usize::MAX / 3, usize::MAX] {
         let builder = scene(SI_UNITS, 0.6)
             .structure(block(SI_UNITS))
             .interface(InPlane(LawWithStateVariables(count)));
-        let built = builder.build().map(drop);
+        let built_scene = builder.build().map(drop);
         let law = Box::new(InPlane(LawWithStateVariables(count)));
         let problem = ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![law]).map(drop);
-        for result in [built, problem] {
+        for result in [built_scene, problem] {
             let Err(Error::Memory(error)) = result else { panic!("{result:?}") };
             assert!(error.quantity.contains("state variables") && error.asked > 1e8, "{error}");
         }
@@ -284,7 +284,7 @@ fn wrong_numbers_are_named_to_hosts_which_keep_their_start() {
 }
 
 #[test]
-fn wrong_state_variables_of_a_host_are_refused() {
+fn wrong_state_variables_of_a_host_are_errors() {
     let law = InPlane(defective_from_start(WrongNumber::InitialStateVariable));
     let problem = one_element_problem(law);
     assert!(matches!(problem.start(&[pressed_element()]), Err(Error::Law(_))));
@@ -295,9 +295,9 @@ fn wrong_state_variables_of_a_host_are_refused() {
     assert!(matches!(problem.start(&[element]), Err(Error::Size { .. })));
 }
 
-/// The start of a problem with other state variables is refused.
+/// A problem that starts with state variables of another length is an error.
 #[test]
-fn starts_of_other_problems_are_refused() {
+fn starts_of_other_problems_are_errors() {
     let other_problem = one_element_problem(coulomb());
     let mut other_start = other_problem.start(&[pressed_element()]).unwrap();
     let valid_law = InPlane(DefectiveLaw { number: None, value: 0.0, min_distance: 0.0 });

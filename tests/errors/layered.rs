@@ -1,4 +1,4 @@
-//! GOAL: profiles, damping laws and layered kernels refuse bad input with typed errors without delay.
+//! GOAL: profiles, damping laws and layered kernels return typed errors for bad input without delay.
 //! SCENE: bad numbers, laws that are not causal or passive, scales and contrasts out of reach.
 //! REFERENCE: the fields of the error, and the clock.
 
@@ -37,7 +37,7 @@ fn layered(thickness: f64) -> SoilProfile {
 }
 
 #[test]
-fn hysteretic_damping_is_refused_in_time() {
+fn hysteretic_damping_is_an_error_in_time() {
     let profile = layered(3.0).with_bedrock_damping(Hysteretic::new(0.05).unwrap());
     let error = two_stages(profile, &strip()).weights(0.01).err().unwrap();
     assert!(matches!(error, Error::Soil(SoilError::NotCausal { layer: 2, .. })), "{error}");
@@ -53,13 +53,13 @@ fn hysteretic_damping_has_impedances() {
     let mut ground = ElasticGround::new(profile, strip()).unwrap();
     let impedances = ground.impedances(&[2.0], StripContact::Bonded, &mut unobserved).unwrap();
     assert!(impedances[0].vertical.re.is_finite() && impedances[0].dashpots()[1] > 0.0);
-    let prepared = ground.prepare(0.01, None, &mut unobserved);
-    let built = Simulation::builder(0.01)
+    let preparation = ground.prepare(0.01, None, &mut unobserved);
+    let build_result = Simulation::builder(0.01)
         .structure(RigidBlock::new(6.0, 3.0, 2000.0).unwrap())
         .ground(ground)
         .interface(Bonded)
         .build();
-    for result in [prepared, built.map(drop)] {
+    for result in [preparation, build_result.map(drop)] {
         assert!(
             matches!(result, Err(Error::Soil(SoilError::NotCausal { layer: 1, .. }))),
             "{result:?}"
@@ -84,8 +84,9 @@ fn profiles_are_validated() {
         }
     }
     assert!(SoilProfile::new(vec![], Bedrock::Rigid).is_err());
-    let deep = SoilProfile::on_rigid_bedrock().with_layer(soil(), 1e308).unwrap();
-    assert!(deep.with_layer(soil(), 1e308).is_err());
+    let profile_of_infinite_depth =
+        SoilProfile::on_rigid_bedrock().with_layer(soil(), 1e308).unwrap();
+    assert!(profile_of_infinite_depth.with_layer(soil(), 1e308).is_err());
     assert!(ElasticGround::new(SoilProfile::on_rigid_bedrock(), strip()).is_err());
     for value in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(KelvinVoigt::new(value).is_err() && KelvinVoigt::with_ratio(value, 1.0).is_err());
@@ -149,9 +150,9 @@ fn requests_of_coefficients_are_validated() {
     assert!(kernel.prepare(usize::MAX, &mut unobserved).is_err());
 }
 
-/// Scales so far apart that integrals would never end are refused without delay.
+/// Scales so far apart that integrals would never end are errors, without delay.
 #[test]
-fn extreme_scales_are_refused() {
+fn extreme_scales_are_errors() {
     let start = Instant::now();
     for step in [1e-9, 1e-30, 1e-300] {
         let kernel = two_stages(layered(3.0), &strip()).weights(step).unwrap();
@@ -167,7 +168,7 @@ fn extreme_scales_are_refused() {
     assert!(start.elapsed().as_secs() < 5);
 }
 
-/// Minutes of work report their progress from the start, and an observer can stop them.
+/// A preparation of minutes reports its progress from the start, and an observer can stop it.
 ///
 /// The layer is a quarter of a millimetre thick under a base of six metres, for the 54 000 steps of an earthquake.
 #[test]
@@ -179,16 +180,19 @@ fn long_work_reports_its_progress_and_can_be_stopped() {
         reports.push(progress);
         if reports.len() < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
-    let last = reports[2];
-    assert_eq!(result, Err(Error::Stopped(last)));
-    assert!(last.done < last.total && last.task.contains("convolution weights"), "{last}");
+    let last_report = reports[2];
+    assert_eq!(result, Err(Error::Stopped(last_report)));
+    assert!(
+        last_report.done < last_report.total && last_report.task.contains("convolution weights"),
+        "{last_report}"
+    );
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
 }
 
 /// A number of lags whose weights exceed the memory of any machine.
 const HUGE_LAG_COUNT: usize = 1 << 31;
 
-/// Checks that [`HUGE_LAG_COUNT`] lags are refused for their memory.
+/// Checks that [`HUGE_LAG_COUNT`] lags are an error of too much memory.
 #[track_caller]
 fn assert_too_many_lags(result: Result<()>) {
     let Err(Error::Memory(error)) = result else { panic!("{result:?}") };
@@ -200,7 +204,7 @@ fn assert_too_many_lags(result: Result<()>) {
 }
 
 #[test]
-fn weights_that_need_too_much_memory_are_refused_beforehand() {
+fn weights_that_need_too_much_memory_are_errors_beforehand() {
     let start = Instant::now();
     let kernel = two_stages(layered(3.0), &strip()).weights(0.005).unwrap();
     // The observer stops the work if it begins.
@@ -217,9 +221,9 @@ fn ground_with_memory(memory: usize) -> ElasticGround {
     ground.with_history(HistoryOptions { memory, ..HistoryOptions::default() }).unwrap()
 }
 
-/// A history that may contain all lags is refused; exponentials need no such memory.
+/// A history that may contain all lags is an error; exponentials need no such memory.
 #[test]
-fn histories_that_need_too_much_memory_are_refused_beforehand() {
+fn histories_that_need_too_much_memory_are_errors_beforehand() {
     let start = Instant::now();
     for bytes in [1_usize << 20, usize::MAX] {
         let mut ground = ground_with_memory(bytes);
@@ -242,11 +246,16 @@ fn histories_that_need_too_much_memory_are_refused_beforehand() {
 /// Slabs on clay and clay on rock, thin and thick, are resolved up to contrasts of 2.5e7.
 #[test]
 fn strong_contrasts_are_resolved() {
-    let stiff = Soil::new(1e10, 0.2, 2400.0).unwrap();
-    let soft = Soil::new(1e6, 0.4999, 1500.0).unwrap();
+    let stiff_soil = Soil::new(1e10, 0.2, 2400.0).unwrap();
+    let soft_soil = Soil::new(1e6, 0.4999, 1500.0).unwrap();
     // Shear waves are four thousand times as fast as in the soft soil.
-    let rigid = Soil::new(2.5e13, 0.2, 2400.0).unwrap();
-    for (top, base) in [(stiff, soft), (soft, stiff), (rigid, soft), (soft, rigid)] {
+    let rigid_soil = Soil::new(2.5e13, 0.2, 2400.0).unwrap();
+    for (top, base) in [
+        (stiff_soil, soft_soil),
+        (soft_soil, stiff_soil),
+        (rigid_soil, soft_soil),
+        (soft_soil, rigid_soil),
+    ] {
         for thickness in [0.1, 1.0, 1e3] {
             for step in [1e-2, 1.0] {
                 let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
@@ -261,10 +270,10 @@ fn strong_contrasts_are_resolved() {
 /// Contrasts of 1e12 in stiffness and 1e5 in thickness, and steps of an hour, end in a result or an error.
 #[test]
 fn extreme_contrasts_end() {
-    let stiff = Soil::new(1e12, 0.1, 3000.0).unwrap();
-    let soft = Soil::new(1.0, 0.4999, 1000.0).unwrap();
+    let stiff_soil = Soil::new(1e12, 0.1, 3000.0).unwrap();
+    let soft_soil = Soil::new(1.0, 0.4999, 1000.0).unwrap();
     let start = Instant::now();
-    for (top, base) in [(stiff, soft), (soft, stiff)] {
+    for (top, base) in [(stiff_soil, soft_soil), (soft_soil, stiff_soil)] {
         for thickness in [1e-2, 1.0, 1e3] {
             for step in [1.0, 3600.0] {
                 let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
@@ -298,7 +307,7 @@ impl Relaxation for ConstantModulus {
 }
 
 #[test]
-fn laws_without_positive_modulus_are_refused() {
+fn laws_without_positive_modulus_are_errors() {
     for value in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
         let profile = p1(ConstantModulus(value), Elastic);
         let source = two_stages(profile, &strip());
@@ -345,7 +354,7 @@ fn two_kernels_have_the_same_bits() {
     }
 }
 
-/// Damping before the first layer, which would apply to the bedrock and not to the layer, is refused.
+/// Damping before the first layer, which would apply to the bedrock and not to the layer, is an error.
 #[test]
 fn damping_comes_after_its_layer() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();

@@ -1,4 +1,4 @@
-//! GOAL: soil, ground, interface, motion, builder and step refuse bad input with a typed error that names quantity, value
+//! GOAL: soil, ground, interface, motion, builder and step return typed errors for bad input that name quantity, value
 //! and need.
 //! SCENE: one defect at a time.
 //! REFERENCE: the fields of the error. Elements, record files and closed forms are tested in other files.
@@ -25,9 +25,9 @@ const NOT_POSITIVE_FINITE: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 const NEGATIVE_OR_NOT_FINITE: [f64; 3] = [-1.0, f64::NAN, f64::INFINITY];
 
-/// Checks that every value is refused by an input error with the value in its fields and its message.
+/// Checks that every value is an input error with the value in its fields and its message.
 #[track_caller]
-fn assert_refused<T>(name: &str, values: &[f64], build: impl Fn(f64) -> basemat::Result<T>) {
+fn assert_errors<T>(name: &str, values: &[f64], build: impl Fn(f64) -> basemat::Result<T>) {
     for &value in values {
         let Err(error) = build(value) else { panic!("{name} of {value} was accepted") };
         let Error::Input { quantity, value: reported, needed } = &error else {

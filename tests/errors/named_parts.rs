@@ -167,8 +167,8 @@ fn a_ground_that_is_not_passive_is_named() {
         build_with_compliance(diagonal, coupling, symmetry).unwrap();
     }
     for (diagonal, coupling) in [(-1e-8, 0.0), (1e-8, 1.01e-8), (0.0, 1e-8)] {
-        let built = build_with_compliance(diagonal, coupling, 1.0);
-        let error = error_with("step compliance of the ground", built);
+        let result = build_with_compliance(diagonal, coupling, 1.0);
+        let error = error_with("step compliance of the ground", result);
         assert!(matches!(error, Error::Indefinite { row: 0..=1, .. }), "{error:?}");
     }
 }

@@ -1,5 +1,5 @@
 //! GOAL: a structure's error of a matrix, a load, a force or a tangent is reported, with nothing committed; a nonlinear
-//! force with only one of its two accessors is refused.
+//! force with only one of its two accessors is an error.
 //! SCENE: a structure on springs that returns an error for one part, from a time or a displacement on.
 //! REFERENCE: the structure's error; the state before the step.
 
@@ -17,7 +17,7 @@ use basemat::{Error, Result, Simulation};
 
 use basemat_problems::block_on_springs::bed;
 
-/// The part that a structure refuses.
+/// The part of a structure that returns an error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum RefusedPart {
     None,
@@ -29,10 +29,10 @@ enum RefusedPart {
     Tangent,
 }
 
-/// Two masses joined by a nonlinear spring, of which one part is refused.
-struct RefusingStructure {
+/// Two masses joined by a nonlinear spring, of which one part returns an error.
+struct StructureWithError {
     part: RefusedPart,
-    /// Time from which the load is refused (s), or drift from which force and tangent are (m).
+    /// Time from which the load returns an error (s), or drift from which force and tangent do (m).
     threshold: f64,
     /// Whether `nonlinear` returns the structure.
     has_force: bool,
@@ -41,27 +41,27 @@ struct RefusingStructure {
     commits: Arc<AtomicUsize>,
 }
 
-fn refusal() -> Error {
+fn part_error() -> Error {
     Error::part("my structure", "a spring of it has torn")
 }
 
-impl RefusingStructure {
+impl StructureWithError {
     fn new(part: RefusedPart, threshold: f64) -> Self {
         let commits = Arc::default();
         Self { part, threshold, has_force: true, has_mutable_force: true, commits }
     }
 
-    /// A structure that refuses nothing.
+    /// A structure without errors.
     fn intact() -> Self {
         Self::new(RefusedPart::None, 0.0)
     }
 
     fn check(&self, part: RefusedPart, value: f64) -> Result<()> {
-        if self.part == part && value >= self.threshold { Err(refusal()) } else { Ok(()) }
+        if self.part == part && value >= self.threshold { Err(part_error()) } else { Ok(()) }
     }
 }
 
-impl Structure for RefusingStructure {
+impl Structure for StructureWithError {
     fn dofs(&self) -> usize {
         4
     }
@@ -97,7 +97,7 @@ impl Structure for RefusingStructure {
     }
 }
 
-impl NonlinearForce for RefusingStructure {
+impl NonlinearForce for StructureWithError {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         let drift = u[3] - u[0];
         force[3] += 1e8 * drift.powi(3);
@@ -125,7 +125,7 @@ fn build(structure: impl Structure + 'static) -> Result<Simulation> {
 }
 
 #[test]
-fn matrices_and_the_static_load_are_refused_with_the_structures_error() {
+fn matrices_and_the_static_load_are_errors_with_the_structures_error() {
     for part in [
         RefusedPart::Mass,
         RefusedPart::Stiffness,
@@ -134,32 +134,33 @@ fn matrices_and_the_static_load_are_refused_with_the_structures_error() {
         RefusedPart::Force,
         RefusedPart::Tangent,
     ] {
-        let [alone, member, sprung] = [(); 3].map(|()| RefusingStructure::new(part, 0.0));
-        assert_eq!(build(alone).unwrap_err(), refusal(), "{part:?}");
-        let group = StructureGroup::new().with(member, 0.0).unwrap();
-        assert_eq!(build(group).unwrap_err(), refusal(), "{part:?}");
-        let with_springs = WithSprings::new(sprung);
-        assert_eq!(build(with_springs).unwrap_err(), refusal(), "{part:?}");
+        let [single_structure, group_member, structure_with_springs] =
+            [(); 3].map(|()| StructureWithError::new(part, 0.0));
+        assert_eq!(build(single_structure).unwrap_err(), part_error(), "{part:?}");
+        let group = StructureGroup::new().with(group_member, 0.0).unwrap();
+        assert_eq!(build(group).unwrap_err(), part_error(), "{part:?}");
+        let with_springs = WithSprings::new(structure_with_springs);
+        assert_eq!(build(with_springs).unwrap_err(), part_error(), "{part:?}");
     }
     let damping = ModalDamping::new(&[0.05]).unwrap();
-    let structure = RefusingStructure::new(RefusedPart::Stiffness, 0.0);
-    assert_eq!(damping.on(structure).unwrap_err(), refusal());
-    let linear = RefusingStructure {
+    let structure = StructureWithError::new(RefusedPart::Stiffness, 0.0);
+    assert_eq!(damping.on(structure).unwrap_err(), part_error());
+    let linear_structure = StructureWithError {
         has_force: false,
         has_mutable_force: false,
-        ..RefusingStructure::new(RefusedPart::Mass, 0.0)
+        ..StructureWithError::new(RefusedPart::Mass, 0.0)
     };
-    assert_eq!(CraigBampton::new(0).reduce(linear).unwrap_err(), refusal());
+    assert_eq!(CraigBampton::new(0).reduce(linear_structure).unwrap_err(), part_error());
 }
 
 #[test]
-fn a_step_refused_by_the_structure_commits_nothing() {
+fn a_step_with_an_error_of_the_structure_commits_nothing() {
     for (part, threshold, quantity) in [
         (RefusedPart::Load, 0.0205, "load of the structure"),
         (RefusedPart::Force, 1e-4, "nonlinear force of the structure"),
         (RefusedPart::Tangent, 1e-4, "tangent of the structure"),
     ] {
-        let structure = RefusingStructure::new(part, threshold);
+        let structure = StructureWithError::new(part, threshold);
         let commits = Arc::clone(&structure.commits);
         let mut simulation = build(structure).unwrap();
         // The static state is committed once.
@@ -172,12 +173,12 @@ fn a_step_refused_by_the_structure_commits_nothing() {
                 break error;
             }
             accepted_steps += 1;
-            assert!(accepted_steps < 1000, "{part:?} is never refused");
+            assert!(accepted_steps < 1000, "{part:?} is never an error");
         };
         assert_eq!(commits.load(Ordering::Relaxed), accepted_steps, "{part:?}");
         let Error::Step { step, source, .. } = &error else { panic!("{error:?}") };
         assert_eq!(*step, accepted_steps + 1);
-        let expected = StepError::Part { quantity, source: Box::new(refusal()) };
+        let expected = StepError::Part { quantity, source: Box::new(part_error()) };
         assert_eq!(*source, expected);
         let text = format!("{quantity}: my structure: a spring");
         assert!(error.to_string().contains(&text), "{error}");
@@ -188,20 +189,20 @@ fn a_step_refused_by_the_structure_commits_nothing() {
 }
 
 /// A structure with only one of the two accessors of its nonlinear force.
-fn with_one_accessor(is_mutable: bool) -> RefusingStructure {
-    RefusingStructure {
+fn with_one_accessor(is_mutable: bool) -> StructureWithError {
+    StructureWithError {
         has_force: !is_mutable,
         has_mutable_force: is_mutable,
-        ..RefusingStructure::intact()
+        ..StructureWithError::intact()
     }
 }
 
-fn group_of(first: RefusingStructure, second: RefusingStructure) -> StructureGroup {
+fn group_of(first: StructureWithError, second: StructureWithError) -> StructureGroup {
     StructureGroup::new().with(first, -2.0).unwrap().with(second, 4.0).unwrap()
 }
 
 #[test]
-fn a_nonlinear_force_with_one_accessor_is_refused() {
+fn a_nonlinear_force_with_one_accessor_is_an_error() {
     for is_mutable in [false, true] {
         let structure = || with_one_accessor(is_mutable);
         let spring = Bilinear::new(1e6, 1e4, 0.1).unwrap();
@@ -211,16 +212,16 @@ fn a_nonlinear_force_with_one_accessor_is_refused() {
             Box::new(WithSprings::new(structure())),
             Box::new(with_spring.unwrap()),
             Box::new(ModalDamping::new(&[0.05]).unwrap().on(structure()).unwrap()),
-            Box::new(group_of(structure(), RefusingStructure::intact())),
-            Box::new(group_of(RefusingStructure::intact(), structure())),
+            Box::new(group_of(structure(), StructureWithError::intact())),
+            Box::new(group_of(StructureWithError::intact(), structure())),
         ];
         for (index, structure) in structures.into_iter().enumerate() {
             let Err(Error::Scene { quantity, .. }) = build(structure) else {
-                panic!("mutable {is_mutable}, structure {index} was not refused");
+                panic!("mutable {is_mutable}, structure {index} was no error");
             };
             assert_eq!(quantity, "nonlinear force of the structure");
         }
         assert!(CraigBampton::new(0).reduce(structure()).is_err());
     }
-    build(RefusingStructure::intact()).unwrap();
+    build(StructureWithError::intact()).unwrap();
 }

@@ -1,4 +1,4 @@
-//! GOAL: sizes that are too large are refused before memory is allocated, by an error that names what they would need.
+//! GOAL: sizes that are too large are errors before memory is allocated; the error names the memory they would need.
 //! SCENE: blocks, strips, boundaries, records, sweeps and matrices far too large; huge expected numbers of steps.
 //! REFERENCE: the smallest size of their matrices and lists, counted by hand; the peak memory of the process.
 
@@ -18,11 +18,11 @@ fn peak_memory() -> Option<f64> {
     Some(1024.0 * line.split_whitespace().nth(1)?.parse::<f64>().ok()?)
 }
 
-/// Checks that this number is refused for its memory of at least `min_bytes`.
+/// Checks that this number is a memory error that names at least `min_bytes`.
 #[track_caller]
 fn assert_too_large<T>(result: Result<T>, quantity: &str, number: f64, min_bytes: f64) {
     let Err(Error::Memory(error)) = result.map(drop) else {
-        panic!("{quantity} is not refused")
+        panic!("{quantity} is no error")
     };
     assert_eq!((error.quantity, error.asked), (quantity, number));
     assert!(error.needed >= min_bytes && error.needed < 100.0 * min_bytes, "{error}");
@@ -43,7 +43,7 @@ fn concrete_layer(rows: usize) -> [Layer; 1] {
     [Layer::new(1.0, rows, Material::new(30e9, 0.2, 2400.0).unwrap())]
 }
 
-/// Checks that a block is refused: an element stores at least four node numbers of eight bytes.
+/// Checks that a block is an error: an element stores at least four node numbers of eight bytes.
 #[track_caller]
 fn assert_block_is_too_large(result: Result<Mesh>, columns: f64, rows: f64) {
     let quantity = "columns times rows of the block";
@@ -51,7 +51,7 @@ fn assert_block_is_too_large(result: Result<Mesh>, columns: f64, rows: f64) {
 }
 
 #[test]
-fn large_meshes_are_refused_before_memory_is_allocated() {
+fn large_meshes_are_errors_before_memory_is_allocated() {
     let previous_peak = peak_memory();
     let layers = concrete_layer(100_000);
     assert_block_is_too_large(Mesh::layered_block(0.0..1.0, 100_000, &layers), 1e5, 1e5);
@@ -65,14 +65,14 @@ fn large_meshes_are_refused_before_memory_is_allocated() {
     assert_memory_growth(previous_peak, 5e8);
 }
 
-/// Checks that a number of elements is refused: a matrix of two components has 4 Q² numbers.
+/// Checks that a number of elements is an error: a matrix of two components has 4 Q² numbers.
 #[track_caller]
 fn assert_too_many_elements<T>(result: Result<T>, quantity: &str, count: f64) {
     assert_too_large(result, quantity, count, 32.0 * count * count);
 }
 
 #[test]
-fn large_grounds_are_refused_before_memory_is_allocated() {
+fn large_grounds_are_errors_before_memory_is_allocated() {
     let previous_peak = peak_memory();
     let quantity = "contact elements";
     assert_too_many_elements(Strip::graded(-5.0..5.0, 10_000), quantity, 1e4);
@@ -86,7 +86,7 @@ fn large_grounds_are_refused_before_memory_is_allocated() {
 }
 
 #[test]
-fn large_matrices_are_refused_before_memory_is_allocated() {
+fn large_matrices_are_errors_before_memory_is_allocated() {
     let previous_peak = peak_memory();
     // The matrix stores where each row begins.
     let matrix = Triplets::new(100_000_000);
@@ -96,7 +96,7 @@ fn large_matrices_are_refused_before_memory_is_allocated() {
 }
 
 #[test]
-fn long_records_and_sweeps_are_refused_before_memory_is_allocated() {
+fn long_records_and_sweeps_are_errors_before_memory_is_allocated() {
     let previous_peak = peak_memory();
     let quantity = "samples of the record";
     let by_function = Record::from_fn(1e-9, 1e3, |_| unreachable!("no sample is taken"));
@@ -114,7 +114,7 @@ fn long_records_and_sweeps_are_refused_before_memory_is_allocated() {
     assert_memory_growth(previous_peak, 5e8);
 }
 
-/// Huge numbers of steps are refused before anything is allocated, unless the history does not grow.
+/// Huge numbers of steps are errors before anything is allocated, unless the history does not grow.
 #[test]
 fn huge_numbers_of_steps_take_no_memory() {
     let soil = Soil::new(80e6, 0.33, 1900.0).unwrap();
@@ -129,12 +129,12 @@ fn huge_numbers_of_steps_take_no_memory() {
         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 16).unwrap()).unwrap();
         let mut ground =
             ground.with_history(HistoryOptions { memory: 1 << 24, ..kind.into() }).unwrap();
-        let prepared = ground.prepare(0.002, Some(steps), &mut unobserved);
+        let preparation = ground.prepare(0.002, Some(steps), &mut unobserved);
         if kind == HistoryMethod::Auto {
             ground.history(&mut displacement).unwrap();
         } else {
-            let Err(Error::Memory(error)) = prepared else {
-                panic!("{kind}: {prepared:?}")
+            let Err(Error::Memory(error)) = preparation else {
+                panic!("{kind}: {preparation:?}")
             };
             assert!(error.asked == steps as f64 && error.limit == f64::from(1 << 24), "{error}");
         }

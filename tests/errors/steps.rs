@@ -1,5 +1,5 @@
 //! GOAL: a step that fails leaves the last accepted state.
-//! SCENE: free fields and loads that become NaN in the middle of a run; laws for which no modes are found.
+//! SCENE: free fields and loads that become NaN in the middle of a run; laws without admissible modes.
 //! REFERENCE: the state before the step, and the fields of the error.
 
 use std::fmt::Debug;
@@ -65,11 +65,15 @@ fn a_free_field_that_fails_leaves_the_last_accepted_step() {
 #[test]
 fn a_load_that_fails_leaves_the_last_accepted_step() {
     for tangent in [None, Some((0, 0, 0.0))] {
-        let intact = DefectiveStructure::intact();
-        let structure = DefectiveStructure { load_fails_at: 0.0101, tangent, ..intact };
-        let failed = failed_step(structure.scene().build().unwrap());
-        assert_not_finite(&failed.error, failed.accepted_steps, "load of the structure");
-        assert_eq!(failed.accepted_steps, 10);
+        let intact_structure = DefectiveStructure::intact();
+        let structure = DefectiveStructure { load_fails_at: 0.0101, tangent, ..intact_structure };
+        let failed_step_of_structure = failed_step(structure.scene().build().unwrap());
+        assert_not_finite(
+            &failed_step_of_structure.error,
+            failed_step_of_structure.accepted_steps,
+            "load of the structure",
+        );
+        assert_eq!(failed_step_of_structure.accepted_steps, 10);
     }
 }
 
@@ -80,10 +84,14 @@ fn a_force_that_fails_leaves_the_last_accepted_step() {
         tangent: Some((0, 0, 0.0)),
         ..DefectiveStructure::intact()
     };
-    let failed = failed_step(structure.scene().build().unwrap());
-    assert_not_finite(&failed.error, failed.accepted_steps, "nonlinear force of the structure");
+    let failed_step_of_structure = failed_step(structure.scene().build().unwrap());
+    assert_not_finite(
+        &failed_step_of_structure.error,
+        failed_step_of_structure.accepted_steps,
+        "nonlinear force of the structure",
+    );
     // The first commit belongs to the static state.
-    assert_eq!(failed.accepted_steps, 6);
+    assert_eq!(failed_step_of_structure.accepted_steps, 6);
 }
 
 /// A law that accepts no mode of an element.
@@ -125,6 +133,6 @@ fn errors_implement_the_standard_traits() {
     is_error::<StepError>();
     let builder = complete_scene().interface(law_without_valid_mode());
     let error = failed_step(builder.build().unwrap()).error;
-    // Its text is complete, and no source repeats it.
+    // The text of the error is complete, and no source repeats it.
     assert!(std::error::Error::source(&error).is_none());
 }

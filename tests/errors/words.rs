@@ -15,7 +15,7 @@ use basemat::interface::{FrictionLimit, Mode, SlipSense};
 use basemat::motion::{AccelerationUnit, Baseline};
 use basemat::results::{Criterion, Quantity};
 
-/// Checks that each choice is read as it is printed, and that other spellings and words are refused.
+/// Checks that each choice is read as it is printed, and that other spellings and words are errors.
 #[track_caller]
 fn assert_spelling<T>(quantity: &str, choices: &[T])
 where
@@ -37,12 +37,12 @@ where
 
 /// Whether a list of words contains this choice, up to its parameters.
 fn names_choice(words: &[String], choice: &impl Display) -> bool {
-    let printed = choice.to_string();
-    let name = printed.split('(').next();
+    let printed_choice = choice.to_string();
+    let name = printed_choice.split('(').next();
     words.iter().any(|word| word.split('(').next() == name)
 }
 
-/// Checks that each choice is read as it is printed, and that other words are refused.
+/// Checks that each choice is read as it is printed, and that other words are errors.
 #[track_caller]
 fn assert_words<T>(quantity: &str, choices: &[T])
 where
@@ -112,9 +112,9 @@ fn choices_are_read_as_they_are_printed() {
     assert_spelling("direction", &[X, Y, InPlane, Z, RotationX, RotationY, RotationZ]);
     assert_spelling("quantity", &Quantity::ALL_QUANTITIES);
     let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];
-    let reduced = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });
+    let reduced_coordinates = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });
     assert_spelling("kind of coordinates", &[Coordinates::Physical, Coordinates::Modes]);
-    for choice in reduced.iter().chain(&[Coordinates::Auto]) {
+    for choice in reduced_coordinates.iter().chain(&[Coordinates::Auto]) {
         assert_eq!(choice.to_string().parse(), Ok(*choice));
     }
     let searches =

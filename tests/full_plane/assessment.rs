@@ -23,18 +23,18 @@ fn ground() -> FullPlaneGround {
 
 /// Time kernel that counts the requests for coefficients.
 struct CountingKernel {
-    inner: TimeKernel,
+    inner_kernel: TimeKernel,
     calls: Arc<AtomicUsize>,
 }
 
 impl BoundaryKernel for CountingKernel {
     fn segments(&self) -> &[Segment] {
-        self.inner.segments()
+        self.inner_kernel.segments()
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
         self.calls.fetch_add(1, Relaxed);
-        self.inner.coefficients(lag, g, h)
+        self.inner_kernel.coefficients(lag, g, h)
     }
 }
 
@@ -42,8 +42,9 @@ impl BoundaryKernel for CountingKernel {
 fn counting_ground(calls: &Arc<AtomicUsize>) -> FullPlaneGround {
     let calls = Arc::clone(calls);
     ground().with_kernel(move |segments, soil, step| {
-        let inner = TimeKernel::new(soil, segments, step)?;
-        Ok(Box::new(CountingKernel { inner, calls: Arc::clone(&calls) }) as Box<dyn BoundaryKernel>)
+        let inner_kernel = TimeKernel::new(soil, segments, step)?;
+        Ok(Box::new(CountingKernel { inner_kernel, calls: Arc::clone(&calls) })
+            as Box<dyn BoundaryKernel>)
     })
 }
 
@@ -71,31 +72,38 @@ fn largest_displacement(ground: &mut FullPlaneGround, steps: usize) -> f64 {
     largest(ground.displacement())
 }
 
-/// GOAL: β = 1/2, the step of the paper, is refused with the growth of a march of this ground.
+/// GOAL: β = 1/2, the step of the paper, is an error with the growth of a march of this ground.
 #[test]
-fn growth_is_refused_and_is_that_of_the_march() {
-    // β = 1/2.
+fn growth_is_an_error_and_is_that_of_the_march() {
+    // The time step has β = 1/2.
     let Err(Error::Ground(GroundError::Unstable { growth_per_step, growing_modes })) =
         ground().prepare(0.25, None, &mut unobserved)
     else {
         panic!("prepared")
     };
     assert!(growing_modes > 0);
-    let mut allowed = ground().allow_growth();
-    allowed.prepare(0.25, None, &mut unobserved).unwrap();
+    let mut ground_with_growth = ground().allow_growth();
+    ground_with_growth.prepare(0.25, None, &mut unobserved).unwrap();
     // With the base uplifted, then bonded.
-    let assessed = allowed.assess(0.25, 1e-4).unwrap().map(|state| state.growth_per_step);
+    let assessed =
+        ground_with_growth.assess(0.25, 1e-4).unwrap().map(|state| state.growth_per_step);
     assert_eq!(assessed[0].max(assessed[1]), growth_per_step);
-    // The base is free of traction: the growth of the uplifted state.
-    let mut longer = ground().allow_growth();
-    longer.prepare(0.25, None, &mut unobserved).unwrap();
-    let early = largest_displacement(&mut allowed, 400);
-    let late = largest_displacement(&mut longer, 800);
-    assert_close("growth", ((late / early).ln() / 400.0).exp_m1(), assessed[0], 0.0, 0.02);
+    // The base is free of traction, so that the growth is that of the uplifted state.
+    let mut ground_of_the_longer_run = ground().allow_growth();
+    ground_of_the_longer_run.prepare(0.25, None, &mut unobserved).unwrap();
+    let early_displacement = largest_displacement(&mut ground_with_growth, 400);
+    let late_displacement = largest_displacement(&mut ground_of_the_longer_run, 800);
+    assert_close(
+        "growth",
+        ((late_displacement / early_displacement).ln() / 400.0).exp_m1(),
+        assessed[0],
+        0.0,
+        0.02,
+    );
 }
 
 /// GOAL: a bounded time step is accepted, and convolution quadrature is bounded at the time step for
-/// which the time kernel is refused on the same mesh.
+/// which the time kernel is an error on the same mesh.
 #[test]
 fn bounded_grounds_are_prepared_and_decay() {
     let mut long_step = ground();
@@ -106,14 +114,14 @@ fn bounded_grounds_are_prepared_and_decay() {
     });
     quadrature.prepare(0.25, None, &mut unobserved).unwrap();
     for ground in [&mut long_step, &mut quadrature] {
-        let early = largest_displacement(ground, 200);
-        assert!(largest_displacement(ground, 1000) < early);
+        let early_displacement = largest_displacement(ground, 200);
+        assert!(largest_displacement(ground, 1000) < early_displacement);
     }
 }
 
-/// GOAL: the builder of a simulation refuses growth.
+/// GOAL: the builder of a simulation returns an error for growth.
 #[test]
-fn a_simulation_with_growth_is_refused_unless_allowed() {
+fn a_simulation_with_growth_is_an_error_unless_allowed() {
     fn build(ground: impl Ground, time_step: f64) -> Result<Simulation> {
         Simulation::builder(time_step)
             .structure(RigidBlock::new(4.0, 2.0, 1.0).unwrap())
@@ -122,9 +130,9 @@ fn a_simulation_with_growth_is_refused_unless_allowed() {
             .gravity(0.0)
             .build()
     }
-    let refused = build(ground(), 0.25).err().unwrap();
-    assert!(matches!(refused, Error::Ground(GroundError::Unstable { .. })));
-    assert!(refused.to_string().contains("per step"), "{refused}");
+    let result = build(ground(), 0.25).err().unwrap();
+    assert!(matches!(result, Error::Ground(GroundError::Unstable { .. })));
+    assert!(result.to_string().contains("per step"), "{result}");
     assert!(build(ground().allow_growth(), 0.25).is_ok());
     let boxed: Box<dyn Ground> = Box::new(ground());
     assert!(build(boxed, 1.0).is_ok());
@@ -160,7 +168,7 @@ fn growth_below_the_smallest_of_interest_is_bounded() {
         assert!(matches!(ground().assess(1.0, growth), Err(Error::Input { .. })), "{growth}");
     }
     for time_step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let refused = ground().assess(time_step, 1e-4);
-        assert!(matches!(refused, Err(Error::Input { .. })), "{time_step}");
+        let result = ground().assess(time_step, 1e-4);
+        assert!(matches!(result, Err(Error::Input { .. })), "{time_step}");
     }
 }

@@ -16,9 +16,9 @@ fn entry_of_pair(matrix: &[f64], i: usize, j: usize) -> f64 {
 }
 
 /// Largest difference of entries, relative to the largest entry of the exact matrix.
-fn relative_error(approximate: &[f64], exact: &[f64]) -> f64 {
-    let size = largest(exact);
-    exact.iter().zip(approximate).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size
+fn relative_error(computed: &[f64], expected: &[f64]) -> f64 {
+    let size = largest(expected);
+    expected.iter().zip(computed).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size
 }
 
 /// GOAL: coefficients keep their relative precision at early, middle and late lags.
@@ -66,26 +66,26 @@ fn subelements_converge_to_the_exact_integrals() {
     let kernel = || TimeKernel::new(soil(0.25), &pair, 0.47).unwrap();
     // The shear wave is inside the element at lag 6; both waves have passed at lag 12.
     for (lag, order) in [(6, 0.4), (12, 1.9)] {
-        let exact = coefficients(&kernel(), lag);
+        let expected = coefficients(&kernel(), lag);
         let errors = [5, 5000].map(|count| {
             let approximate = coefficients(&kernel().with_subelements(count).unwrap(), lag);
-            relative_error(&approximate.h, &exact.h)
+            relative_error(&approximate.h, &expected.h)
         });
         println!("lag {lag}: {errors:?}");
         assert!(errors[1] < errors[0] / 1000.0_f64.powf(order));
     }
     // No front is inside: three Gauss points resolve the last digits that one point does not.
-    let exact = coefficients(&kernel(), 12);
+    let expected = coefficients(&kernel(), 12);
     let errors = [1, 2, 3].map(|points| {
         let approximate = coefficients(&kernel().with_gauss_subelements(5, points).unwrap(), 12);
-        relative_error(&approximate.h, &exact.h)
+        relative_error(&approximate.h, &expected.h)
     });
     println!("Gauss: {errors:?}");
     assert!(errors[1] < 1e-2 * errors[0] && errors[2] < 1e-4 * errors[0]);
     assert!(matches!(kernel().with_subelements(0), Err(Error::Input { .. })));
     for (count, points) in [(0, 2), (5, 0), (5, 9)] {
-        let refused = kernel().with_gauss_subelements(count, points);
-        assert!(matches!(refused, Err(Error::Input { .. })), "{count} {points}");
+        let result = kernel().with_gauss_subelements(count, points);
+        assert!(matches!(result, Err(Error::Input { .. })), "{count} {points}");
     }
 }
 
@@ -101,7 +101,7 @@ fn sums_over_closed_polygons_are_one_outside_and_zero_inside() {
                 *sum += row[..9].iter().sum::<f64>();
             }
         }
-        // All elements move along x: the x rows sum to the free term, the z rows to zero. The
+        // All elements move along x: the rows of x sum to the free term, and the rows of z to zero. The
         // remainder after a time t decreases like (r/ct)².
         for (k, sum) in sums.iter().enumerate() {
             assert_close("row sum", *sum, if k < 9 { x_row_sum } else { 0.0 }, 3e-5, 0.0);

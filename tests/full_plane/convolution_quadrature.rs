@@ -70,7 +70,7 @@ fn laplace_integrals_agree_with_the_table() {
         let mut segments: Vec<Segment> = [a[row], b[row]]
             .map(|ends| Segment { from: [ends[0], ends[1]], to: [ends[2], ends[3]] })
             .into();
-        // The element acts on its midpoint: one segment, and the free term.
+        // An element that acts on itself is one segment, and has the free term.
         let is_on_itself = a[row] == b[row];
         if is_on_itself {
             segments.truncate(1);
@@ -144,7 +144,7 @@ const GAUSS_RULE_OF_FIVE: [(f64, f64); 5] = [
 
 /// G and H of the impulse response, by Gauss points on eight parts of each element.
 ///
-/// For late times, when the response is smooth.
+/// The rule is accurate at late times, when the response is smooth.
 fn impulse_response(segments: &[Segment], time: f64) -> [Vec<f64>; 2] {
     let plane = FullPlane::new(unit_soil());
     let count = segments.len();
@@ -200,12 +200,12 @@ fn late_coefficients_agree_with_the_time_domain() {
         for (method, order) in [(CqMethod::Bdf1, 1.0), (CqMethod::Bdf2, 2.0)] {
             let kernel = ConvolutionQuadrature::new(unit_soil(), &segments, step, method).unwrap();
             // Tractions, where the factor ln s starts with s².
-            let coarse = late_errors(&kernel, step, 400)[1];
+            let early_error = late_errors(&kernel, step, 400)[1];
             let fine = late_errors(&kernel, step, 800)[1];
-            assert_close("order", (coarse / fine).log2(), order, 0.1, 0.0);
-            let latest = late_errors(&kernel, step, 54_000);
-            assert!(latest[0] < 1e-8, "{:e}", latest[0]);
-            assert!(latest[1] < if order > 1.5 { 1e-8 } else { 1e-3 });
+            assert_close("order", (early_error / fine).log2(), order, 0.1, 0.0);
+            let latest_errors = late_errors(&kernel, step, 54_000);
+            assert!(latest_errors[0] < 1e-8, "{:e}", latest_errors[0]);
+            assert!(latest_errors[1] < if order > 1.5 { 1e-8 } else { 1e-3 });
         }
     }
 }

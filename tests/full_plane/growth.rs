@@ -75,12 +75,12 @@ impl GrowthCase {
         let start: Vec<f64> = (0..2 * count).map(|_| random.within(-1.0, 1.0)).collect();
         march.step(&start).unwrap();
         // Means over eighths average the beat of complex modes.
-        let eighth = steps / 8;
-        mean_log_size(&mut march, is_bonded, 3 * eighth);
-        let middle = mean_log_size(&mut march, is_bonded, eighth);
-        mean_log_size(&mut march, is_bonded, 3 * eighth);
-        let end = mean_log_size(&mut march, is_bonded, eighth);
-        ((end - middle) / (4 * eighth) as f64).exp_m1()
+        let window = steps / 8;
+        mean_log_size(&mut march, is_bonded, 3 * window);
+        let middle = mean_log_size(&mut march, is_bonded, window);
+        mean_log_size(&mut march, is_bonded, 3 * window);
+        let end = mean_log_size(&mut march, is_bonded, window);
+        ((end - middle) / (4 * window) as f64).exp_m1()
     }
 }
 
@@ -191,16 +191,17 @@ fn growth_depends_on_poissons_ratio() {
 #[test]
 fn long_surfaces_grow_where_short_ones_do_not() {
     for (method, beta) in [(BDF2, 0.1), (TIME_KERNEL, 0.5)] {
-        let long = GrowthCase::table(method, beta);
-        let short = GrowthCase { elements: 6, ..long };
-        assert!(short.assess()[0].is_bounded(), "{short:?}");
-        assert!(!long.assess()[0].is_bounded(), "{long:?}");
+        let longer_surface = GrowthCase::table(method, beta);
+        let shorter_surface = GrowthCase { elements: 6, ..longer_surface };
+        assert!(shorter_surface.assess()[0].is_bounded(), "{shorter_surface:?}");
+        assert!(!longer_surface.assess()[0].is_bounded(), "{longer_surface:?}");
     }
     // Five and twenty free elements on either side of ten.
-    let short = GrowthCase { method: TIME_KERNEL, poisson: 0.25, elements: 10, free: 5, beta: 1.0 };
-    let long = GrowthCase { free: 20, ..short };
-    assert!(short.march(false, 800) < 1e-4);
-    assert_close("50 elements", long.march(false, 800), 0.02, 0.005, 0.0);
+    let shorter_surface =
+        GrowthCase { method: TIME_KERNEL, poisson: 0.25, elements: 10, free: 5, beta: 1.0 };
+    let longer_surface = GrowthCase { free: 20, ..shorter_surface };
+    assert!(shorter_surface.march(false, 800) < 1e-4);
+    assert_close("50 elements", longer_surface.march(false, 800), 0.02, 0.005, 0.0);
 }
 
 /// A trench with square corners, 1 wide and deep, in elements of a half.
@@ -254,13 +255,15 @@ fn marches_grow_as_predicted() {
     ] {
         let case = GrowthCase::table(method, beta);
         let assessed = case.assess();
-        let predicted = &assessed[usize::from(is_bonded)];
+        let predicted_stability = &assessed[usize::from(is_bonded)];
         let marched_growth = case.march(is_bonded, steps);
-        println!("{case:?} bonded {is_bonded}: marched {marched_growth:.4e}, {predicted:?}");
-        if predicted.is_bounded() {
+        println!(
+            "{case:?} bonded {is_bonded}: marched {marched_growth:.4e}, {predicted_stability:?}"
+        );
+        if predicted_stability.is_bounded() {
             assert!(marched_growth < 1e-4);
         } else {
-            assert_close("growth", marched_growth, predicted.growth_per_step, 0.0, 0.03);
+            assert_close("growth", marched_growth, predicted_stability.growth_per_step, 0.0, 0.03);
         }
     }
 }

@@ -50,10 +50,10 @@ fn the_coupling_converges_with_the_length_of_the_free_surface() {
         assert_within("BDF2", &["khh", "kvv", "krr", "khr"], errors, &limits);
     }
     for k in 0..3 {
-        let direct = errors.map(|errors| errors[k]);
-        let smallest = direct.into_iter().fold(1.0_f64, f64::min);
-        let largest = direct.into_iter().fold(0.0_f64, f64::max);
-        assert!(largest < 1.2 * smallest, "{k}: {direct:?}");
+        let direct_errors = errors.map(|errors| errors[k]);
+        let min_error = direct_errors.into_iter().fold(1.0_f64, f64::min);
+        let max_magnitude = direct_errors.into_iter().fold(0.0_f64, f64::max);
+        assert!(max_magnitude < 1.2 * min_error, "{k}: {direct_errors:?}");
     }
     // The last quadrupling of the length: by 2^(2 · 0.4).
     assert_close("order", (errors[2][3] / errors[3][3]).log2() / 2.0, 0.4, 0.1, 0.0);
@@ -108,10 +108,10 @@ fn the_static_compliance_is_that_of_the_half_plane() {
     half_plane.static_compliance(&mut compliance).unwrap();
     let expected = relative_compliances(&compliance);
     let errors: [[f64; 4]; 3] = [5, 20, 80].map(|free| {
-        let flat = Boundary::flat(&[Strip::uniform(-1.0..1.0, 4).unwrap()], free).unwrap();
-        let mut segments = flat.segments().to_vec();
+        let flat_boundary = Boundary::flat(&[Strip::uniform(-1.0..1.0, 4).unwrap()], free).unwrap();
+        let mut segments = flat_boundary.segments().to_vec();
         segments.last_mut().unwrap().to[1] += 1e-6;
-        let boundary = Boundary::new(segments, flat.contact()).unwrap();
+        let boundary = Boundary::new(segments, flat_boundary.contact()).unwrap();
         assert!(!boundary.is_flat());
         let ground = FullPlaneGround::new(soil(0.3), boundary);
         let mut compliance = [0.0; 64];

@@ -115,7 +115,7 @@ pub(crate) fn waves() -> VerticalWaves {
 /// Mean displacement of the contact by scattering, down and along, and the largest incident one.
 struct ContactMotion {
     /// Downwards, then along.
-    scattered: [f64; 2],
+    scattered_motion: [f64; 2],
     largest_incident: f64,
 }
 
@@ -134,7 +134,7 @@ fn contact_motion(boundary: Boundary, time_step: f64, steps: usize) -> Vec<Conta
             ground.free_field(&AtRest, n as f64 * time_step, &mut incident);
             ground.commit(&[]);
             ContactMotion {
-                scattered: [mean(&history[..count]), mean(&history[count..])],
+                scattered_motion: [mean(&history[..count]), mean(&history[count..])],
                 largest_incident: largest(&incident),
             }
         })
@@ -146,22 +146,22 @@ fn contact_motion(boundary: Boundary, time_step: f64, steps: usize) -> Vec<Conta
 #[test]
 fn canyons_scatter_incident_waves_and_flat_grounds_do_not() {
     let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
-    let flat = contact_motion(Boundary::flat(&[strip], 3).unwrap(), 0.25, 80);
-    assert!(flat.iter().all(|motion| motion.scattered == [0.0; 2]));
-    assert!(flat.iter().any(|motion| motion.largest_incident > 0.95));
+    let flat_motion = contact_motion(Boundary::flat(&[strip], 3).unwrap(), 0.25, 80);
+    assert!(flat_motion.iter().all(|motion| motion.scattered_motion == [0.0; 2]));
+    assert!(flat_motion.iter().any(|motion| motion.largest_incident > 0.95));
     let time_step = 0.75 * 0.25 / soil(0.25).pressure_wave_speed();
     let coarse = contact_motion(canyon(0.5), 2.0 * time_step, 80);
     let fine = contact_motion(canyon(0.25), time_step, 160);
     let errors = [0, 1].map(|k| {
         let mut error = SeriesError::default();
         for (coarse, fine) in coarse.iter().zip(fine.iter().skip(1).step_by(2)) {
-            error.add(coarse.scattered[k], fine.scattered[k]);
+            error.add(coarse.scattered_motion[k], fine.scattered_motion[k]);
         }
         error.relative()
     });
-    let largest = fine.iter().fold(0.0, |m, motion| largest(&motion.scattered).max(m));
-    println!("largest {largest:.3}");
-    assert!((0.1..0.5).contains(&largest), "{largest}");
+    let max_magnitude = fine.iter().fold(0.0, |m, motion| largest(&motion.scattered_motion).max(m));
+    println!("largest {max_magnitude:.3}");
+    assert!((0.1..0.5).contains(&max_magnitude), "{max_magnitude}");
     assert_within("canyon", &["down", "along"], &errors, &[0.29, 0.19]);
 }
 

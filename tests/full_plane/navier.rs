@@ -72,9 +72,9 @@ fn full_plane_obeys_naviers_equation() {
                     let field = DisplacementField { plane, point, time, load, j };
                     let ux = field.second_derivatives(0);
                     let uz = field.second_derivatives(1);
-                    let largest =
+                    let max_magnitude =
                         [ux, uz].iter().flatten().fold(0.0_f64, |m, value| m.max(value.abs()));
-                    let scale = largest * (sum + soil.shear_modulus());
+                    let scale = max_magnitude * (sum + soil.shear_modulus());
                     for (second, divergence) in [
                         (ux, ux[0] + field.mixed_derivative(1)),
                         (uz, field.mixed_derivative(0) + uz[1]),

@@ -1,4 +1,4 @@
-//! GOAL: invalid input, and two motions at once, are refused.
+//! GOAL: invalid input, and two motions at once, are errors.
 //! SCENE: empty, degenerate and non-finite boundaries; an incident field beside a motion of the scene.
 //! REFERENCE: the typed error.
 
@@ -14,17 +14,17 @@ use basemat::{Error, Simulation, unobserved};
 use super::soil;
 use crate::full_plane::incident_waves::{canyon, waves};
 
-/// GOAL: a boundary that is not flat needs its incident field, and refuses a motion of the scene beside it.
+/// GOAL: a boundary that is not flat needs its incident field, and returns an error for a motion of the scene beside it.
 #[test]
-fn two_motions_are_refused() {
+fn two_motions_are_errors() {
     let mut ground = FullPlaneGround::new(soil(0.25), canyon(0.5));
     assert!(matches!(ground.prepare(0.5, None, &mut unobserved), Err(Error::Scene { .. })));
     let mut ground = ground.with_incident_field(waves()).allow_growth();
     ground.prepare(0.5, None, &mut unobserved).unwrap();
-    let mut out = [0.0; 8];
-    ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);
-    assert!(out.iter().all(|x| x.is_nan()));
-    assert!(matches!(ground.history(&mut out), Err(Error::Scene { .. })));
+    let mut coefficients = [0.0; 8];
+    ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut coefficients);
+    assert!(coefficients.iter().all(|x| x.is_nan()));
+    assert!(matches!(ground.history(&mut coefficients), Err(Error::Scene { .. })));
     // The error of a simulation has the reason.
     let ground = FullPlaneGround::new(soil(0.25), canyon(0.5)).with_incident_field(waves());
     let elements = ground.elements().to_vec();
@@ -51,9 +51,9 @@ fn unit_kernel() -> Box<TimeKernel> {
     Box::new(TimeKernel::new(soil(0.25), &[unit_element(0.0)], 0.5).unwrap())
 }
 
-/// GOAL: boundaries, marches and grounds refuse invalid input.
+/// GOAL: boundaries, marches and grounds return errors for invalid input.
 #[test]
-fn invalid_input_is_refused() {
+fn invalid_input_is_an_error() {
     let soil = soil(0.25);
     let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));

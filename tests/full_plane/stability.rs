@@ -36,13 +36,14 @@ fn gauss_node_and_weight(k: u32) -> [f64; 2] {
     let mut slope = 1.0;
     for _ in 0..8 {
         // Legendre's polynomials of two successive orders.
-        let mut previous = 1.0;
+        let mut previous_polynomial = 1.0;
         let mut value = x;
         for n in 2..=GAUSS_POINTS {
             let n = f64::from(n);
-            (previous, value) = (value, ((2.0 * n - 1.0) * x * value - (n - 1.0) * previous) / n);
+            (previous_polynomial, value) =
+                (value, ((2.0 * n - 1.0) * x * value - (n - 1.0) * previous_polynomial) / n);
         }
-        slope = size * (x * value - previous) / (x * x - 1.0);
+        slope = size * (x * value - previous_polynomial) / (x * x - 1.0);
         x -= value / slope;
     }
     [x, 2.0 / ((1.0 - x * x) * slope * slope)]
@@ -150,17 +151,17 @@ fn marched_growth(kernel: &dyn BoundaryKernel, prescribed_displacement: bool, st
                 *rhs -= dot(&lags[lag][row * order..][..order], unknown);
             }
         }
-        let next: Vec<f64> =
+        let next_unknowns: Vec<f64> =
             (0..order).map(|row| dot(&inverse[row * order..][..order], &rhs)).collect();
-        log_sizes.push(largest(&next).ln());
-        dofs.push(next);
+        log_sizes.push(largest(&next_unknowns).ln());
+        dofs.push(next_unknowns);
     }
     // Means over sixths average the beat of complex modes.
     let window = steps / 6;
     let end = log_sizes.len();
-    let late = mean(&log_sizes[end - window..]);
-    let early = mean(&log_sizes[end - 2 * window..end - window]);
-    ((late - early) / window as f64).exp_m1()
+    let late_mean = mean(&log_sizes[end - window..]);
+    let early_mean = mean(&log_sizes[end - 2 * window..end - window]);
+    ((late_mean - early_mean) / window as f64).exp_m1()
 }
 
 fn bdf2_kernel(beta: f64) -> ConvolutionQuadrature {
@@ -202,16 +203,22 @@ fn growth_is_that_of_the_march() {
     for (beta, conditions, steps) in [(0.5, FREE_SURFACE, 400), (0.5, BONDED_SURFACE, 800)] {
         let kernel = time_kernel(beta);
         let assessed = Stability::assess(&kernel, &conditions, 1e-3).unwrap();
-        let marched = marched_growth(&kernel, conditions == BONDED_SURFACE, steps);
-        assert_close(&format!("growth at {beta}"), assessed.growth_per_step, marched, 0.0, 0.03);
+        let growth_of_the_march = marched_growth(&kernel, conditions == BONDED_SURFACE, steps);
+        assert_close(
+            &format!("growth at {beta}"),
+            assessed.growth_per_step,
+            growth_of_the_march,
+            0.0,
+            0.03,
+        );
     }
     let kernel = bdf2_kernel(0.25);
     let assessed = Stability::assess(&kernel, &FREE_SURFACE, 1e-3).unwrap();
-    let marched = marched_growth(&kernel, false, 1200);
+    let growth_of_the_march = marched_growth(&kernel, false, 1200);
     // Two pairs of modes have nearly the same growth: after 1200 steps the slower pair still contributes.
-    assert_close("growth of BDF2 at 0.25", assessed.growth_per_step, marched, 0.0, 0.1);
-    assert!(assessed.growth_per_step > 0.98 * marched);
-    // A kernel assessed as bounded stays bounded.
+    assert_close("growth of BDF2 at 0.25", assessed.growth_per_step, growth_of_the_march, 0.0, 0.1);
+    assert!(assessed.growth_per_step > 0.98 * growth_of_the_march);
+    // A march with a kernel that is assessed as bounded is bounded.
     let kernel = bdf2_kernel(0.5);
     assert!(Stability::assess(&kernel, &FREE_SURFACE, 1e-3).unwrap().is_bounded());
     assert!(marched_growth(&kernel, false, 1200) < 1e-3);
@@ -304,7 +311,7 @@ impl BoundaryKernel for AlternatingKernel {
     }
 }
 
-/// GOAL: the assessment refuses coefficients that are not smooth.
+/// GOAL: the assessment returns an error for coefficients that are not smooth.
 #[test]
 fn coefficients_that_are_not_smooth_are_an_error() {
     let free = [BoundaryCondition::TractionFree];
@@ -322,8 +329,12 @@ fn invalid_input_is_an_error() {
         assert!(matches!(assessed, Err(Error::Input { .. })), "{growth}");
     }
     assert!(matches!(Stability::assess(&kernel, &[], 1e-3), Err(Error::Size { .. })));
-    let empty = OneElementKernel { segments: vec![], decay: [0.0; 2], compliance: 1.0 };
-    assert!(matches!(Stability::assess(&empty, &[], 1e-3), Err(Error::Size { .. })));
+    let kernel_without_elements =
+        OneElementKernel { segments: vec![], decay: [0.0; 2], compliance: 1.0 };
+    assert!(matches!(
+        Stability::assess(&kernel_without_elements, &[], 1e-3),
+        Err(Error::Size { .. })
+    ));
     for compliance in [0.0, f64::NAN] {
         let kernel = OneElementKernel::new([0.0; 2], compliance);
         let fixed = [BoundaryCondition::PrescribedDisplacement];

@@ -96,7 +96,7 @@ fn kinematic_motions_match_the_table() {
         println!("{a0}: {errors:?}");
         assert!(errors.iter().all(|error| error.abs() < 1.5e-3 * expected[0].abs()), "{errors:?}");
     }
-    // Walls pull the base along with the waves above it: less than cos(ωd/c_P) of the surface, with a phase.
+    // Walls move the base with the waves above it: its motion is less than cos(ωd/c_P) of the surface's, with a phase.
     let motion = ground.kinematic_motions(&[1.0 / TAU], &mut unobserved).unwrap()[0];
     assert!((motion.vertical.abs() - 0.5_f64.cos()).abs() < 0.1, "{motion:?}");
 }
@@ -150,11 +150,17 @@ fn a_trench_without_depth_matches_the_table_of_a_strip() {
 #[test]
 fn a_rigid_base_holds_the_body_at_rest() {
     let ground = ground(p3(Elastic), 4, 3);
-    let still = impedance_at(&ground, 0.0);
-    let slow = impedance_at(&ground, 0.1);
-    for (still, slow) in [(still.horizontal, slow.horizontal), (still.rocking, slow.rocking)] {
-        assert_eq!(still.im, 0.0);
-        assert!((slow.re / still.re - 1.0).abs() < 0.01 && slow.im.abs() < 1e-6 * still.re);
+    let static_impedance = impedance_at(&ground, 0.0);
+    let slow_impedance = impedance_at(&ground, 0.1);
+    for (static_impedance, slow_impedance) in [
+        (static_impedance.horizontal, slow_impedance.horizontal),
+        (static_impedance.rocking, slow_impedance.rocking),
+    ] {
+        assert_eq!(static_impedance.im, 0.0);
+        assert!(
+            (slow_impedance.re / static_impedance.re - 1.0).abs() < 0.01
+                && slow_impedance.im.abs() < 1e-6 * static_impedance.re
+        );
     }
     let motion = ground.kinematic_motions(&[0.0], &mut unobserved).unwrap()[0];
     assert!(
@@ -168,18 +174,19 @@ fn a_rigid_base_holds_the_body_at_rest() {
 /// SCENE: a quarter of the soil's modulus, half as wide as the half width of the trench.
 #[test]
 fn backfill_softens_the_walls() {
-    let soft = Soil::new(0.25, 1.0 / 3.0, 1.0).unwrap();
-    let filled = ground(soil(), 8, 6).with_backfill(0.5, soft, hysteretic(0.05)).unwrap();
-    let rocking = impedance_at(&filled, 0.5).rocking;
-    // With 40 elements: 3.65 + 0.88i; without backfill 5.25 + 1.61i.
+    let soft_soil = Soil::new(0.25, 1.0 / 3.0, 1.0).unwrap();
+    let filled_ground =
+        ground(soil(), 8, 6).with_backfill(0.5, soft_soil, hysteretic(0.05)).unwrap();
+    let rocking = impedance_at(&filled_ground, 0.5).rocking;
+    // With 40 elements rocking has 3.65 + 0.88i; without backfill it has 5.25 + 1.61i.
     assert!((rocking - Complex::new(3.65, 0.88)).abs() < 0.03, "{rocking:?}");
-    let refused = filled.kinematic_motions(&[0.1], &mut unobserved);
-    assert!(matches!(refused, Err(Error::Scene { quantity: "backfill", .. })), "{refused:?}");
+    let result = filled_ground.kinematic_motions(&[0.1], &mut unobserved);
+    assert!(matches!(result, Err(Error::Scene { quantity: "backfill", .. })), "{result:?}");
     // Backfill of the soil itself changes the mesh and nothing else.
     let filled_with_soil = ground(soil(), 4, 3).with_backfill(0.5, soil(), Elastic).unwrap();
-    let filled = impedance_at(&filled_with_soil, 0.5).rocking;
+    let filled_ground = impedance_at(&filled_with_soil, 0.5).rocking;
     let unfilled = impedance_at(&ground(soil(), 4, 3), 0.5).rocking;
-    assert!((filled - unfilled).abs() < 1e-4 * unfilled.abs());
+    assert!((filled_ground - unfilled).abs() < 1e-4 * unfilled.abs());
 }
 
 /// GOAL: trenches and frequencies out of range give typed errors.
@@ -195,15 +202,18 @@ fn bad_trenches_and_frequencies_are_errors() {
         assert!(matches!(trench.elements(base, wall), Err(Error::Scene { .. })));
     }
     assert!(matches!(trench.elements(usize::MAX - 1, usize::MAX), Err(Error::Memory(_))));
-    let deep = Trench::new(-1.0..1.0, 2.0).unwrap().elements(4, 3).unwrap();
-    assert!(matches!(TrenchGround::new(p3(Elastic), deep), Err(Error::Input { value: 2.0, .. })));
+    let deep_elements = Trench::new(-1.0..1.0, 2.0).unwrap().elements(4, 3).unwrap();
+    assert!(matches!(
+        TrenchGround::new(p3(Elastic), deep_elements),
+        Err(Error::Input { value: 2.0, .. })
+    ));
     let half_plane = ground(soil(), 4, 3);
     for frequency in [0.0, -1.0, f64::NAN, 10.0] {
-        let refused = half_plane.impedances(&[frequency], &mut unobserved);
-        assert!(matches!(refused, Err(Error::Input { .. })), "{frequency}: {refused:?}");
+        let result = half_plane.impedances(&[frequency], &mut unobserved);
+        assert!(matches!(result, Err(Error::Input { .. })), "{frequency}: {result:?}");
     }
-    // At the cut-off frequency of an undamped layer on rigid bedrock.
+    // The frequency is the cut-off of an undamped layer on rigid bedrock.
     let layer = ground(p3(Elastic), 4, 3);
-    let refused = layer.impedances(&[0.25 * 0.5], &mut unobserved);
-    assert!(matches!(refused, Err(Error::Ground(GroundError::GuidedWave { .. }))), "{refused:?}");
+    let result = layer.impedances(&[0.25 * 0.5], &mut unobserved);
+    assert!(matches!(result, Err(Error::Ground(GroundError::GuidedWave { .. }))), "{result:?}");
 }

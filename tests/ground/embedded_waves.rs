@@ -49,7 +49,7 @@ fn vector(element: &ContactElement, components: [f64; 2]) -> [f64; 2] {
     [0, 2].map(|k| components[0] * normal[k] + components[1] * tangent[k])
 }
 
-/// What is compared at the faces of the trench, to the right and up.
+/// Force and motion at the faces of the trench, to the right and up.
 struct FaceMotion {
     /// Force of the impulses on the soil.
     force: [f64; 2],
@@ -102,12 +102,12 @@ fn below(wave: &PlaneWave, record: &Record, x: f64, z: f64, time: f64) -> PointM
     let b = vertical_slowness(SHEAR_WAVE_SPEED, p);
     let [[right, _], [up, _]] = wave.amplification();
     let g = b * b - p * p;
-    let even = SHEAR_WAVE_SPEED.powi(2) / b;
-    let odd = SHEAR_WAVE_SPEED.powi(2) / a * up / right;
+    let even_factor = SHEAR_WAVE_SPEED.powi(2) / b;
+    let odd_factor = SHEAR_WAVE_SPEED.powi(2) / a * up / right;
     let mut motion = PointMotion { displacement: [0.0; 2], velocity: [0.0; 2] };
     for sign in [1.0, -1.0] {
-        let pressure = 0.5 * (2.0 * p * b * even + sign * g * odd);
-        let shear = 0.5 * (g * even - sign * 2.0 * a * p * odd);
+        let pressure = 0.5 * (2.0 * p * b * even_factor + sign * g * odd_factor);
+        let shear = 0.5 * (g * even_factor - sign * 2.0 * a * p * odd_factor);
         let by_pressure = record.at(time - p * (x + 4.0) + sign * a * z);
         let by_shear = record.at(time - p * (x + 4.0) + sign * b * z);
         for (sum, potentials) in [
@@ -128,7 +128,8 @@ fn unit_midpoints(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| (k as f64 + 0.5) / count as f64)
 }
 
-/// What the free field of the soil in place of the trench gives at the faces: minus its momentum, motion at the base.
+/// Force and motion of the free field of the soil in place of the trench: minus its momentum, and the motion at the
+/// base.
 fn free_field_at_faces(wave: &PlaneWave, record: &Record, time: f64) -> FaceMotion {
     let mass = 1900.0 * 50.0 / 3200.0;
     let mut momentum = [0.0; 2];
@@ -214,9 +215,9 @@ fn a_vertical_travelling_wave_is_the_vertical_one() {
     assert!(largest_force > 0.0);
 }
 
-/// GOAL: waves across the plane, or without records, are refused.
+/// GOAL: waves across the plane, or without records, are errors.
 #[test]
-fn other_waves_are_refused() {
+fn other_waves_are_errors() {
     let field = PlaneWave::sv(soil(), 0.3).unwrap().field_from_horizontal(&pulse(), -4.0).unwrap();
     let ground = TrenchGround::new(soil(), elements()).unwrap();
     let oblique = field.with_azimuth(0.5).unwrap();

@@ -1,4 +1,4 @@
-//! GOAL: weights around a trench are right in time, give no work, and can be saved.
+//! GOAL: weights around a trench are correct in time, return no energy, and can be saved.
 //! SCENE: a block welded to the faces of a trench, under waves and forces; tractions that extract work.
 //! REFERENCE: Fourier synthesis with twice as many elements; the waves' shear on a wall with the wrong sign.
 
@@ -37,17 +37,17 @@ fn a_ground_with_a_trench_steps_as_by_fourier_synthesis_and_gives_no_work() {
     let smallest_work = min_work_ratio(&mut ground, 100, 45);
     println!("{smallest_work}");
     assert!(smallest_work > 0.5, "{smallest_work}");
-    // Save, step further, and restore into the ground prepared again.
-    let saved = ground.save().unwrap();
+    // The state is saved, the march continues, and the state is restored into the ground prepared again.
+    let saved_variables = ground.save().unwrap();
     let mut expected = vec![0.0; 20];
     ground.history(&mut expected).unwrap();
     ground.commit(&[1.0; 20]);
     ground.prepare(TIME_STEP, Some(110), &mut unobserved).unwrap();
-    ground.restore(100, &saved).unwrap();
-    let mut restored = vec![0.0; 20];
-    ground.history(&mut restored).unwrap();
-    assert_eq!(expected, restored);
-    assert!(ground.restore(99, &saved).is_err());
+    ground.restore(100, &saved_variables).unwrap();
+    let mut displacement_after_restoring = vec![0.0; 20];
+    ground.history(&mut displacement_after_restoring).unwrap();
+    assert_eq!(expected, displacement_after_restoring);
+    assert!(ground.restore(99, &saved_variables).is_err());
     let description = ground.description();
     let history = description.history.unwrap();
     assert_eq!((history.kind, history.stages), (HistoryMethod::RelaxedFft, Some(2)));
@@ -79,9 +79,9 @@ fn weights_are_taken_from_a_file() {
     assert!(march_with_file(1.0, &file).unwrap() == expected);
     assert!(std::fs::read(&file.path).unwrap() == written);
     // The file is read: one wrong bit in it is found.
-    let mut damaged = written.clone();
-    damaged[written.len() / 2] ^= 1;
-    std::fs::write(&file.path, damaged).unwrap();
-    let refused = march_with_file(1.0, &file);
-    assert!(matches!(refused, Err(Error::File(_))), "{:?}", refused.err());
+    let mut damaged_bytes = written.clone();
+    damaged_bytes[written.len() / 2] ^= 1;
+    std::fs::write(&file.path, damaged_bytes).unwrap();
+    let result = march_with_file(1.0, &file);
+    assert!(matches!(result, Err(Error::File(_))), "{:?}", result.err());
 }

@@ -222,21 +222,21 @@ impl SiteResponse {
     /// Relative errors: modulus, damping, strain, acceleration, spectrum.
     fn largest_errors(&self) -> [f64; 5] {
         let case = &self.case;
-        let mut largest = [0.0_f64; 5];
+        let mut max_errors = [0.0_f64; 5];
         let expected_layers = reference_rows(&format!("layer,{case}"));
         assert_eq!(expected_layers.len(), self.layers.len(), "{case}");
         for (computed, expected) in self.layers.iter().zip(&expected_layers) {
             for k in 0..4 {
-                largest[k] = largest[k].max((computed[k] / expected[k] - 1.0).abs());
+                max_errors[k] = max_errors[k].max((computed[k] / expected[k] - 1.0).abs());
             }
         }
         let expected_spectra = reference_rows(&format!("spectrum,{case}"));
         assert_eq!(expected_spectra.len(), 1, "{case}");
         assert_eq!(expected_spectra[0].len(), self.spectrum.len(), "{case}");
         for (computed, expected) in self.spectrum.iter().zip(&expected_spectra[0]) {
-            largest[4] = largest[4].max((computed / expected - 1.0).abs());
+            max_errors[4] = max_errors[4].max((computed / expected - 1.0).abs());
         }
-        largest
+        max_errors
     }
 }
 
@@ -249,9 +249,9 @@ fn comma_list(values: &[f64]) -> String {
 #[test]
 fn sites_respond_as_in_another_program() {
     let periods = log_spaced(0.05, 3.0, 19).unwrap();
-    let unscaled = motion(1.0);
-    let accelerations = comma_list(unscaled.accelerations());
-    let mut file = format!("motion,{}{accelerations}\n", unscaled.time_step());
+    let unscaled_record = motion(1.0);
+    let accelerations = comma_list(unscaled_record.accelerations());
+    let mut file = format!("motion,{}{accelerations}\n", unscaled_record.time_step());
     writeln!(file, "periods{}", comma_list(&periods)).unwrap();
     for curves in all_curves() {
         writeln!(file, "curve,{}", curve_fields(&curves)).unwrap();
@@ -282,12 +282,12 @@ fn sites_respond_as_in_another_program() {
         }
     }
     std::fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/equivalent_linear.csv"), file).unwrap();
-    let mut largest = [0.0_f64; 5];
+    let mut max_errors = [0.0_f64; 5];
     for response in &responses {
-        for (largest, error) in largest.iter_mut().zip(response.largest_errors()) {
-            *largest = largest.max(error);
+        for (max_errors, error) in max_errors.iter_mut().zip(response.largest_errors()) {
+            *max_errors = max_errors.max(error);
         }
     }
-    println!("modulus, damping, strain, acceleration, spectrum: {largest:.5?}");
-    assert!(largest.iter().all(|error| *error < 1e-3), "{largest:?}");
+    println!("modulus, damping, strain, acceleration, spectrum: {max_errors:.5?}");
+    assert!(max_errors.iter().all(|error| *error < 1e-3), "{max_errors:?}");
 }

@@ -1,4 +1,4 @@
-//! GOAL: the equivalent-linear analysis warns where its assumptions do not hold, and refuses bad sites by name.
+//! GOAL: the equivalent-linear analysis warns where its assumptions do not hold; errors name what is wrong with a site.
 //! SCENE: strong shaking of clay; curves, options and motions out of range.
 //! REFERENCE: the warning or the typed error, with layer, quantity, value and need.
 
@@ -30,8 +30,8 @@ fn assert_warns(computed: &EquivalentLinear, kind: fn(&SiteWarning) -> bool) {
 #[test]
 fn assumptions_that_do_not_hold_cause_warnings() {
     let curves = LayeredSite::named("clay").curves();
-    let narrow = vec![StrainCurves::Table(vec![[1e-6, 1.0, 0.01], [1e-4, 0.8, 0.05]]); 10];
-    assert_warns(&strongly_shaken_clay(&narrow, 50), |warning| {
+    let narrow_curves = vec![StrainCurves::Table(vec![[1e-6, 1.0, 0.01], [1e-4, 0.8, 0.05]]); 10];
+    assert_warns(&strongly_shaken_clay(&narrow_curves, 50), |warning| {
         matches!(warning, SiteWarning::Extrapolated { largest: 1e-4, .. })
     });
     assert_warns(&strongly_shaken_clay(&curves, 2), |warning| {
@@ -43,12 +43,12 @@ fn assumptions_that_do_not_hold_cause_warnings() {
     assert!(strained.last_change <= 1e-3 && strained.iterations <= 8, "{strained}");
     // Nearly undamped layers on a rigid base ring for long.
     let ringing = SoilColumn::new(uniform_profile(0.0), VerticalWave::Shear).unwrap();
-    let linear = vec![StrainCurves::Linear { damping: 0.003 }; 4];
+    let linear_curves = vec![StrainCurves::Linear { damping: 0.003 }; 4];
     let record = el_centro_1940().scaled(0.1).unwrap();
-    let computed = analysed(&ringing, &record, &linear).unwrap();
+    let computed = analysed(&ringing, &record, &linear_curves).unwrap();
     assert!(matches!(computed.warnings[..], [SiteWarning::CutOff { .. }]), "{computed}");
-    let quiet = Record::new(0.01, vec![0.0; 50]).unwrap();
-    let computed = analysed(&ringing, &quiet, &linear).unwrap();
+    let zero_motion = Record::new(0.01, vec![0.0; 50]).unwrap();
+    let computed = analysed(&ringing, &zero_motion, &linear_curves).unwrap();
     assert_eq!((computed.layers[0].largest_strain, &computed.warnings[..]), (0.0, &[][..]));
 }
 
@@ -80,7 +80,7 @@ fn single_sample() -> Record {
 
 /// GOAL: curves out of range are errors of their layer.
 #[test]
-fn invalid_curves_are_refused_by_layer() {
+fn invalid_curves_are_errors_by_layer() {
     let nan = f64::NAN;
     for bad_curves in [
         StrainCurves::Linear { damping: 1.0 },
@@ -117,7 +117,7 @@ fn invalid_curves_are_refused_by_layer() {
 
 /// GOAL: options out of range are named.
 #[test]
-fn invalid_options_are_refused_by_name() {
+fn invalid_options_are_named_in_their_error() {
     let default = EquivalentLinearOptions::default();
     let curves = [StrainCurves::SeedIdrissMean, StrainCurves::SeedIdrissMean];
     for (options, name) in [
@@ -135,13 +135,13 @@ fn invalid_options_are_refused_by_name() {
     }
 }
 
-/// GOAL: sites without a solution are refused by layer, quantity, value and need.
+/// GOAL: sites without a solution are errors with layer, quantity, value and need.
 #[test]
-fn invalid_sites_are_refused_by_layer_quantity_value_and_need() {
+fn invalid_sites_are_errors_by_layer_quantity_value_and_need() {
     let column = two_layer_column();
     let pulse = single_sample();
-    let good = StrainCurves::SeedIdrissMean;
-    let curves = [good.clone(), good.clone()];
+    let valid_curves = StrainCurves::SeedIdrissMean;
+    let curves = [valid_curves.clone(), valid_curves.clone()];
     let error = analysed(&column, &pulse, &curves[..1]).unwrap_err();
     let quantity = "list of strain curves, one for each layer,";
     assert_eq!(error, Error::Size { quantity, found: 1, needed: 2 });
@@ -149,8 +149,8 @@ fn invalid_sites_are_refused_by_layer_quantity_value_and_need() {
     let error = analysed(&pressure, &pulse, &curves).unwrap_err();
     assert!(matches!(error, Error::Scene { quantity: "soil column", .. }), "{error}");
     // An undamped layer keeps the waves that a rigid base reflects.
-    let undamped = [good.clone(), StrainCurves::Linear { damping: 0.0 }];
-    let error = analysed(&column, &pulse, &undamped).unwrap_err();
+    let undamped_curves = [valid_curves.clone(), StrainCurves::Linear { damping: 0.0 }];
+    let error = analysed(&column, &pulse, &undamped_curves).unwrap_err();
     assert!(is_input_of(&error, "layer 2", "damping ratio at small strain", 0.0), "{error}");
     // With this damping a modulus of given magnitude has no positive real part.
     let options = EquivalentLinearOptions {
@@ -158,18 +158,18 @@ fn invalid_sites_are_refused_by_layer_quantity_value_and_need() {
         ..Default::default()
     };
     let compatible = "strain-compatible damping ratio";
-    let strongly_damped = [good.clone(), StrainCurves::Linear { damping: 0.6 }];
+    let strongly_damped = [valid_curves.clone(), StrainCurves::Linear { damping: 0.6 }];
     let error = column
         .equivalent_linear(&pulse, &strongly_damped, &options, &mut unobserved)
         .unwrap_err();
     assert!(is_input_of(&error, "layer 2", compatible, 0.6), "{error}");
-    // No body has this damping.
-    let overdamped = [StrainCurves::Linear { damping: 0.99 }, good];
+    // No material has this damping.
+    let overdamped = [StrainCurves::Linear { damping: 0.99 }, valid_curves];
     let error = analysed(&column, &pulse, &overdamped).unwrap_err();
     assert!(is_input_of(&error, "layer 1", compatible, 0.99), "{error}");
-    // Motions whose strains leave the range of numbers.
-    let large = analysed(&column, &alternating_motion(1e100), &curves);
-    assert!(large.is_ok_and(|computed| !computed.warnings.is_empty()));
+    // Strains of these motions leave the curves, or the range of numbers.
+    let large_response = analysed(&column, &alternating_motion(1e100), &curves);
+    assert!(large_response.is_ok_and(|computed| !computed.warnings.is_empty()));
     let too_large = analysed(&column, &alternating_motion(1e300), &curves);
     assert!(matches!(too_large, Err(Error::Input { value: 1e300, .. })));
 }

@@ -110,7 +110,7 @@ fn small_motions_respond_as_in_the_linear_column() {
         linear_profile =
             linear_profile.with_layer(layer.soil, layer.thickness).unwrap().with_damping(law);
     }
-    let linear = SoilColumn::new(linear_profile, VerticalWave::Shear).unwrap();
+    let linear_column = SoilColumn::new(linear_profile, VerticalWave::Shear).unwrap();
     let time_step = 0.02;
     let samples = (0..512).map(|i| small_pulse(time_step * f64::from(i))).collect();
     let motion = Record::new(time_step, samples).unwrap();
@@ -129,7 +129,7 @@ fn small_motions_respond_as_in_the_linear_column() {
                 sum + root_of_unity((FOURIER_LENGTH - l) * i) * *a
             });
             let frequency = l as f64 / (time_step * FOURIER_LENGTH as f64);
-            sum * linear.transfer(ControlPoint::Within, frequency).unwrap()
+            sum * linear_column.transfer(ControlPoint::Within, frequency).unwrap()
         })
         .collect();
     let mut largest_error = 0.0_f64;
@@ -143,7 +143,8 @@ fn small_motions_respond_as_in_the_linear_column() {
     assert!(largest_error < 1e-6 * computed.peak_accelerations[0], "{largest_error:e}");
 }
 
-/// GOAL: the profile carries its result: moduli at its first frequency, damping over the band, Poisson's ratio, causal laws.
+/// GOAL: the profile of the result has its moduli at the first frequency, its damping over the band, Poisson's ratio,
+/// and causal laws.
 #[test]
 fn profiles_are_ready_for_a_ground() {
     let site = LayeredSite::named("clay");
@@ -172,8 +173,8 @@ fn profiles_are_ready_for_a_ground() {
         assert!(damping > 0.0);
     }
     // With the causal laws of the profile, the surface motion is nearly the same.
-    let causal = SoilColumn::new(computed.profile.clone(), VerticalWave::Shear).unwrap();
-    let surface = causal
+    let causal_column = SoilColumn::new(computed.profile.clone(), VerticalWave::Shear).unwrap();
+    let surface = causal_column
         .to_surface(
             ControlPoint::Outcrop,
             motion.time_step(),

@@ -43,9 +43,13 @@ fn displacement_gradient(
 ) -> [[[f64; 2]; 2]; 2] {
     let h = 1e-5;
     [[h, 0.0], [0.0, h]].map(|step| {
-        let ahead = plane.displacement([x[0] + step[0], x[1] + step[1]], time, load).unwrap();
-        let behind = plane.displacement([x[0] - step[0], x[1] - step[1]], time, load).unwrap();
-        [0, 1].map(|i| [0, 1].map(|j| (ahead[i][j] - behind[i][j]) / (2.0 * h)))
+        let forward_displacement =
+            plane.displacement([x[0] + step[0], x[1] + step[1]], time, load).unwrap();
+        let backward_displacement =
+            plane.displacement([x[0] - step[0], x[1] - step[1]], time, load).unwrap();
+        [0, 1].map(|i| {
+            [0, 1].map(|j| (forward_displacement[i][j] - backward_displacement[i][j]) / (2.0 * h))
+        })
     })
 }
 
@@ -77,9 +81,9 @@ fn full_plane_tractions_follow_from_displacements() {
         }
     }
     // Kelvin: χ → −1/(8πμ(1−ν)), so u_xz → e_x e_z/(8πμ(1−ν)), to rounding at very late times.
-    let late = plane.displacement(x, 1e9, LoadHistory::Step).unwrap();
+    let late_displacement = plane.displacement(x, 1e9, LoadHistory::Step).unwrap();
     let kelvin = -0.28 / 0.65 / (8.0 * PI * mu * 0.7);
-    assert_near(late[0][1], kelvin, 1e-16, "Kelvin");
+    assert_near(late_displacement[0][1], kelvin, 1e-16, "Kelvin");
     let first = plane.traction(x, n, 1e7, LoadHistory::Step).unwrap();
     let second = plane.traction(x, n, 1e9, LoadHistory::Step).unwrap();
     assert_near(first[0][1], second[0][1], 1e-13, "late traction");

@@ -49,7 +49,7 @@ fn relative_difference(strips: &[Strip], poisson: f64, reserve: usize, steps: us
     let mut displacement = vec![0.0; size];
     let mut tractions: Vec<Vec<f64>> = Vec::new();
     let mut largest_difference = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     for step in 0..steps {
         assert_eq!(history.steps(), step);
         // An evaluation changes no state, and overwrites the noise in the slice.
@@ -61,25 +61,25 @@ fn relative_difference(strips: &[Strip], poisson: f64, reserve: usize, steps: us
             let expected = plain_sum(&kernel, &elements, &tractions);
             for (computed, expected) in displacement.iter().zip(&expected) {
                 largest_difference = largest_difference.max((computed - expected).abs());
-                largest = largest.max(expected.abs());
+                max_magnitude = max_magnitude.max(expected.abs());
             }
         }
         let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
         history.push(&traction);
         tractions.push(traction);
     }
-    largest_difference / largest
+    largest_difference / max_magnitude
 }
 
 /// GOAL: the direct history is the plain sum, whatever the strips and Poisson's ratio.
 #[test]
 fn direct_history_is_the_plain_sum() {
-    let uniform = [Strip::uniform(-2.0..2.0, 6).unwrap()];
-    let graded = [Strip::new(-2.0..2.0, 5, Grading::Cosine).unwrap()];
+    let uniform_strips = [Strip::uniform(-2.0..2.0, 6).unwrap()];
+    let graded_strips = [Strip::new(-2.0..2.0, 5, Grading::Cosine).unwrap()];
     let two_strips =
         [Strip::uniform(-4.0..-1.0, 3).unwrap(), Strip::new(0.5..2.0, 3, Grading::Cosine).unwrap()];
     for (name, strips) in
-        [("uniform", &uniform[..]), ("graded", &graded), ("two strips", &two_strips)]
+        [("uniform", &uniform_strips[..]), ("graded", &graded_strips), ("two strips", &two_strips)]
     {
         for poisson in [0.0, 1.0 / 3.0, 0.49] {
             let difference = relative_difference(strips, poisson, 100, 100);

@@ -50,7 +50,7 @@ struct ComparedMarch {
 
 fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> ComparedMarch {
     let mut history = ExponentialHistory::new(Arc::clone(kernel), tolerance).unwrap();
-    let mut direct = DirectHistory::new(Arc::clone(kernel));
+    let mut direct_history = DirectHistory::new(Arc::clone(kernel));
     let elements = kernel.classes().elements();
     let size = 2 * elements.len();
     let mut step_compliance = vec![0.0; size * size];
@@ -62,7 +62,7 @@ fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> ComparedMarch 
     let mut difference = vec![0.0; size];
     let mut displacement = vec![0.0; size];
     let mut largest_difference = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut increment = 0.0_f64;
     let mut work_difference = 0.0;
     let mut work_bound = 0.0;
@@ -70,14 +70,14 @@ fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> ComparedMarch 
     for _ in 0..4 * history.fit().window + 200 {
         computed.fill(f64::NAN);
         history.evaluate(&mut computed).unwrap();
-        direct.evaluate(&mut expected).unwrap();
+        direct_history.evaluate(&mut expected).unwrap();
         let bound = history.increment_error_bound();
         for i in 0..size {
             let change = computed[i] - expected[i] - difference[i];
             difference[i] = computed[i] - expected[i];
             largest_difference = largest_difference.max(difference[i].abs());
-            largest = largest.max(expected[i].abs());
-            if change.abs() > 1e-13 * largest {
+            max_magnitude = max_magnitude.max(expected[i].abs());
+            if change.abs() > 1e-13 * max_magnitude {
                 increment = increment.max(change.abs() / bound);
             }
             traction[i] = 0.9 * traction[i] + random.within(-1.0, 1.0);
@@ -92,11 +92,11 @@ fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> ComparedMarch 
             displacement[i] = end;
         }
         history.push(&traction);
-        direct.push(&traction);
-        assert_eq!(history.steps(), direct.steps());
+        direct_history.push(&traction);
+        assert_eq!(history.steps(), direct_history.steps());
     }
     ComparedMarch {
-        difference: largest_difference / largest,
+        difference: largest_difference / max_magnitude,
         increment,
         work_difference: work_difference.abs() / work_bound,
         relative_work_bound: work_bound / work,
@@ -135,7 +135,7 @@ fn exponentials_are_within_their_tolerance_of_the_direct_sum() {
                     "{name}: the bound is useless: {work_bound}"
                 );
             }
-            // Coarse exponentials must differ: otherwise only the window of exact lags was compared.
+            // Coarse exponentials must differ; otherwise the march compares only the window of exact lags.
             assert!(march(&kernel, 1e-3).difference > 1e-9, "{name}: only the window was compared");
         }
     }
@@ -167,13 +167,13 @@ fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it(
         for lag in 2..=100_000_usize {
             if lag > 40 && lag % (1 + lag / 40) == 0 || lag == history.fit().window + 1 {
                 history.evaluate(&mut displacement).unwrap();
-                let near = pair_coefficients(kernel.as_ref(), 0, lag);
-                let far = pair_coefficients(kernel.as_ref(), 1, lag);
+                let weights_of_near_pair = pair_coefficients(kernel.as_ref(), 0, lag);
+                let weights_of_far_pair = pair_coefficients(kernel.as_ref(), 1, lag);
                 for (computed, expected, largest) in [
-                    (displacement[0], near[0], near[0]),
-                    (displacement[1], far[0], near[0]),
-                    (displacement[2], far[1], near[1]),
-                    (displacement[3], near[1], near[1]),
+                    (displacement[0], weights_of_near_pair[0], weights_of_near_pair[0]),
+                    (displacement[1], weights_of_far_pair[0], weights_of_near_pair[0]),
+                    (displacement[2], weights_of_far_pair[1], weights_of_near_pair[1]),
+                    (displacement[3], weights_of_near_pair[1], weights_of_near_pair[1]),
                 ] {
                     let error = (computed - expected).abs() / largest;
                     if lag <= horizon {
@@ -261,29 +261,29 @@ fn unit_ground(strip: Strip) -> ElasticGround {
 fn invalid_input_is_an_error() {
     let kernel = kernel(0.3, 0.5, strip(2, Grading::Uniform));
     for tolerance in [0.0, -1.0, 1e-13, 0.1, f64::NAN, f64::INFINITY] {
-        let refused = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();
-        assert!(matches!(refused, Some(Error::Input { .. })), "{tolerance}: {refused:?}");
+        let result = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();
+        assert!(matches!(result, Some(Error::Input { .. })), "{tolerance}: {result:?}");
     }
-    let uniform = Strip::uniform(-1.0..1.0, 2).unwrap();
+    let uniform_strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let no_tolerance = HistoryOptions { tolerance: Some(f64::NAN), ..HistoryOptions::default() };
-    assert!(unit_ground(uniform.clone()).with_history(no_tolerance).is_err());
-    // Windows of more than a million steps are refused; `Auto` uses transforms instead.
-    let mut ground = unit_ground(uniform).with_history(HistoryMethod::Exponentials).unwrap();
+    assert!(unit_ground(uniform_strip.clone()).with_history(no_tolerance).is_err());
+    // Windows of more than a million steps are errors; `Auto` uses transforms instead.
+    let mut ground = unit_ground(uniform_strip).with_history(HistoryMethod::Exponentials).unwrap();
     assert!(matches!(ground.prepare(1e-7, None, &mut unobserved), Err(Error::Input { .. })));
-    // More memory than allowed is refused before any of it is allocated.
-    let begin = std::time::Instant::now();
+    // More memory than allowed is an error before any of it is allocated.
+    let start_time = std::time::Instant::now();
     for (time_step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
         let mut options = HistoryOptions::from(HistoryMethod::Exponentials);
         options.memory = memory.unwrap_or(options.memory);
         let ground = unit_ground(Strip::graded(-1.0..1.0, 24).unwrap());
         let mut ground = ground.with_history(options).unwrap();
-        let refused = ground.prepare(time_step, None, &mut unobserved).unwrap_err();
-        let Error::Memory(MemoryError { needed, limit, .. }) = refused else {
-            panic!("{refused}")
+        let result = ground.prepare(time_step, None, &mut unobserved).unwrap_err();
+        let Error::Memory(MemoryError { needed, limit, .. }) = result else {
+            panic!("{result}")
         };
-        assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{refused}");
+        assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{result}");
     }
-    assert!(begin.elapsed().as_secs_f64() < 1.0, "{:?}", begin.elapsed());
+    assert!(start_time.elapsed().as_secs_f64() < 1.0, "{:?}", start_time.elapsed());
     let mut history = ExponentialHistory::with_horizon(kernel, 1e-6, 0).unwrap();
     history.evaluate(&mut [0.0; 4]).unwrap();
     assert!(matches!(history.evaluate(&mut [0.0; 3]), Err(Error::Size { .. })));
@@ -333,9 +333,9 @@ fn the_choice_is_made_and_explained() {
     assert_eq!(choose(None, None, Some(500), 1e-6), Ok((RelaxedFft, 0.0)));
     assert_eq!(choose(None, Some(35_000), Some(60), 1e-3), Ok((RelaxedFft, 0.0)));
     for memory in [35_000, 1_000] {
-        let refused = choose(None, Some(memory), Some(1_500), 1e-3).unwrap_err();
-        let Error::Memory(MemoryError { asked, needed, limit, .. }) = refused else {
-            panic!("{refused}")
+        let result = choose(None, Some(memory), Some(1_500), 1e-3).unwrap_err();
+        let Error::Memory(MemoryError { asked, needed, limit, .. }) = result else {
+            panic!("{result}")
         };
         assert!(asked == 1_500.0 && limit == memory as f64 && needed > limit);
     }

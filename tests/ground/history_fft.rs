@@ -22,7 +22,7 @@ fn strip(range: std::ops::Range<f64>, count: usize, grading: Grading) -> Vec<Con
     Strip::new(range, count, grading).unwrap().elements()
 }
 
-/// Tractions without any regularity.
+/// Tractions without any regularity in time and place.
 fn noise(step: usize, traction: &mut [f64]) {
     for (i, value) in traction.iter_mut().enumerate() {
         *value = 1e5 * (1e4 * (1.7 + (3 * step + 7 * i) as f64).sin()).sin() + 3e4;
@@ -50,35 +50,35 @@ fn relative_differences(
     reserved: usize,
 ) -> [f64; 3] {
     let size = 2 * kernel.classes().elements().len();
-    let mut direct = DirectHistory::new(Arc::clone(kernel));
+    let mut direct_history = DirectHistory::new(Arc::clone(kernel));
     let mut histories = relaxed_histories(kernel);
-    direct.prepare(steps, &mut unobserved).unwrap();
-    for relaxed in &mut histories {
-        relaxed.prepare(reserved, &mut unobserved).unwrap();
+    direct_history.prepare(steps, &mut unobserved).unwrap();
+    for relaxed_history in &mut histories {
+        relaxed_history.prepare(reserved, &mut unobserved).unwrap();
     }
     let mut expected = vec![f64::NAN; size];
     let mut computed = vec![f64::NAN; size];
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut differences = [0.0_f64; 3];
     let mut traction = vec![0.0; size];
     for step in 0..steps {
-        direct.evaluate(&mut expected).unwrap();
+        direct_history.evaluate(&mut expected).unwrap();
         noise(step, &mut traction);
-        direct.push(&traction);
-        for (relaxed, difference) in histories.iter_mut().zip(&mut differences) {
+        direct_history.push(&traction);
+        for (relaxed_history, difference) in histories.iter_mut().zip(&mut differences) {
             computed.fill(f64::NAN);
-            relaxed.evaluate(&mut computed).unwrap();
+            relaxed_history.evaluate(&mut computed).unwrap();
             for (expected, computed) in expected.iter().zip(&computed) {
                 assert!(computed.is_finite(), "step {step}: {computed}");
-                largest = largest.max(expected.abs());
+                max_magnitude = max_magnitude.max(expected.abs());
                 *difference = difference.max((expected - computed).abs());
             }
-            relaxed.push(&traction);
-            assert_eq!(direct.steps(), relaxed.steps());
+            relaxed_history.push(&traction);
+            assert_eq!(direct_history.steps(), relaxed_history.steps());
         }
     }
-    assert!(largest > 0.0, "nothing to compare");
-    differences.map(|difference| difference / largest)
+    assert!(max_magnitude > 0.0, "nothing to compare");
+    differences.map(|difference| difference / max_magnitude)
 }
 
 /// A uniform and a graded strip.
@@ -142,23 +142,26 @@ fn evaluating_changes_nothing() {
 }
 
 /// Compares a history that is evaluated in between with one that is evaluated at the end.
-fn check_evaluation_keeps_state(mut evaluated: RelaxedFftHistory, mut pushed: RelaxedFftHistory) {
+fn check_evaluation_keeps_state(
+    mut evaluated_history: RelaxedFftHistory,
+    mut pushed_history: RelaxedFftHistory,
+) {
     let mut first = [0.0; 8];
     let mut second = [1e9; 8];
     let mut traction = [0.0; 8];
     for step in 0..400 {
         for _ in 0..step % 3 {
             first.fill(f64::NAN);
-            evaluated.evaluate(&mut first).unwrap();
-            evaluated.evaluate(&mut second).unwrap();
+            evaluated_history.evaluate(&mut first).unwrap();
+            evaluated_history.evaluate(&mut second).unwrap();
             assert_eq!(first, second, "step {step}");
         }
         noise(step, &mut traction);
-        evaluated.push(&traction);
-        pushed.push(&traction);
+        evaluated_history.push(&traction);
+        pushed_history.push(&traction);
     }
-    evaluated.evaluate(&mut first).unwrap();
-    pushed.evaluate(&mut second).unwrap();
+    evaluated_history.evaluate(&mut first).unwrap();
+    pushed_history.evaluate(&mut second).unwrap();
     assert_eq!(first, second);
     assert!(first.iter().all(|value| *value != 0.0));
 }
@@ -176,21 +179,21 @@ fn wrong_lengths_are_errors_and_tractions_are_padded() {
             assert!(matches!(error, Error::Size { found, needed: 4, .. } if found == length));
         }
         // Missing entries count as zero, others are ignored.
-        let mut direct = DirectHistory::new(Arc::clone(&kernel));
+        let mut direct_history = DirectHistory::new(Arc::clone(&kernel));
         let mut a = [0.0; 4];
         let mut b = [0.0; 4];
         for traction in [&[1.0, 2.0][..], &[], &[0.0, 1.0, 3.0], &[0.0, 1.0, 3.0, 4.0, 5.0]] {
             history.push(traction);
-            direct.push(traction);
+            direct_history.push(traction);
             history.evaluate(&mut a).unwrap();
-            direct.evaluate(&mut b).unwrap();
+            direct_history.evaluate(&mut b).unwrap();
             let limit = 1e-13 * largest(&b);
             assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= limit), "{a:?} {b:?}");
         }
     }
 }
 
-/// GOAL: preparation for fewer steps does not release memory, and impossible sizes are refused.
+/// GOAL: preparation for fewer steps does not release memory, and impossible sizes are errors.
 #[test]
 fn fewer_steps_leave_the_memory() {
     let mut history = RelaxedFftHistory::new(kernel(strip(0.0..1.0, 1, Grading::Uniform), 1e-2));
@@ -200,8 +203,8 @@ fn fewer_steps_leave_the_memory() {
     history.prepare(10, &mut unobserved).unwrap();
     assert_eq!(history.memory(), memory);
     for steps in [1 << 40, usize::MAX] {
-        let refused = history.prepare(steps, &mut unobserved);
-        assert!(matches!(refused, Err(Error::Memory(_))), "{refused:?}");
+        let result = history.prepare(steps, &mut unobserved);
+        assert!(matches!(result, Err(Error::Memory(_))), "{result:?}");
         assert_eq!(history.memory(), memory);
     }
 }
@@ -229,7 +232,7 @@ fn prepared_ground(history: Option<HistoryMethod>) -> ElasticGround {
     ground
 }
 
-/// GOAL: grounds respond alike with every method of the history.
+/// GOAL: grounds have the same response with every method of the history.
 #[test]
 fn grounds_with_either_history_agree() {
     let mut grounds = [
@@ -274,25 +277,25 @@ proptest! {
     ) {
         let grading = if cosine { Grading::Cosine } else { Grading::Uniform };
         let kernel = kernel(strip(-2.0..3.0, count, grading), time_step);
-        let mut direct = DirectHistory::new(Arc::clone(&kernel));
-        let mut relaxed = RelaxedFftHistory::new(kernel)
+        let mut direct_history = DirectHistory::new(Arc::clone(&kernel));
+        let mut relaxed_history = RelaxedFftHistory::new(kernel)
             .with_surface_transform(along_surface);
-        relaxed.prepare(reserved, &mut unobserved).unwrap();
+        relaxed_history.prepare(reserved, &mut unobserved).unwrap();
         let mut expected = vec![0.0; 2 * count];
         let mut computed = vec![f64::NAN; 2 * count];
-        let mut largest = 0.0_f64;
+        let mut max_magnitude = 0.0_f64;
         let mut difference = 0.0_f64;
         for traction in &tractions {
-            direct.push(traction);
-            relaxed.push(traction);
-            direct.evaluate(&mut expected).unwrap();
-            relaxed.evaluate(&mut computed).unwrap();
+            direct_history.push(traction);
+            relaxed_history.push(traction);
+            direct_history.evaluate(&mut expected).unwrap();
+            relaxed_history.evaluate(&mut computed).unwrap();
             for (expected, computed) in expected.iter().zip(&computed) {
-                largest = largest.max(expected.abs());
+                max_magnitude = max_magnitude.max(expected.abs());
                 difference = difference.max((expected - computed).abs());
                 prop_assert!(computed.is_finite());
             }
         }
-        prop_assert!(difference <= 1e-12 * largest, "{difference:e} of {largest:e}");
+        prop_assert!(difference <= 1e-12 * max_magnitude, "{difference:e} of {max_magnitude:e}");
     }
 }

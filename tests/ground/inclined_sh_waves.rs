@@ -40,7 +40,7 @@ impl ShWave {
 fn one_layer_has_its_closed_form() {
     let height = 6.0;
     let mut largest_error = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     for [above, below] in [[soft(), rock()], [rock(), soft()]] {
         for (profile, laws) in one_layer(above, below, height) {
             for angle in [-50.0_f64, 0.0, 12.0, 25.0, 40.0, 60.0, 85.0] {
@@ -51,9 +51,11 @@ fn one_layer_has_its_closed_form() {
                     let layer = ShWave::new(above, &*laws[0], p, s);
                     let base = ShWave::new(below, &*laws[1], p, s);
                     let up = (layer.exponent * height).exp();
-                    let down = (layer.exponent * -height).exp();
+                    let downward_factor = (layer.exponent * -height).exp();
                     let ratio = layer.impedance / base.impedance;
-                    let expected = ((up + down) * 0.5 + ratio * (up - down) * 0.5).inverse();
+                    let expected = ((up + downward_factor) * 0.5
+                        + ratio * (up - downward_factor) * 0.5)
+                        .inverse();
                     let over_outcrop = wave.transfer(OUTCROP_HORIZONTAL, frequency).unwrap();
                     let over_incident =
                         wave.transfer(InclinedControl::Incident, frequency).unwrap();
@@ -61,13 +63,13 @@ fn one_layer_has_its_closed_form() {
                         largest_error = largest_error.max(error.abs() / expected.abs());
                     }
                     assert_eq!(over_outcrop[1], Complex::default());
-                    largest = largest.max(expected.abs());
+                    max_magnitude = max_magnitude.max(expected.abs());
                 }
             }
         }
     }
-    println!("{largest_error:e}, largest {largest}");
-    assert!(largest_error < 1e-11 && largest > 4.0, "{largest_error:e} {largest}");
+    println!("{largest_error:e}, largest {max_magnitude}");
+    assert!(largest_error < 1e-11 && max_magnitude > 4.0, "{largest_error:e} {max_magnitude}");
 }
 
 /// GOAL: at an angle of zero a wave is that of the column; without layers it is a plane wave of the half-plane.
@@ -75,11 +77,12 @@ fn one_layer_has_its_closed_form() {
 fn vertical_waves_are_those_of_columns_and_bare_rock_has_plane_waves() {
     let layered = two_layers(constant_q(0.05), constant_q(0.02));
     let column = SoilColumn::new(layered.clone(), VerticalWave::Shear).unwrap();
-    let upright = InclinedWave::sh(layered.clone(), 0.0).unwrap();
+    let vertical_wave = InclinedWave::sh(layered.clone(), 0.0).unwrap();
     let motion: Vec<f64> = (0..900).map(|i| (0.3 * f64::from(i)).sin()).collect();
     let expected =
         column.to_surface(ControlPoint::Outcrop, 0.01, &motion, &mut unobserved).unwrap();
-    let computed = upright.to_surface(OUTCROP_HORIZONTAL, 0.01, &motion, &mut unobserved).unwrap();
+    let computed =
+        vertical_wave.to_surface(OUTCROP_HORIZONTAL, 0.01, &motion, &mut unobserved).unwrap();
     for (a, b) in computed[0].samples.iter().zip(&expected.samples) {
         assert!((a - b).abs() < 1e-10, "{a} {b}");
     }
@@ -103,7 +106,7 @@ fn vertical_waves_are_those_of_columns_and_bare_rock_has_plane_waves() {
     }
 
     // SH waves have no vertical motion; a layer stiffer than the base has no refracted wave beyond its critical angle.
-    assert!(upright.transfer(InclinedControl::OutcropVertical, 1.0).is_err());
+    assert!(vertical_wave.transfer(InclinedControl::OutcropVertical, 1.0).is_err());
     let covered = SoilProfile::on_half_plane(soft()).with_layer(rock(), 4.0).unwrap();
     let wave = InclinedWave::sh(covered, 0.4).unwrap();
     assert!(wave.transfer(OUTCROP_HORIZONTAL, 3.0).unwrap()[0].abs() > 0.0);
@@ -133,17 +136,20 @@ fn a_mat_twists_by_half_the_slope() {
         .build()
         .unwrap();
     let mut largest_error = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let run = simulation
         .run(300, |state| {
-            let ahead = free_field.displacement_at([0.1, 0.0], state.time)[1];
-            let behind = free_field.displacement_at([-0.1, 0.0], state.time)[1];
-            let expected = 0.5 * (ahead - behind) / 0.2;
+            let forward_displacement = free_field.displacement_at([0.1, 0.0], state.time)[1];
+            let backward_displacement = free_field.displacement_at([-0.1, 0.0], state.time)[1];
+            let expected = 0.5 * (forward_displacement - backward_displacement) / 0.2;
             largest_error = largest_error.max((state.foundations[0].twist - expected).abs());
-            largest = largest.max(expected.abs());
+            max_magnitude = max_magnitude.max(expected.abs());
         })
         .unwrap();
-    println!("{largest_error:e} of {largest:e}");
-    assert!(largest > 1e-4 && largest_error < 0.01 * largest, "{largest_error:e} of {largest:e}");
-    assert!(run.energy_error < 1e-9 && run.whole.base_rotation.magnitude() < 1e-3 * largest);
+    println!("{largest_error:e} of {max_magnitude:e}");
+    assert!(
+        max_magnitude > 1e-4 && largest_error < 0.01 * max_magnitude,
+        "{largest_error:e} of {max_magnitude:e}"
+    );
+    assert!(run.energy_error < 1e-9 && run.whole.base_rotation.magnitude() < 1e-3 * max_magnitude);
 }

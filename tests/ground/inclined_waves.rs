@@ -23,11 +23,12 @@ fn vertical_waves_are_those_of_the_column() {
             (BodyWave::P, VerticalWave::Pressure, 1, InclinedControl::OutcropVertical),
         ] {
             let column = SoilColumn::new(profile.clone(), vertical).unwrap();
-            let inclined = inclined(wave, profile.clone(), 0.0).unwrap();
+            let inclined_wave = inclined(wave, profile.clone(), 0.0).unwrap();
             for frequency in [0.0, 0.3, 2.0, 6.25, 17.0, 80.0] {
                 let expected = column.transfer(ControlPoint::Outcrop, frequency).unwrap();
-                let computed = inclined.transfer(control, frequency).unwrap();
-                let incident = inclined.transfer(InclinedControl::Incident, frequency).unwrap();
+                let computed = inclined_wave.transfer(control, frequency).unwrap();
+                let incident =
+                    inclined_wave.transfer(InclinedControl::Incident, frequency).unwrap();
                 for error in [computed[component] - expected, incident[component] - expected * 2.0]
                 {
                     largest_error = largest_error.max(error.abs() / expected.abs());
@@ -37,7 +38,8 @@ fn vertical_waves_are_those_of_the_column() {
             let motion: Vec<f64> = (0..900).map(|i| (0.3 * f64::from(i)).sin()).collect();
             let expected =
                 column.to_surface(ControlPoint::Outcrop, 0.01, &motion, &mut unobserved).unwrap();
-            let computed = inclined.to_surface(control, 0.01, &motion, &mut unobserved).unwrap();
+            let computed =
+                inclined_wave.to_surface(control, 0.01, &motion, &mut unobserved).unwrap();
             for (a, b) in computed[component].samples.iter().zip(&expected.samples) {
                 largest_error = largest_error.max((a - b).abs());
             }
@@ -62,14 +64,15 @@ fn equal_layers_are_a_half_plane() {
         };
         for angle in [-80.0_f64, -20.0, 0.1, 25.0, 34.0, 35.2, 35.4, 36.0, 50.0, 65.0, 89.0] {
             let angle = angle.to_radians();
-            let inclined = inclined(wave, layered.clone(), angle).unwrap();
+            let inclined_wave = inclined(wave, layered.clone(), angle).unwrap();
             let plane = match wave {
                 BodyWave::Sv => PlaneWave::sv(rock, angle).unwrap(),
                 BodyWave::P => PlaneWave::p(rock, angle).unwrap(),
             };
-            assert_eq!(inclined.apparent_velocity(), plane.apparent_velocity());
+            assert_eq!(inclined_wave.apparent_velocity(), plane.apparent_velocity());
             for frequency in [0.01, 1.0, 9.0, 40.0] {
-                let computed = inclined.transfer(InclinedControl::Incident, frequency).unwrap();
+                let computed =
+                    inclined_wave.transfer(InclinedControl::Incident, frequency).unwrap();
                 let delay = -TAU * frequency * 37.0 * angle.cos() / speed;
                 for (computed, [re, im]) in computed.iter().zip(plane.amplification()) {
                     let expected = Complex::new(re, -im) * Complex::new(0.0, delay).exp();
@@ -83,7 +86,7 @@ fn equal_layers_are_a_half_plane() {
     assert!(largest_phase > 1.0 && largest_error < 1e-10, "{largest_error:e}");
 }
 
-/// GOAL: at the critical slowness of a layer, where upward and downward wave coincide, results stay regular.
+/// GOAL: at the critical slowness of a layer, where upward and downward wave coincide, results are regular.
 #[test]
 fn critical_angles_of_layers_are_regular() {
     let rock = rock();
@@ -112,13 +115,14 @@ fn critical_angles_of_layers_are_regular() {
 fn one_layer_agrees_with_all_its_waves_solved_at_once() {
     let height = 6.0;
     let mut largest_error = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_value = 0.0_f64;
     for [above, below] in [[soft(), rock()], [rock(), soft()]] {
         for (profile, laws) in one_layer(above, below, height) {
             for wave in BODY_WAVES {
                 for angle in [-50.0_f64, 3.0, 12.0, 25.0, 40.0, 60.0, 85.0] {
-                    let inclined = inclined(wave, profile.clone(), angle.to_radians()).unwrap();
-                    let p = 1.0 / inclined.apparent_velocity();
+                    let inclined_wave =
+                        inclined(wave, profile.clone(), angle.to_radians()).unwrap();
+                    let p = 1.0 / inclined_wave.apparent_velocity();
                     for frequency in [0.2, 1.7, 6.0, 14.0, 33.0] {
                         let s = Complex::new(0.0, TAU * frequency);
                         let layer = SoilWaves::new(above, &*laws[0], p, s);
@@ -126,19 +130,19 @@ fn one_layer_agrees_with_all_its_waves_solved_at_once() {
                         let reference = LayerOnHalfPlane { layer, base, height, s };
                         let expected = reference.surface([Complex::default(); 2], Some(wave));
                         let computed =
-                            inclined.transfer(InclinedControl::Incident, frequency).unwrap();
+                            inclined_wave.transfer(InclinedControl::Incident, frequency).unwrap();
                         let size = expected[0].abs().max(expected[1].abs());
                         for (a, b) in computed.iter().zip(expected) {
                             largest_error = largest_error.max((*a - b).abs() / size);
                         }
-                        largest = largest.max(size);
+                        max_value = max_value.max(size);
                     }
                 }
             }
         }
     }
-    println!("{largest_error:e}, largest motion {largest}");
-    assert!(largest_error < 1e-10 && largest > 4.0, "{largest_error:e} {largest}");
+    println!("{largest_error:e}, largest motion {max_value}");
+    assert!(largest_error < 1e-10 && max_value > 4.0, "{largest_error:e} {max_value}");
 }
 
 /// GOAL: reciprocity and energy: incident waves of slowness p determine what a surface load e^(iω(t − px)) radiates.
@@ -161,8 +165,9 @@ fn incident_waves_determine_the_radiation_of_a_surface_load() {
                 (BodyWave::Sv, 1, rock.shear_wave_speed()),
                 (BodyWave::P, 0, rock.pressure_wave_speed()),
             ] {
-                let inclined = inclined(wave, profile.clone(), (p * speed).asin()).unwrap();
-                let transfer = inclined.transfer(InclinedControl::Incident, frequency).unwrap();
+                let inclined_wave = inclined(wave, profile.clone(), (p * speed).asin()).unwrap();
+                let transfer =
+                    inclined_wave.transfer(InclinedControl::Incident, frequency).unwrap();
                 let q = reference.base.vertical_slownesses[kind].re;
                 let total = reference.base.total_slownesses[kind].re;
                 for (sum, t) in radiated.iter_mut().zip(transfer) {
@@ -192,15 +197,18 @@ fn soft_half_plane() -> SoilProfile {
 #[test]
 fn slices_change_nothing_and_layers_do_not_affect_long_waves() {
     let control = InclinedControl::Incident;
-    let stiff = Soil::from_shear_wave_speed(900.0, 0.2, 2300.0).unwrap();
-    let whole = soft_half_plane().with_layer(stiff, 60.0).unwrap().with_damping(constant_q(0.01));
+    let stiff_soil = Soil::from_shear_wave_speed(900.0, 0.2, 2300.0).unwrap();
+    let single_layer = soft_half_plane()
+        .with_layer(stiff_soil, 60.0)
+        .unwrap()
+        .with_damping(constant_q(0.01));
     let mut sliced = soft_half_plane();
     for _ in 0..40 {
-        sliced = sliced.with_layer(stiff, 1.5).unwrap().with_damping(constant_q(0.01));
+        sliced = sliced.with_layer(stiff_soil, 1.5).unwrap().with_damping(constant_q(0.01));
     }
     for wave in BODY_WAVES {
         for angle in [0.2_f64, 0.7, 1.3] {
-            let whole_wave = inclined(wave, whole.clone(), angle).unwrap();
+            let whole_wave = inclined(wave, single_layer.clone(), angle).unwrap();
             let sliced_wave = inclined(wave, sliced.clone(), angle).unwrap();
             for frequency in [0.5, 5.0, 40.0, 5000.0] {
                 let expected = whole_wave.transfer(control, frequency).unwrap();
@@ -247,12 +255,13 @@ fn motions_in_time_are_integrals_over_frequency() {
         (BodyWave::Sv, -20.0, InclinedControl::OutcropVertical),
         (BodyWave::P, 60.0, InclinedControl::Incident),
     ] {
-        let inclined = inclined(wave, profile.clone(), angle.to_radians()).unwrap();
-        let computed = inclined.to_surface(control, time_step, &motion, &mut unobserved).unwrap();
+        let inclined_wave = inclined(wave, profile.clone(), angle.to_radians()).unwrap();
+        let computed =
+            inclined_wave.to_surface(control, time_step, &motion, &mut unobserved).unwrap();
         let spectrum: Vec<(f64, [Complex; 2])> = (1..1000)
             .map(|l| {
                 let omega = frequency_step * f64::from(l);
-                let transfer = inclined.transfer(control, omega / TAU).unwrap();
+                let transfer = inclined_wave.transfer(control, omega / TAU).unwrap();
                 (omega, transfer.map(|t| t * ricker_transform(omega)))
             })
             .collect();

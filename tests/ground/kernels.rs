@@ -269,29 +269,29 @@ fn half_plane_loads_follow_from_each_other() {
     }
 }
 
-/// GOAL: weights are zero before the first wave and after the last coupling, are reciprocal, and refuse bad input.
+/// GOAL: weights are zero before the first wave and after the last coupling, are reciprocal, and return errors for bad input.
 #[test]
-fn nothing_arrives_early_and_invalid_input_is_refused() {
+fn nothing_arrives_early_and_invalid_input_is_an_error() {
     for nu in POISSON_RATIOS {
         let ground = soil(nu);
-        let near = ContactElement::new(0.0, 1.0);
-        let far = ContactElement::new(11.0, 12.0);
+        let near_element = ContactElement::new(0.0, 1.0);
+        let far_element = ContactElement::new(11.0, 12.0);
         let kernel = InfluenceKernel::new(ground, 0.01).unwrap();
-        let weights_at = |lag| kernel.coefficients(far, near, lag).unwrap();
-        let early = weights_at(9);
+        let weights_at = |lag| kernel.coefficients(far_element, near_element, lag).unwrap();
+        let early_weights = weights_at(9);
         if ground.pressure_wave_speed() < 100.0 {
-            assert_eq!((early.zz, early.xx, early.zx), (0.0, 0.0, 0.0));
+            assert_eq!((early_weights.zz, early_weights.xx, early_weights.zx), (0.0, 0.0, 0.0));
         }
         // The last lag of the coupling, and reciprocity.
-        let patch = PatchKernel::new(ground, vec![near, far], 0.01).unwrap();
+        let patch = PatchKernel::new(ground, vec![near_element, far_element], 0.01).unwrap();
         let class = (0..patch.classes().count())
-            .find(|class| patch.classes().representative(*class) == Ok([near, far]))
+            .find(|class| patch.classes().representative(*class) == Ok([near_element, far_element]))
             .unwrap();
-        let last = patch.last_coupling_lag(class).unwrap().unwrap();
-        assert!(weights_at(last).zx != 0.0 && weights_at(last + 1).zx == 0.0);
+        let last_lag = patch.last_coupling_lag(class).unwrap().unwrap();
+        assert!(weights_at(last_lag).zx != 0.0 && weights_at(last_lag + 1).zx == 0.0);
         for lag in [1, 300, 1000, 1190, 5000] {
             let forward = weights_at(lag);
-            let backward = kernel.coefficients(near, far, lag).unwrap();
+            let backward = kernel.coefficients(near_element, far_element, lag).unwrap();
             assert_eq!(
                 (forward.zz, forward.xx, forward.zx),
                 (backward.zz, backward.xx, -backward.zx)
@@ -309,13 +309,13 @@ fn nothing_arrives_early_and_invalid_input_is_refused() {
         assert!(InfluenceKernel::new(ground, time_step).is_err());
     }
     let kernel = InfluenceKernel::new(ground, 0.1).unwrap();
-    let good = ContactElement::new(0.0, 1.0);
+    let valid_element = ContactElement::new(0.0, 1.0);
     for (left, right) in [(0.0, 0.0), (1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        let bad = ContactElement::new(left, right);
-        assert!(kernel.coefficients(good, bad, 1).is_err());
-        assert!(HalfPlane::new(ground).element_mean(bad, good, 1.0).is_err());
+        let invalid_element = ContactElement::new(left, right);
+        assert!(kernel.coefficients(valid_element, invalid_element, 1).is_err());
+        assert!(HalfPlane::new(ground).element_mean(invalid_element, valid_element, 1.0).is_err());
     }
-    assert!(kernel.coefficients(good, good, 0).is_err());
+    assert!(kernel.coefficients(valid_element, valid_element, 0).is_err());
     let plane = HalfPlane::new(ground);
     assert!(plane.displacement([1.0, 0.5], 1.0, LoadHistory::Step).is_err());
     assert!(plane.displacement([0.0, 0.0], 1.0, LoadHistory::Step).is_err());

@@ -35,7 +35,7 @@ fn coefficients_agree_with_the_table_of_a_damped_layer_on_rock() {
         (0..count).map(|class| weights_of_class(kernel.as_ref(), class, 1, 64)).collect();
     let table = include_str!("../data/layered/G_r2_P1_gmb_Q3_dt0.2.csv");
     let mut largest_error = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut rows = 0;
     for line in table.lines().skip(2) {
         let fields: Vec<&str> = line.split(',').collect();
@@ -51,13 +51,13 @@ fn coefficients_agree_with_the_table_of_a_damped_layer_on_rock() {
             _ => -pair.sign * pair_weights[2][lag - 1],
         };
         let expected: f64 = fields[3].parse().unwrap();
-        largest = largest.max(expected.abs());
+        max_magnitude = max_magnitude.max(expected.abs());
         largest_error = largest_error.max((computed - expected).abs());
         rows += 1;
     }
-    println!("{rows} rows, {:e} of the largest", largest_error / largest);
+    println!("{rows} rows, {:e} of the largest", largest_error / max_magnitude);
     assert!(rows > 600);
-    assert!(largest_error < 1e-7 * largest);
+    assert!(largest_error < 1e-7 * max_magnitude);
 }
 
 /// GOAL: weights of a half-plane as layered ground tend to its closed form at late lags.
@@ -137,8 +137,8 @@ fn tolerance_governs_the_latest_lags() {
         for (computed, reference) in computed.iter().zip(&reference).take(2) {
             for (lag, (a, b)) in computed.iter().zip(reference).enumerate() {
                 // Where the weight passes through zero its neighbours give the scale.
-                let near = &reference[lag.saturating_sub(8)..(lag + 8).min(COMPARED_LAGS)];
-                error_of_lag = error_of_lag.max((a - b).abs() / largest(near));
+                let neighbours = &reference[lag.saturating_sub(8)..(lag + 8).min(COMPARED_LAGS)];
+                error_of_lag = error_of_lag.max((a - b).abs() / largest(neighbours));
                 error_of_first = error_of_first.max((a - b).abs() / reference[0]);
             }
         }

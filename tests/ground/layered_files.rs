@@ -127,7 +127,7 @@ fn files_in_plan_reproduce_weights_to_the_last_bit() {
         assert_eq!(written.len(), 8 * (6 * 6 * 256 + 6));
         assert!(march_in_plan(&profile, 3, Some(&file)).unwrap() == expected);
         assert!(file.read() == written);
-        // A file with one wrong bit is refused; one with other numbers and their check sum is accepted.
+        // A file with one wrong bit is an error; one with other numbers and their check sum is accepted.
         file.write(rewritten(&written, false, |words| words[300] ^= 1 << 40));
         assert!(is_damaged(&fault(march_in_plan(&profile, 3, Some(&file)))));
         file.write(rewritten(&written, true, |words| words[300] ^= 1 << 40));
@@ -157,10 +157,11 @@ fn rewritten(original: &[u8], corrects_sum: bool, change: impl Fn(&mut [u64])) -
         original.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
     change(&mut words);
     if corrects_sum {
-        let last = words.len() - 1;
-        words[last] = words[..last].iter().fold(0xcbf2_9ce4_8422_2325, |hash: u64, word| {
-            (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23)
-        });
+        let last_index = words.len() - 1;
+        words[last_index] =
+            words[..last_index].iter().fold(0xcbf2_9ce4_8422_2325, |hash: u64, word| {
+                (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23)
+            });
     }
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
@@ -189,12 +190,12 @@ fn a_file_gives_the_same_bits_and_is_used() {
     // A shorter file is extended, a longer one kept.
     std::fs::remove_file(&file.path).unwrap();
     prepare_with_file(&file.path, 1);
-    let short = file.read();
+    let short_file = file.read();
     assert_eq!(bits_with_file(&file.path).unwrap(), expected);
     assert_eq!(file.read(), original);
     prepare_with_file(&file.path, 1);
     assert_eq!(file.read(), original);
-    assert!(short.len() < original.len());
+    assert!(short_file.len() < original.len());
 }
 
 /// Relaxation law without a description, known by its modulus only.
@@ -211,7 +212,7 @@ impl Relaxation for UndescribedLaw {
 #[test]
 fn files_of_other_kernels_are_replaced() {
     let file = TemporaryFile::new("other");
-    let longer = Strip::uniform(-1.0..1.1, 2).unwrap();
+    let longer_strip = Strip::uniform(-1.0..1.1, 2).unwrap();
     let kernels: [(&dyn Fn() -> ElasticGround, f64); 9] = [
         (&ground, TIME_STEP),
         (&|| ground_on(p1(gmb(5), gmb(5))), TIME_STEP),
@@ -219,7 +220,7 @@ fn files_of_other_kernels_are_replaced() {
         (&|| ground_on(p3(UndescribedLaw(0.1))), TIME_STEP),
         (&|| ground_on(p3(UndescribedLaw(0.100_000_000_001))), TIME_STEP),
         (&ground, 0.200_000_01),
-        (&|| two_stages(p1(gmb(5), gmb(1)), &longer), TIME_STEP),
+        (&|| two_stages(p1(gmb(5), gmb(1)), &longer_strip), TIME_STEP),
         (&|| ground().with_stages(Stages::Three), TIME_STEP),
         (&|| ground().with_tolerance(2e-10).unwrap(), TIME_STEP),
     ];
@@ -244,7 +245,7 @@ fn files_of_other_kernels_are_replaced() {
 
 /// GOAL: files that are no kernels cause an error and are not overwritten.
 #[test]
-fn foreign_files_are_refused_and_kept() {
+fn foreign_files_are_errors_and_kept() {
     let file = TemporaryFile::new("foreign");
     for text in ["", "x", "BASEMAT", "basematk and more of it", &"0,1,2\n".repeat(1000)] {
         file.write(text);
@@ -257,18 +258,18 @@ fn foreign_files_are_refused_and_kept() {
     }
     let folder = std::env::temp_dir();
     assert!(matches!(fault(bits_with_file(&folder)), FileFault::Unreadable(_)));
-    // A file where a folder must be.
-    let refused = bits_with_file(&file.path.join("below.kernel"));
-    assert!(refused.is_err(), "{refused:?}");
+    // The path names a file where a folder is needed.
+    let result = bits_with_file(&file.path.join("below.kernel"));
+    assert!(result.is_err(), "{result:?}");
     // No file can have that name.
     assert!(matches!(fault(bits_with_file(Path::new(""))), FileFault::Unwritable(_)));
     let text = bits_with_file(&folder).unwrap_err().to_string();
     assert!(text.contains(&folder.display().to_string()), "{text}");
 }
 
-/// GOAL: files of the wrong length, with numbers that are not finite, or with wrong bits are refused.
+/// GOAL: files of the wrong length, with numbers that are not finite, or with wrong bits are errors.
 #[test]
-fn damaged_files_are_refused() {
+fn damaged_files_are_errors() {
     let file = TemporaryFile::new("damaged");
     let expected = bits_with_file(&file.path).unwrap();
     let original = file.read();
@@ -315,11 +316,11 @@ fn soil_of_speed(speed: f64) -> Soil {
 }
 
 /// Bits of a run of a block that uplifts and slides.
-fn run_bits(shared: &SharedKernels, path: Option<&Path>) -> Vec<u64> {
+fn run_bits(kernels: &SharedKernels, path: Option<&Path>) -> Vec<u64> {
     let profile = SoilProfile::on_half_plane(soil_of_speed(500.0));
     let profile = profile.with_layer(soil_of_speed(150.0), 6.0).unwrap();
     let block = RigidBlock::new(6.0, 9.0, 2000.0).unwrap();
-    let ground = ElasticGround::under(profile, &block, 4).unwrap().with_shared_kernels(shared);
+    let ground = ElasticGround::under(profile, &block, 4).unwrap().with_shared_kernels(kernels);
     let ground = match path {
         Some(path) => ground.with_kernel_file(path),
         None => ground,
@@ -344,14 +345,14 @@ fn run_bits(shared: &SharedKernels, path: Option<&Path>) -> Vec<u64> {
 #[test]
 fn runs_from_a_file_are_the_same_to_the_last_bit() {
     let file = TemporaryFile::new("run");
-    let shared = SharedKernels::default();
-    let expected = run_bits(&shared, None);
-    assert_eq!(shared.count(), 1);
-    assert_eq!(run_bits(&shared, Some(&file.path)), expected);
-    assert!(file.path.exists() && shared.count() == 2);
+    let kernels = SharedKernels::default();
+    let expected = run_bits(&kernels, None);
+    assert_eq!(kernels.count(), 1);
+    assert_eq!(run_bits(&kernels, Some(&file.path)), expected);
+    assert!(file.path.exists() && kernels.count() == 2);
     // A damaged file stops a ground that has to read it, and no other.
     file.write("damaged");
-    assert_eq!(run_bits(&shared, Some(&file.path)), expected);
+    assert_eq!(run_bits(&kernels, Some(&file.path)), expected);
     let ground = ElasticGround::new(p3(gmb(5)), Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     let mut ground = ground.with_kernel_file(&file.path);
     let error = ground.prepare(0.2, None, &mut unobserved).unwrap_err();

@@ -1,4 +1,4 @@
-//! GOAL: dynamic stiffnesses of rigid strips are right up to the mesh, which is of second order.
+//! GOAL: dynamic stiffnesses of rigid strips are right up to the error of the mesh, which is of second order.
 //! SCENE: damped half-plane, layer on rock, layer on a rigid base; bonded and relaxed.
 //! REFERENCE: tables of other programs, statics and the cut-off frequency of a layer.
 
@@ -20,16 +20,16 @@ fn impedance_components(profile: &SoilProfile, count: usize, omega: f64) -> [Com
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();
     let frequencies = [omega / std::f64::consts::TAU];
     let bonded = ground.impedances(&frequencies, StripContact::Bonded, &mut unobserved).unwrap()[0];
-    let relaxed =
+    let relaxed_impedance =
         ground.impedances(&frequencies, StripContact::Relaxed, &mut unobserved).unwrap()[0];
     [
         bonded.horizontal,
         bonded.vertical,
         bonded.rocking,
         bonded.coupling,
-        relaxed.horizontal,
-        relaxed.vertical,
-        relaxed.rocking,
+        relaxed_impedance.horizontal,
+        relaxed_impedance.vertical,
+        relaxed_impedance.rocking,
     ]
 }
 
@@ -44,26 +44,26 @@ fn rows(table: &str) -> Vec<Vec<f64>> {
 
 /// Largest errors with 16, 32 and 64 elements, and after extrapolation from the last two.
 ///
-/// Relative to hh, vv, rr of the row (hr: to hh). `expected` gives components of a row.
+/// Errors are relative to hh, vv, rr of the row (hr: to hh). `expected` returns components of a row.
 fn largest_errors(
     profile: &SoilProfile,
     rows: &[Vec<f64>],
     expected: impl Fn(&[f64]) -> Vec<(usize, Complex)>,
 ) -> [f64; 4] {
-    let mut largest = [0.0_f64; 4];
+    let mut max_errors = [0.0_f64; 4];
     for row in rows {
         let meshes = [16, 32, 64].map(|count| impedance_components(profile, count, row[0]));
         for (component, expected) in expected(row) {
             let scale = if component == 3 { meshes[2][0].abs() } else { expected.abs() };
-            for (largest, mesh) in largest.iter_mut().zip(&meshes) {
-                *largest = largest.max((mesh[component] - expected).abs() / scale);
+            for (max_errors, mesh) in max_errors.iter_mut().zip(&meshes) {
+                *max_errors = max_errors.max((mesh[component] - expected).abs() / scale);
             }
-            let extrapolated =
+            let extrapolated_value =
                 meshes[2][component] * (4.0 / 3.0) - meshes[1][component] * (1.0 / 3.0);
-            largest[3] = largest[3].max((extrapolated - expected).abs() / scale);
+            max_errors[3] = max_errors[3].max((extrapolated_value - expected).abs() / scale);
         }
     }
-    largest
+    max_errors
 }
 
 fn assert_second_order(name: &str, errors: [f64; 4], extrapolated_limit: f64) {
@@ -131,9 +131,11 @@ fn static_strips_match_the_table() {
         let meshes = [12, 24].map(|count| impedance_components(&profile, count, 0.0));
         for (component, column) in [(0, 2), (1, 3), (2, 4), (3, 5), (5, 6), (6, 7)] {
             let expected = row[column];
-            let extrapolated = (4.0 * meshes[1][component].re - meshes[0][component].re) / 3.0;
+            let extrapolated_value =
+                (4.0 * meshes[1][component].re - meshes[0][component].re) / 3.0;
             let scale = if component == 3 { row[2] } else { expected };
-            extrapolated_error = extrapolated_error.max((extrapolated - expected).abs() / scale);
+            extrapolated_error =
+                extrapolated_error.max((extrapolated_value - expected).abs() / scale);
             for (error, mesh) in mesh_errors.iter_mut().zip(meshes) {
                 *error = error.max((mesh[component].re - expected).abs() / scale);
             }
@@ -216,17 +218,17 @@ fn impedances_at(profile: SoilProfile, frequency: f64) -> Result<Vec<StripImpeda
     ground.impedances(&[frequency], StripContact::Bonded, &mut unobserved)
 }
 
-/// GOAL: frequencies out of range, resonances and profiles without soil are refused.
+/// GOAL: frequencies out of range, resonances and profiles without soil are errors.
 #[test]
-fn invalid_frequencies_and_resonances_are_refused() {
+fn invalid_frequencies_and_resonances_are_errors() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
     // An undamped layer 2 m thick guides waves from 1/8 Hz.
     let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();
-    let refused = impedances_at(layer, 0.125);
-    assert!(matches!(refused, Err(Error::Ground(GroundError::Unresolved { .. }))), "{refused:?}");
+    let result = impedances_at(layer, 0.125);
+    assert!(matches!(result, Err(Error::Ground(GroundError::Unresolved { .. }))), "{result:?}");
     for frequency in [-1.0, f64::NAN, f64::INFINITY, 0.0] {
-        let refused = impedances_at(SoilProfile::on_half_plane(soil), frequency);
-        assert!(matches!(refused, Err(Error::Input { .. })), "{refused:?}");
+        let result = impedances_at(SoilProfile::on_half_plane(soil), frequency);
+        assert!(matches!(result, Err(Error::Input { .. })), "{result:?}");
     }
     assert!(impedances_at(SoilProfile::on_rigid_bedrock(), 1.0).is_err());
 }

@@ -62,7 +62,7 @@ fn smallest_work(matrices: &[Vec<f64>]) -> f64 {
     let mut displacement = vec![0.0; n];
     let mut work = 0.0;
     let mut noise_work = 0.0;
-    let mut smallest = f64::INFINITY;
+    let mut min_work = f64::INFINITY;
     for step in 0..MARCH_STEPS {
         let mut history = vec![0.0; n];
         for (m, traction) in tractions.iter().enumerate() {
@@ -87,12 +87,12 @@ fn smallest_work(matrices: &[Vec<f64>]) -> f64 {
             noise_work = work;
         }
         if step >= 9 || work < 0.0 {
-            smallest = smallest.min(work);
+            min_work = min_work.min(work);
         }
         tractions.push(traction);
         displacement = end;
     }
-    smallest / noise_work
+    min_work / noise_work
 }
 
 /// GOAL: tractions that extract the largest energy in each step never extract energy in sum.
@@ -104,7 +104,7 @@ fn an_adversary_extracts_no_energy() {
             .unwrap()
             .with_layer(Soil::from_shear_wave_speed(0.5, 0.45, 0.9).unwrap(), 1.0)
             .unwrap();
-    let mut smallest = f64::INFINITY;
+    let mut min_work = f64::INFINITY;
     for (name, profile) in [
         ("elastic layer on rock", p1(Elastic, Elastic)),
         ("damped layer on rock", p1(gmb(5), gmb(1))),
@@ -128,9 +128,9 @@ fn an_adversary_extracts_no_energy() {
                     println!("{name}, {grading:?}, {stages:?}, {ratio}: {work:e}");
                 }
                 assert!(work >= 0.0, "{name}, {grading:?}, {stages:?}, {ratio}: {work:e}");
-                smallest = smallest.min(work);
+                min_work = min_work.min(work);
             }
         }
     }
-    println!("smallest work over that of ten steps: {smallest:e}");
+    println!("smallest work over that of ten steps: {min_work:e}");
 }

@@ -30,16 +30,16 @@ pub(super) fn check_observed<T: PartialEq + std::fmt::Debug>(
             reports.push(progress);
             if reports.len() > stop { Break(()) } else { Continue(()) }
         });
-        let last = *reports.last().unwrap();
+        let last_report = *reports.last().unwrap();
         for pair in reports.windows(2) {
             assert!(pair[0].done <= pair[1].done && pair[0].total == pair[1].total);
             assert!(pair[0].task == pair[1].task);
         }
         if reports.len() > stop {
-            assert_eq!(outcome.err(), Some(Error::Stopped(last)));
-            assert!(Error::Stopped(last).to_string().contains(last.task));
+            assert_eq!(outcome.err(), Some(Error::Stopped(last_report)));
+            assert!(Error::Stopped(last_report).to_string().contains(last_report.task));
         } else {
-            assert_eq!(last.done, last.total, "{last}");
+            assert_eq!(last_report.done, last_report.total, "{last_report}");
             let computed = outcome.unwrap();
             assert!(expected.is_none_or(|expected| *expected == computed));
             return;
@@ -202,14 +202,17 @@ fn builds_and_preparations_pass_their_observer_on() {
             reports.push(progress);
             if reports.len() > stop { Break(()) } else { Continue(()) }
         });
-        let built = builder.build();
-        let last = *reports.lock().unwrap().last().unwrap();
-        match built {
+        let result = builder.build();
+        let last_report = *reports.lock().unwrap().last().unwrap();
+        match result {
             Ok(simulation) => {
-                assert!(stop == usize::MAX && last.done == last.total, "{last}");
+                assert!(
+                    stop == usize::MAX && last_report.done == last_report.total,
+                    "{last_report}"
+                );
                 assert_eq!(base_shear_bits(simulation), expected_when_prepared);
             }
-            Err(error) => assert_eq!(error, Error::Stopped(last)),
+            Err(error) => assert_eq!(error, Error::Stopped(last_report)),
         }
     }
     let mut simulation = block_on_four_elements().build().unwrap();

@@ -16,12 +16,12 @@ fn scenes() -> Vec<PassivityScene> {
     let mut scenes = vec![];
     for (row, beta) in TIME_STEP_RATIOS.into_iter().enumerate() {
         for (column, poisson) in POISSON_RATIOS.into_iter().enumerate() {
-            for graded in [false, true] {
-                if heavy() || graded == ((row + column) % 2 == 1) {
+            for is_graded in [false, true] {
+                if heavy() || is_graded == ((row + column) % 2 == 1) {
                     scenes.push(PassivityScene {
                         poisson,
                         beta,
-                        graded,
+                        graded: is_graded,
                         elements: 20,
                         steps: if heavy() { 3000 } else { 1000 },
                         seed: 11,
@@ -50,11 +50,11 @@ fn random_tractions_never_extract_energy() {
 /// GOAL: the tractions of random displacement increments do not grow.
 #[test]
 fn random_displacements_have_bounded_tractions() {
-    let mut largest = 0.0_f64;
+    let mut max_value = 0.0_f64;
     for scene in scenes() {
         let growth = scene.growth_of_tractions();
         assert!(growth < 2.0, "{scene:?}: {growth}");
-        largest = largest.max(growth);
+        max_value = max_value.max(growth);
     }
-    println!("largest growth from the first tenth to the last: {largest}");
+    println!("largest growth from the first tenth to the last: {max_value}");
 }

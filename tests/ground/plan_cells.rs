@@ -136,9 +136,9 @@ fn faces_that_are_no_mat_are_errors() {
     }
     let touching = Plan::on_faces(&[square.clone(), rectangle([1.0 - 1e-7, 2.0], [0.0, 1.0])], 8);
     assert!(touching.unwrap().area_error().abs() < 1e-6);
-    // One inside the other, and a cross.
-    let inner = rectangle([0.2, 0.4], [0.3, 0.5]);
-    let error = fault(&[inner, rectangle([3.0, 4.0], [0.0, 1.0]), square.clone()], 8);
+    // One rectangle lies inside the other, and two cross.
+    let inner_rectangle = rectangle([0.2, 0.4], [0.3, 0.5]);
+    let error = fault(&[inner_rectangle, rectangle([3.0, 4.0], [0.0, 1.0]), square.clone()], 8);
     assert!(
         matches!(error, PlanError::Overlap { faces: [0, 2], area } if (area - 0.04).abs() < 1e-12)
     );
@@ -146,18 +146,18 @@ fn faces_that_are_no_mat_are_errors() {
     assert!(
         matches!(fault(&cross, 8), PlanError::Overlap { area, .. } if (area - 0.2).abs() < 1e-12)
     );
-    // A mat between the centres of cells.
-    let narrow = [rectangle([0.0, 4.0], [0.0, 1.0]), rectangle([0.0, 4.0], [3.0, 3.01])];
-    let error = fault(&narrow, 4);
+    // The second mat lies between the centres of cells.
+    let narrow_faces = [rectangle([0.0, 4.0], [0.0, 1.0]), rectangle([0.0, 4.0], [3.0, 3.01])];
+    let error = fault(&narrow_faces, 4);
     assert!(
         matches!(error, PlanError::NoCells { mat: 1, .. } | PlanError::Uncovered { .. }),
         "{error}"
     );
     for gap in [0.02, 0.1] {
-        let separate = [square.clone(), rectangle([1.0 + gap, 2.0], [0.0, 1.0])];
-        let error = fault(&separate, 6);
+        let separate_faces = [square.clone(), rectangle([1.0 + gap, 2.0], [0.0, 1.0])];
+        let error = fault(&separate_faces, 6);
         assert!(matches!(error, PlanError::TooClose { mats: [0, 1], .. }), "{error}");
-        assert_eq!(Plan::on_faces(&separate, 80).unwrap().count() % 80, 0);
+        assert_eq!(Plan::on_faces(&separate_faces, 80).unwrap().count() % 80, 0);
     }
     let corner = [square, rectangle([1.02, 2.0], [1.02, 2.0])];
     assert!(matches!(fault(&corner, 6), PlanError::TooClose { .. }));
@@ -186,8 +186,8 @@ fn numbers_that_are_no_mat_are_errors() {
     assert!(matches!(masked_plan(2, &[]), Err(Error::Size { .. } | Error::Plan(_))));
     assert!(matches!(masked_plan(0, &[true]), Err(Error::Size { .. })));
     assert!(matches!(masked_plan(2, &[true; 3]), Err(Error::Size { found: 3, needed: 4, .. })));
-    let flat = Plan::masked([0.0; 2], [1.0, 0.0], 1, &[true]);
-    assert!(matches!(flat, Err(Error::Input { .. })));
+    let result = Plan::masked([0.0; 2], [1.0, 0.0], 1, &[true]);
+    assert!(matches!(result, Err(Error::Input { .. })));
 }
 
 fn soft_soil() -> Soil {
@@ -206,12 +206,12 @@ fn impedances_of_square(
 
 /// GOAL: frequencies too high for the cells, out of range, and profiles out of reach give typed errors.
 #[test]
-fn impossible_impedances_are_refused() {
+fn impossible_impedances_are_errors() {
     let profile: SoilProfile = soft_soil().into();
-    let refused = impedances_of_square(&profile, &[1.0, 20.0], &mut unobserved);
+    let result = impedances_of_square(&profile, &[1.0, 20.0], &mut unobserved);
     assert!(
-        matches!(refused, Err(Error::Plan(PlanError::CoarseCells { frequency: 20.0, .. }))),
-        "{refused:?}"
+        matches!(result, Err(Error::Plan(PlanError::CoarseCells { frequency: 20.0, .. }))),
+        "{result:?}"
     );
     for frequency in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(impedances_of_square(&profile, &[1.0, frequency], &mut unobserved).is_err());
@@ -220,8 +220,8 @@ fn impossible_impedances_are_refused() {
     assert!(impedances_of_square(&bedrock, &[1.0], &mut unobserved).is_err());
     assert!(impedances_of_square(&profile, &[], &mut unobserved).unwrap().is_empty());
     let thin_layer = profile.with_layer(soft_soil(), 1e-4).unwrap();
-    let refused = impedances_of_square(&thin_layer, &[1.0], &mut unobserved);
-    assert!(matches!(refused, Err(Error::Ground(GroundError::TooFine { .. }))), "{refused:?}");
+    let result = impedances_of_square(&thin_layer, &[1.0], &mut unobserved);
+    assert!(matches!(result, Err(Error::Ground(GroundError::TooFine { .. }))), "{result:?}");
 }
 
 /// GOAL: impedances in plan report their progress and stop.
@@ -236,14 +236,14 @@ fn impedances_report_and_stop() {
     let expected = impedances_of_square(&profile, &[0.0, 2.0], &mut unobserved);
     assert_eq!(observed.unwrap(), expected.unwrap());
     assert!(reports.is_sorted() && reports.last() == Some(&16));
-    for last in [0, 8, 11] {
-        let stopped = impedances_of_square(&profile, &[0.0, 2.0], &mut |progress| {
-            if progress.done == last {
+    for last_report in [0, 8, 11] {
+        let result = impedances_of_square(&profile, &[0.0, 2.0], &mut |progress| {
+            if progress.done == last_report {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
         });
-        assert!(matches!(stopped, Err(Error::Stopped(progress)) if progress.done == last));
+        assert!(matches!(result, Err(Error::Stopped(progress)) if progress.done == last_report));
     }
 }

@@ -35,9 +35,13 @@ fn point_between(a: [f64; 2], b: [f64; 2], fraction: f64) -> [f64; 2] {
 /// Two parts of a face, by a random cut from edge to edge.
 fn cut_from_edge_to_edge(face: &FaceCorners, random: &mut Random) -> Vec<FaceCorners> {
     let count = face.len();
-    let one = random_below(random, count);
-    let other = random_below(random, count - 1);
-    let edges = if other < one { [other, one] } else { [one, other + 1] };
+    let first_edge = random_below(random, count);
+    let second_edge = random_below(random, count - 1);
+    let edges = if second_edge < first_edge {
+        [second_edge, first_edge]
+    } else {
+        [first_edge, second_edge + 1]
+    };
     let ends =
         edges.map(|k| point_between(face[k], face[(k + 1) % count], random.within(0.1, 0.9)));
     let mut left = vec![ends[0]];
@@ -129,15 +133,15 @@ const MAT_SIZE: f64 = 20.0;
 /// Largest difference of centres, sides and areas, relative to the size of the mats.
 fn largest_difference(one: &[ContactElement], other: &[ContactElement]) -> f64 {
     assert_eq!(one.len(), other.len());
-    let mut largest = 0.0_f64;
+    let mut max_difference = 0.0_f64;
     for (one, other) in one.iter().zip(other) {
         for (a, b) in center_and_sides(one).into_iter().zip(center_and_sides(other)) {
-            largest = largest.max((a / MAT_SIZE - b / MAT_SIZE).abs());
+            max_difference = max_difference.max((a / MAT_SIZE - b / MAT_SIZE).abs());
         }
         let square = MAT_SIZE * MAT_SIZE;
-        largest = largest.max((one.area() / square - other.area() / square).abs());
+        max_difference = max_difference.max((one.area() / square - other.area() / square).abs());
     }
-    largest
+    max_difference
 }
 
 /// Corners of a regular polygon about (3, 0), the first at an angle `turn`.
@@ -192,14 +196,14 @@ fn random_faces_of_an_outline_have_the_cells_of_the_outline() {
             // The two mats are too close for large cells.
             let cells = if name == "two mats" { cells + 8 } else { cells };
             let cuts = 1 + random_below(&mut random, 20);
-            let divided = divided(&faces, cuts, &mut random);
+            let divided_faces = divided(&faces, cuts, &mut random);
             let expected = elements(&faces, cells);
-            let computed = elements(&divided, cells);
+            let computed = elements(&divided_faces, cells);
             let difference = largest_difference(&expected, &computed);
             assert!(difference < 1e-9, "{name} {trial} {cells} {difference}");
             let sum: f64 = computed.iter().map(ContactElement::area).sum();
             assert!((sum / area - 1.0).abs() < 1e-9, "{name} {sum} {area}");
-            let without_overhang = [&faces, &divided].map(|faces| {
+            let without_overhang = [&faces, &divided_faces].map(|faces| {
                 Plan::on_faces(faces, cells).unwrap().without_overhang().unwrap().elements()
             });
             let difference = largest_difference(&without_overhang[0], &without_overhang[1]);
@@ -305,19 +309,19 @@ fn symmetric_mats_have_symmetric_cells() {
 fn turned_and_mirrored_mats_have_turned_and_mirrored_cells() {
     let mut random = Random(11);
     for (name, faces, _) in shapes() {
-        let divided = divided(&faces, 12, &mut random);
+        let divided_faces = divided(&faces, 12, &mut random);
         for map in [
             AxisMap { map: |[x, y]| [-y, x], exchanges_axes: true },
             AxisMap { map: |[x, y]| [-x, y], exchanges_axes: false },
             AxisMap { map: |[x, y]| [y, x], exchanges_axes: true },
         ] {
-            let mapped: Vec<FaceCorners> = divided
+            let mapped_faces: Vec<FaceCorners> = divided_faces
                 .iter()
                 .map(|face| face.iter().map(|point| (map.map)(*point)).collect())
                 .collect();
             let cells = if name == "two mats" { 16 } else { 9 };
-            let mut partners = elements(&mapped, cells);
-            for element in &elements(&divided, cells) {
+            let mut partners = elements(&mapped_faces, cells);
+            for element in &elements(&divided_faces, cells) {
                 let image = map.center_and_sides(element);
                 let partner = partners
                     .iter()

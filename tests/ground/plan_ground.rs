@@ -49,9 +49,9 @@ fn random_tractions(random: &mut Random, size: usize) -> Vec<f64> {
 
 /// Largest difference of two runs, relative to the largest value of the second.
 fn largest_difference(one: &[Vec<f64>], two: &[Vec<f64>]) -> f64 {
-    let largest = two.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let max_magnitude = two.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
     let pairs = one.iter().flatten().zip(two.iter().flatten());
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / max_magnitude
 }
 
 /// Changes from step to step.
@@ -82,17 +82,18 @@ fn histories_are_the_direct_sum() {
     ];
     for (plan, stages) in plans.into_iter().zip([Stages::Two, Stages::Three, Stages::Two]) {
         let profile = p1(gmb(5), gmb(1));
-        let mut direct = ElasticGround::in_plan(profile.clone(), plan.clone())
+        let mut ground_with_direct_history = ElasticGround::in_plan(profile.clone(), plan.clone())
             .unwrap()
             .with_stages(stages)
             .with_own_history(|kernel: Arc<_>| Box::new(DirectHistory::new(kernel)));
-        let mut fast = ElasticGround::in_plan(profile, plan.clone()).unwrap().with_stages(stages);
-        for ground in [&mut direct, &mut fast] {
+        let mut ground_with_transforms =
+            ElasticGround::in_plan(profile, plan.clone()).unwrap().with_stages(stages);
+        for ground in [&mut ground_with_direct_history, &mut ground_with_transforms] {
             assert_eq!(ground.elements()[0].directions().len(), 3);
             ground.prepare(0.2, None, &mut unobserved).unwrap();
         }
-        let expected = march(&mut direct, 100, 1);
-        let computed = march(&mut fast, 100, 1);
+        let expected = march(&mut ground_with_direct_history, 100, 1);
+        let computed = march(&mut ground_with_transforms, 100, 1);
         let error = largest_difference(&computed, &expected);
         println!("{} cells: {error:e}", plan.count());
         assert!(error < 1e-13, "{error:e}");
@@ -177,37 +178,37 @@ fn l_shape_with_history(options: HistoryOptions) -> ElasticGround {
     ground.with_history(options).unwrap()
 }
 
-/// GOAL: with a coarse tolerance the memory ends; the error of this cut is below its bound and above zero.
+/// GOAL: with a coarse tolerance the memory ends; the error by the end of the memory is below its bound and above zero.
 #[test]
 fn the_error_of_a_memory_that_ends_is_bounded() {
     let options = HistoryOptions { tolerance: Some(3e-3), ..HistoryOptions::default() };
-    let mut complete = l_shape_with_history(HistoryMethod::RelaxedFft.into());
-    let mut cut = l_shape_with_history(options);
+    let mut ground_with_full_memory = l_shape_with_history(HistoryMethod::RelaxedFft.into());
+    let mut ground_with_cut_memory = l_shape_with_history(options);
     let mut unexpected_steps = l_shape_with_history(options);
     let steps = 700;
-    complete.prepare(0.2, Some(steps), &mut unobserved).unwrap();
-    cut.prepare(0.2, Some(steps), &mut unobserved).unwrap();
+    ground_with_full_memory.prepare(0.2, Some(steps), &mut unobserved).unwrap();
+    ground_with_cut_memory.prepare(0.2, Some(steps), &mut unobserved).unwrap();
     unexpected_steps.prepare(0.2, Some(1), &mut unobserved).unwrap();
-    let expected = march(&mut complete, steps, 3);
-    let computed = march(&mut cut, steps, 3);
-    let bound = cut.increment_error_bound();
+    let expected = march(&mut ground_with_full_memory, steps, 3);
+    let computed = march(&mut ground_with_cut_memory, steps, 3);
+    let bound = ground_with_cut_memory.increment_error_bound();
     let error = largest_increment_difference(&expected, &computed);
     println!("{error:e} of {bound:e}");
     assert!(1e-3 * bound < error && error < bound, "{error:e} {bound:e}");
-    assert_eq!(complete.increment_error_bound(), 0.0);
+    assert_eq!(ground_with_full_memory.increment_error_bound(), 0.0);
     // The expected number of steps does not matter.
     assert_eq!(march(&mut unexpected_steps, steps, 3), computed);
-    let saved = cut.save().unwrap();
+    let saved_variables = ground_with_cut_memory.save().unwrap();
     // No more than the memory is saved.
-    assert!(saved.len() < 520 * 400, "{}", saved.len());
-    let mut restored = l_shape_with_history(options);
-    restored.prepare(0.2, Some(steps), &mut unobserved).unwrap();
-    restored.restore(steps, &saved).unwrap();
-    assert_eq!(march(&mut cut, 300, 4), march(&mut restored, 300, 4));
-    assert!(restored.restore(steps, &saved[1..]).is_err());
+    assert!(saved_variables.len() < 520 * 400, "{}", saved_variables.len());
+    let mut restored_ground = l_shape_with_history(options);
+    restored_ground.prepare(0.2, Some(steps), &mut unobserved).unwrap();
+    restored_ground.restore(steps, &saved_variables).unwrap();
+    assert_eq!(march(&mut ground_with_cut_memory, 300, 4), march(&mut restored_ground, 300, 4));
+    assert!(restored_ground.restore(steps, &saved_variables[1..]).is_err());
 }
 
-/// GOAL: too much memory, and analyses of strips alone, are refused beforehand.
+/// GOAL: too much memory, and analyses of strips alone, are errors beforehand.
 #[test]
 fn limits_are_checked_beforehand() {
     let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, 8).unwrap();
@@ -231,19 +232,20 @@ fn limits_are_checked_beforehand() {
 #[test]
 fn memory_ends_without_a_tolerance() {
     let steps = 5000;
-    let mut cut = l_shape_on_layer().with_tolerance(1e-10).unwrap();
-    cut.prepare(0.4, Some(steps), &mut unobserved).unwrap();
-    let computed = march(&mut cut, steps, 7);
-    let bound = cut.increment_error_bound();
-    let choice = cut.description().history.unwrap();
+    let mut ground_with_cut_memory = l_shape_on_layer().with_tolerance(1e-10).unwrap();
+    ground_with_cut_memory.prepare(0.4, Some(steps), &mut unobserved).unwrap();
+    let computed = march(&mut ground_with_cut_memory, steps, 7);
+    let bound = ground_with_cut_memory.increment_error_bound();
+    let choice = ground_with_cut_memory.description().history.unwrap();
     assert!((5e-7..2e-6).contains(&choice.error_bound), "{choice}");
-    let saved_steps = cut.save().unwrap().len() / (3 * 12);
+    let saved_steps = ground_with_cut_memory.save().unwrap().len() / (3 * 12);
     assert!(bound > 0.0 && saved_steps < steps - 2000, "{bound:e} {saved_steps}");
     // All weights are used, with errors a hundredth as large. Errors of random tractions cancel; their bound does not.
-    let complete = l_shape_on_layer().with_tolerance(1e-13).unwrap();
-    let mut complete = complete.with_history(HistoryMethod::RelaxedFft).unwrap();
-    complete.prepare(0.4, None, &mut unobserved).unwrap();
-    let expected = march(&mut complete, steps, 7);
+    let ground_with_full_memory = l_shape_on_layer().with_tolerance(1e-13).unwrap();
+    let mut ground_with_full_memory =
+        ground_with_full_memory.with_history(HistoryMethod::RelaxedFft).unwrap();
+    ground_with_full_memory.prepare(0.4, None, &mut unobserved).unwrap();
+    let expected = march(&mut ground_with_full_memory, steps, 7);
     let error = largest_increment_difference(&computed, &expected);
     println!("{error:e} of {bound:e}, {choice}");
     assert!(0.0 < error && error < bound, "{error:e} {bound:e}");
@@ -266,12 +268,12 @@ fn memory_that_ends_is_restored_for_any_expected_steps() {
         (2600, Some(2600), Some(5000)),
         (2600, None, None),
     ] {
-        let mut saved = prepared_l_shape(expected_by_saved);
-        march(&mut saved, steps, 7);
-        let mut restored = prepared_l_shape(expected_by_restored);
-        restored.restore(steps, &saved.save().unwrap()).unwrap();
-        let expected = march(&mut saved, 80, 8);
-        let computed = march(&mut restored, 80, 8);
+        let mut saved_ground = prepared_l_shape(expected_by_saved);
+        march(&mut saved_ground, steps, 7);
+        let mut restored_ground = prepared_l_shape(expected_by_restored);
+        restored_ground.restore(steps, &saved_ground.save().unwrap()).unwrap();
+        let expected = march(&mut saved_ground, 80, 8);
+        let computed = march(&mut restored_ground, 80, 8);
         let difference = largest_difference(&computed, &expected);
         assert!(
             difference < 1e-9,
@@ -281,9 +283,9 @@ fn memory_that_ends_is_restored_for_any_expected_steps() {
     }
     // Back to the initial state.
     let start = prepared_l_shape(None).save().unwrap();
-    let mut restored = prepared_l_shape(Some(5000));
-    march(&mut restored, 100, 7);
-    restored.restore(0, &start).unwrap();
+    let mut restored_ground = prepared_l_shape(Some(5000));
+    march(&mut restored_ground, 100, 7);
+    restored_ground.restore(0, &start).unwrap();
     let expected = march(&mut prepared_l_shape(Some(5000)), 100, 7);
-    assert_eq!(march(&mut restored, 100, 7), expected);
+    assert_eq!(march(&mut restored_ground, 100, 7), expected);
 }

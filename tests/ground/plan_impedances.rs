@@ -1,4 +1,4 @@
-//! GOAL: stiffnesses of rigid mats in plan are right up to the cells.
+//! GOAL: stiffnesses of rigid mats in plan are right up to the error of the cells.
 //! SCENE: rectangles and discs on half-space and layer, welded and relaxed, statics and up to ωb/c = 2.
 //! REFERENCE: tables of other programs (one spectral, for the disc), a closed form, the strip in its plane.
 
@@ -63,13 +63,13 @@ fn parse_number(text: &str) -> f64 {
 ///
 /// The groups are translations and torsion, rocking with ν = 0, rocking of squares, rocking of other rectangles, and
 /// all components with sides 1 : 4, for which the table has coarser cells.
-fn largest_static_errors(longest: f64, plan: impl Fn(f64) -> Plan) -> [f64; 5] {
+fn largest_static_errors(max_length: f64, plan: impl Fn(f64) -> Plan) -> [f64; 5] {
     let rows = rows(include_str!("../data/plan/static_rectangle.csv"));
-    let mut largest = [0.0_f64; 5];
+    let mut max_errors = [0.0_f64; 5];
     for same_mat in rows.chunk_by(|a, b| a[..2] == b[..2]) {
         let length = parse_number(same_mat[0][0]);
         let poisson = parse_number(same_mat[0][1]);
-        if length > longest {
+        if length > max_length {
             continue;
         }
         let profile = half_space(if poisson == 0.3333 { 1.0 / 3.0 } else { poisson });
@@ -85,12 +85,12 @@ fn largest_static_errors(longest: f64, plan: impl Fn(f64) -> Plan) -> [f64; 5] {
                     (1.0, ..) => 2,
                     _ => 3,
                 };
-                largest[group] = largest[group].max(error);
+                max_errors[group] = max_errors[group].max(error);
             }
         }
     }
-    println!("{largest:.5?} (translations, rocking of ν = 0, squares, others, L/b = 4)");
-    largest
+    println!("{max_errors:.5?} (translations, rocking of ν = 0, squares, others, L/b = 4)");
+    max_errors
 }
 
 fn rectangle(length: f64, cells: usize) -> Plan {
@@ -116,8 +116,8 @@ fn static_rectangles_match_the_table() {
 /// REFERENCE: another program with the same elements: compliances of the cells in closed form, summed over elements.
 #[test]
 fn static_graded_elements_are_those_of_another_program() {
-    let graded = [1, 2, 2, 3, 3, 2, 2, 1];
-    let plan = rectangle(1.0, 16).with_unions(&graded, &graded).unwrap();
+    let graded_cells = [1, 2, 2, 3, 3, 2, 2, 1];
+    let plan = rectangle(1.0, 16).with_unions(&graded_cells, &graded_cells).unwrap();
     let impedance = impedance_at(&half_space(0.25), &plan, 0.0, StripContact::Bonded);
     for (name, expected) in [
         ("V", 6.377_488_707_3),
@@ -180,7 +180,7 @@ fn static_punch_has_its_closed_form() {
 #[test]
 fn dynamic_rectangles_match_the_table() {
     let rows = rows(include_str!("../data/plan/impedance_rectangle.csv"));
-    let mut largest = [0.0_f64; 2];
+    let mut max_errors = [0.0_f64; 2];
     for same_mat in rows.chunk_by(|a, b| a[..4] == b[..4]) {
         let shape = same_mat[0][0];
         let ground = same_mat[0][1];
@@ -204,11 +204,11 @@ fn dynamic_rectangles_match_the_table() {
             let sign = if row[4] == "HxRy" && ground == "layer" { -1.0 } else { 1.0 };
             let expected = Complex::new(sign * parse_number(row[5]), sign * parse_number(row[6]));
             let error = (component(&impedance, row[4]) - expected).abs() / expected.abs();
-            largest[group] = largest[group].max(error);
+            max_errors[group] = max_errors[group].max(error);
             assert!(error < [5e-3, 1e-2][group], "{row:?} {error:e}");
         }
     }
-    println!("16 cells: {:.1e} up to a0 = 1, {:.1e} at 2", largest[0], largest[1]);
+    println!("16 cells: {:.1e} up to a0 = 1, {:.1e} at 2", max_errors[0], max_errors[1]);
 }
 
 /// GOAL: dynamic stiffness of discs without friction agrees with a spectral solution.
@@ -245,7 +245,7 @@ fn long_mats_are_strips() {
     let contact = StripContact::Bonded;
     let strips = ground.impedances(&frequencies, contact, &mut unobserved).unwrap();
     // The y axis leads across the strip here.
-    let [long, short] = [10.0, 8.0].map(|half_length| {
+    let [long_mat, short_mat] = [10.0, 8.0].map(|half_length| {
         let plan = rectangle(half_length, 6);
         impedances_in_plan(&profile, &plan, &frequencies, contact, &mut unobserved).unwrap()
     });
@@ -257,7 +257,7 @@ fn long_mats_are_strips() {
             // rx lowers the end at −y: the strip's rotation is −rx.
             (1, 3, -strip.coupling),
         ] {
-            let computed = (long[k].matrix[i][j] - short[k].matrix[i][j]) * 0.25;
+            let computed = (long_mat[k].matrix[i][j] - short_mat[k].matrix[i][j]) * 0.25;
             let error = (computed - expected).abs() / expected.abs();
             println!("{k} {i}{j} {computed:?} {expected:?} {error:.1e}");
             let limit = if i == j { diagonal_limit } else { 0.05 };
@@ -305,13 +305,13 @@ fn l_shape() -> [Vec<[f64; 2]>; 2] {
 const QUARTER_TURN: [(usize, f64); 6] =
     [(1, 1.0), (0, -1.0), (2, 1.0), (4, 1.0), (3, -1.0), (5, 1.0)];
 
-/// GOAL: a quarter turn of the plan turns the matrix, which is symmetric and damps.
+/// GOAL: a quarter turn of the plan turns the matrix, which is symmetric and has positive damping.
 #[test]
 fn turned_plans_have_turned_stiffness() {
     let profile = p1(hysteretic(0.05), hysteretic(0.01));
     let turned_faces =
         l_shape().map(|face| face.into_iter().map(|[x, y]| [-y, x]).collect::<Vec<_>>());
-    let [mat, turned] = [l_shape(), turned_faces].map(|faces| {
+    let [mat, turned_mat] = [l_shape(), turned_faces].map(|faces| {
         let plan = Plan::on_faces(&faces, 9).unwrap();
         impedance_at(&profile, &plan, 0.7, StripContact::Bonded).matrix
     });
@@ -319,12 +319,12 @@ fn turned_plans_have_turned_stiffness() {
         assert!(mat[i][i].im > 0.0 && mat[i][i].re > 0.0);
         for (j, (column, column_sign)) in QUARTER_TURN.into_iter().enumerate() {
             let scale = (mat[i][i].abs() * mat[j][j].abs()).sqrt();
-            let turned_back = turned[row][column] * (row_sign * column_sign);
+            let turned_back = turned_mat[row][column] * (row_sign * column_sign);
             let error = (turned_back - mat[i][j]).abs() / scale;
             assert!(error < 1e-10, "{i}{j} {error:e}");
             assert_eq!(mat[i][j], mat[j][i]);
         }
     }
-    // An L couples all that a rectangle does not.
+    // An L couples motions that a rectangle does not couple.
     assert!(mat[0][5].abs() > 1e-2 && mat[2][3].abs() > 1e-2);
 }

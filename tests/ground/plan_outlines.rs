@@ -32,9 +32,9 @@ fn square(turn: f64) -> OutlineFaces {
 fn l_shape(turn: f64) -> OutlineFaces {
     let sine = turn.to_radians().sin();
     let cosine = turn.to_radians().cos();
-    let long = [[-1.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-1.0, 0.0]];
-    let short = [[-1.0, 0.0], [0.1, 0.0], [0.1, 1.0], [-1.0, 1.0]];
-    [long, short]
+    let long_part = [[-1.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-1.0, 0.0]];
+    let short_part = [[-1.0, 0.0], [0.1, 0.0], [0.1, 1.0], [-1.0, 1.0]];
+    [long_part, short_part]
         .map(|face| face.map(|[x, y]| [cosine * x - sine * y, sine * x + cosine * y]).to_vec())
         .to_vec()
 }

@@ -137,14 +137,14 @@ fn l_shape_with_unions(columns: &[usize], rows: &[usize]) -> Result<Plan> {
     Plan::masked([-1.0; 2], [0.5; 2], 4, &mask).unwrap().with_unions(columns, rows)
 }
 
-/// GOAL: unions that do not fill the cells of a mat are refused.
+/// GOAL: unions that do not fill the cells of a mat are errors.
 #[test]
 fn invalid_unions_are_errors() {
     for columns in [&[1, 4][..], &[2, 2, 1], &[1, 3]] {
         assert!(with_unions(columns, &UNION_ROWS).is_err(), "{columns:?}");
     }
     assert!(with_unions(&UNION_COLUMNS, &[1, 2, 2, 2]).is_err());
-    // Sums beyond the range of numbers, and unions of nothing.
+    // Sums beyond the range of numbers, and unions without cells.
     for sizes in [&[usize::MAX, 5][..], &[usize::MAX, usize::MAX, 1], &[0, 1, 3, 1]] {
         assert!(with_unions(sizes, &UNION_ROWS).is_err(), "{sizes:?}");
         assert!(with_unions(&UNION_COLUMNS, sizes).is_err(), "{sizes:?}");

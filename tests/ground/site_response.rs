@@ -86,7 +86,7 @@ fn reflections_in_an_elastic_layer_are_those_of_theory() {
             .to_surface(ControlPoint::Outcrop, TIME_STEP, &motion, &mut unobserved)
             .unwrap()
             .samples;
-        let within = column
+        let motion_within = column
             .from_surface(ControlPoint::Within, TIME_STEP, &surface, &mut unobserved)
             .unwrap()
             .samples;
@@ -99,7 +99,7 @@ fn reflections_in_an_elastic_layer_are_those_of_theory() {
         for i in 0..motion.len() {
             let t = TIME_STEP * i as f64;
             surface_error = surface_error.max((surface[i] - expected.at_surface(t)).abs());
-            within_error = within_error.max((within[i] - expected.at_bottom(t)).abs());
+            within_error = within_error.max((motion_within[i] - expected.at_bottom(t)).abs());
         }
         println!("{wave:?}: surface {surface_error:e}, within {within_error:e}");
         assert!(surface_error < 1e-9, "{wave:?} {surface_error:e}");
@@ -123,8 +123,9 @@ fn reflections_on_a_rigid_base_never_end() {
     for (i, surface) in surface.iter().enumerate() {
         let expected: f64 = (0..60)
             .map(|m| {
-                let delayed = ricker(TIME_STEP * i as f64 - f64::from(2 * m + 1) * travel_time);
-                2.0 * (-1.0_f64).powi(m) * delayed
+                let delayed_pulse =
+                    ricker(TIME_STEP * i as f64 - f64::from(2 * m + 1) * travel_time);
+                2.0 * (-1.0_f64).powi(m) * delayed_pulse
             })
             .sum();
         largest_error = largest_error.max((surface - expected).abs());
@@ -158,9 +159,9 @@ fn deconvolution_undoes_convolution() {
             let column = SoilColumn::new(profile.clone(), wave).unwrap();
             for control in [ControlPoint::Outcrop, ControlPoint::Within] {
                 let surface = column.to_surface(control, 0.005, &motion, &mut unobserved).unwrap();
-                let back =
+                let recovered_motion =
                     column.from_surface(control, 0.005, &surface.samples, &mut unobserved).unwrap();
-                let error = largest_difference(&motion, &back.samples);
+                let error = largest_difference(&motion, &recovered_motion.samples);
                 let change = largest_difference(&motion, &surface.samples);
                 println!("{wave:?} {control:?}: {error:e}");
                 assert!(error < 1e-8 && change > 0.05, "{wave:?} {control:?} {error:e} {change}");
@@ -169,9 +170,9 @@ fn deconvolution_undoes_convolution() {
     }
 }
 
-/// GOAL: motions, frequencies and profiles out of range are refused.
+/// GOAL: motions, frequencies and profiles out of range are errors.
 #[test]
-fn invalid_motions_are_refused() {
+fn invalid_motions_are_errors() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 5.0).unwrap();
     let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();
@@ -193,9 +194,9 @@ fn invalid_motions_are_refused() {
     assert!(SoilColumn::new(SoilProfile::on_rigid_bedrock(), VerticalWave::Shear).is_err());
     let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
-    let refused = column.to_surface(control, 0.1, &[1.0], &mut unobserved);
-    assert!(matches!(refused, Err(Error::Soil(SoilError::NotCausal { layer: 1, .. }))));
-    assert!(refused.unwrap_err().to_string().contains("GeneralizedMaxwell"));
+    let result = column.to_surface(control, 0.1, &[1.0], &mut unobserved);
+    assert!(matches!(result, Err(Error::Soil(SoilError::NotCausal { layer: 1, .. }))));
+    assert!(result.unwrap_err().to_string().contains("GeneralizedMaxwell"));
 }
 
 /// One damped layer on rock.
@@ -220,25 +221,29 @@ fn deconvolved(column: &SoilColumn, record: &Record) -> SiteMotion {
 #[test]
 fn amplification_by_deconvolution_causes_a_warning() {
     let record = el_centro_1940().padded(10.0, 40.0).unwrap();
-    let soft = damped_layer(100.0, 100.0, 0.15);
-    let noisy = deconvolved(&soft, &record);
-    assert!(noisy.peak() > 1e5);
-    let Some(SiteWarning::Amplified { frequency }) = noisy.warning() else {
-        panic!("{noisy}")
+    let soft_column = damped_layer(100.0, 100.0, 0.15);
+    let motion_with_noise = deconvolved(&soft_column, &record);
+    assert!(motion_with_noise.peak() > 1e5);
+    let Some(SiteWarning::Amplified { frequency }) = motion_with_noise.warning() else {
+        panic!("{motion_with_noise}")
     };
     // At this frequency deconvolution amplifies a hundredfold, and above it more.
     let [below, gain, above] = [0.8, 1.0, 2.0].map(|ratio| {
-        soft.transfer(ControlPoint::Outcrop, ratio * frequency).unwrap().abs().recip()
+        soft_column.transfer(ControlPoint::Outcrop, ratio * frequency).unwrap().abs().recip()
     });
     assert!((gain / 100.0 - 1.0).abs() < 0.05, "{frequency} {gain}");
     assert!(above > 1e3 && below < 100.0);
-    let filtered = deconvolved(&soft, &record.low_pass(0.5 * frequency, 8).unwrap());
-    assert_eq!(filtered.warning(), None);
-    assert!(filtered.peak() < 1e-3 * noisy.peak(), "{filtered}");
-    let firm = damped_layer(300.0, 30.0, 0.05);
-    assert_eq!(deconvolved(&firm, &record).warning(), None);
+    let motion_of_filtered_record =
+        deconvolved(&soft_column, &record.low_pass(0.5 * frequency, 8).unwrap());
+    assert_eq!(motion_of_filtered_record.warning(), None);
+    assert!(
+        motion_of_filtered_record.peak() < 1e-3 * motion_with_noise.peak(),
+        "{motion_of_filtered_record}"
+    );
+    let firm_column = damped_layer(300.0, 30.0, 0.05);
+    assert_eq!(deconvolved(&firm_column, &record).warning(), None);
     let samples = record.accelerations();
-    let up = soft
+    let up = soft_column
         .to_surface(ControlPoint::Outcrop, record.time_step(), samples, &mut unobserved)
         .unwrap();
     assert_eq!(up.warning(), None);

@@ -134,9 +134,9 @@ fn filtered(motion: &[f64], factors: impl Iterator<Item = Complex>) -> Vec<f64> 
     for (value, factor) in spectrum.iter_mut().zip(factors) {
         *value *= Complex64::new(factor.re, factor.im);
     }
-    let last = spectrum.len() - 1;
+    let last_index = spectrum.len() - 1;
     spectrum[0].im = 0.0;
-    spectrum[last].im = 0.0;
+    spectrum[last_index].im = 0.0;
     inverse.process(&mut spectrum, &mut values).unwrap();
     values[..motion.len()].iter().map(|x| x / length as f64).collect()
 }
@@ -149,7 +149,7 @@ fn low_pass(ratio: f64) -> f64 {
 /// A motion at the surface, the motion recovered from it, and its error.
 struct RoundTrip {
     surface: SiteMotion,
-    recovered: SiteMotion,
+    recovered_motion: SiteMotion,
     /// Largest difference from the motion, over its peak.
     error: f64,
 }
@@ -157,14 +157,15 @@ struct RoundTrip {
 impl RoundTrip {
     fn new(column: &SoilColumn, control: ControlPoint, step: f64, motion: &[f64]) -> Self {
         let surface = column.to_surface(control, step, motion, &mut unobserved).unwrap();
-        let recovered =
+        let recovered_motion =
             column.from_surface(control, step, &surface.samples, &mut unobserved).unwrap();
-        let error = largest_difference(motion, &recovered.samples) / largest(motion);
-        Self { surface, recovered, error }
+        let error = largest_difference(motion, &recovered_motion.samples) / largest(motion);
+        Self { surface, recovered_motion, error }
     }
 }
 
-/// GOAL: with quiet time on both sides a motion is recovered; without, the size of the lost motion is reported.
+/// GOAL: with quiet time on both sides a motion is recovered; without quiet time the size of the lost motion is
+/// reported.
 #[test]
 fn motions_are_recovered_through_a_site() {
     let column = SoilColumn::new(profile(), VerticalWave::Shear).unwrap();
@@ -172,17 +173,20 @@ fn motions_are_recovered_through_a_site() {
     let mut largest_ratio = 0.0_f64;
     for (name, step, samples) in records() {
         for control in [ControlPoint::Outcrop, ControlPoint::Within] {
-            let RoundTrip { surface, recovered, error } =
+            let RoundTrip { surface, recovered_motion, error } =
                 RoundTrip::new(&column, control, step, &with_quiet(step, &samples));
             assert!(
-                surface.is_whole() && recovered.is_whole() && error < 1e-9,
-                "{name}, {control:?}: {error:e}; {surface}; {recovered}"
+                surface.is_whole() && recovered_motion.is_whole() && error < 1e-9,
+                "{name}, {control:?}: {error:e}; {surface}; {recovered_motion}"
             );
             largest_error = largest_error.max(error);
-            let RoundTrip { surface, recovered, error } =
+            let RoundTrip { surface, recovered_motion, error } =
                 RoundTrip::new(&column, control, step, &samples);
-            let reported =
-                surface.before.max(surface.after).max(recovered.before).max(recovered.after);
+            let reported = surface
+                .before
+                .max(surface.after)
+                .max(recovered_motion.before)
+                .max(recovered_motion.after);
             let ratio = error * largest(&samples) / reported;
             assert!(
                 !surface.is_whole() && ratio < 3.0,

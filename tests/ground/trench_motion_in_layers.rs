@@ -238,11 +238,11 @@ fn upward_and_downward_waves(time: f64, layer: usize, below_top: f64, is_shear: 
     let soil = layers()[layer].soil;
     let speed = if is_shear { soil.shear_wave_speed() } else { soil.pressure_wave_speed() };
     let impedance = soil.density() * speed;
-    let earlier = waves_at_top(time + below_top / speed, layer, is_shear);
-    let later = waves_at_top(time - below_top / speed, layer, is_shear);
-    let up = 0.5 * (earlier[0] + earlier[1] / impedance);
-    let down = 0.5 * (later[0] - later[1] / impedance);
-    [up + down, impedance * (up - down)]
+    let upward_motion = waves_at_top(time + below_top / speed, layer, is_shear);
+    let downward_motion = waves_at_top(time - below_top / speed, layer, is_shear);
+    let up = 0.5 * (upward_motion[0] + upward_motion[1] / impedance);
+    let downward_amplitude = 0.5 * (downward_motion[0] - downward_motion[1] / impedance);
+    [up + downward_amplitude, impedance * (up - downward_amplitude)]
 }
 
 /// Displacement and impulse of the stress at the top of a layer.
@@ -292,17 +292,17 @@ fn damping_laws() -> [GeneralizedMaxwell; 3] {
 
 /// Displacement and impulse of the stress at a depth per unit motion of the surface, at s = iω.
 fn transfer_to_depth(laws: &[GeneralizedMaxwell; 3], s: Complex, depth: f64) -> [Complex; 2] {
-    let (last, below_top) = layer_at(depth);
+    let (last_layer, below_top) = layer_at(depth);
     let mut displacement = Complex::real(1.0);
     let mut stress = Complex::default();
-    for (k, layer) in layers().iter().enumerate().take(last + 1) {
-        let height = if k == last { below_top } else { layer.thickness };
+    for (k, layer) in layers().iter().enumerate().take(last_layer + 1) {
+        let height = if k == last_layer { below_top } else { layer.thickness };
         let modulus = laws[k].modulus(s) * Complex::real(layer.soil.shear_modulus());
         let slowness = s * (Complex::real(layer.soil.density()) / modulus).sqrt();
         let up = (slowness * Complex::real(height)).exp();
-        let down = (slowness * Complex::real(-height)).exp();
-        let cosh = (up + down) * 0.5;
-        let sinh = (up - down) * 0.5;
+        let downward_factor = (slowness * Complex::real(-height)).exp();
+        let cosh = (up + downward_factor) * 0.5;
+        let sinh = (up - downward_factor) * 0.5;
         let stiffness = modulus * slowness;
         (displacement, stress) = (
             displacement * cosh + stress * sinh / stiffness,

@@ -21,7 +21,7 @@ enum BedForm {
     /// The example `your_own_ground`: the traction acts in the middle of the step.
     MidStep,
     /// The displacement at the end of the step is that of a spring in series with a body that creeps, exact under the
-    /// traction. The spring dissipates at first order.
+    /// traction. The spring dissipates energy of first order in the step.
     EndOfStep,
 }
 
@@ -108,7 +108,7 @@ struct BedScene {
 
 const BED_ELEMENTS: usize = 8;
 const RUN_STEPS: usize = 300;
-/// Steps in which a block swings several times, even in a quarter of them.
+/// Steps in which a block swings several times; also a quarter of them contains several swings.
 const FREE_VIBRATION_STEPS: usize = 2000;
 
 impl BedScene {

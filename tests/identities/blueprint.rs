@@ -1,4 +1,4 @@
-//! Finite-element models as lists of points and pieces, which any view can write down.
+//! Finite-element models as lists of points and pieces, from which a mesh can be made in any view.
 
 use basemat::Result;
 use basemat::fem::{
@@ -203,20 +203,20 @@ impl Blueprint {
         // Force over length, and mass, of this model.
         let stiffness = if self.in_space { pressure * length } else { pressure };
         let mass_unit = if self.in_space { frame.mass } else { frame.mass / length };
-        let mirrored = frame.mirrored;
+        let is_mirrored = frame.mirrored;
         let nodes_of = |points: &[usize]| -> Vec<usize> {
             points.iter().map(|point| self.node(*point, view)).collect()
         };
         match piece {
             Piece::Quad(corners) => {
-                let corners = if mirrored { reversed(corners) } else { corners };
+                let corners = if is_mirrored { reversed(corners) } else { corners };
                 let nodes = fixed(nodes_of(&corners));
                 let material = self.quad_material(view)?;
                 let formulation = QuadFormulation::for_material(&material);
                 add(mesh, Quad4::new(nodes, material, formulation), view)
             }
             Piece::Quad8([a, b, c, d, ab, bc, cd, da]) => {
-                let points = if mirrored {
+                let points = if is_mirrored {
                     [d, c, b, a, cd, bc, ab, da]
                 } else {
                     [a, b, c, d, ab, bc, cd, da]
@@ -226,7 +226,7 @@ impl Blueprint {
             }
             Piece::Brick([a, b, c, d, e, f, g, h]) => {
                 let points =
-                    if mirrored { [d, c, b, a, h, g, f, e] } else { [a, b, c, d, e, f, g, h] };
+                    if is_mirrored { [d, c, b, a, h, g, f, e] } else { [a, b, c, d, e, f, g, h] };
                 add(mesh, Hex8::new(fixed(nodes_of(&points)), material), view)
             }
             Piece::Shell(corners, thickness) => {
@@ -302,7 +302,7 @@ fn fixed<const N: usize>(list: Vec<usize>) -> [usize; N] {
         .unwrap_or_else(|list: Vec<usize>| panic!("{} nodes, {N} needed", list.len()))
 }
 
-/// Adds an element, as a user's one if the view says so.
+/// Adds an element, wrapped as an element of a user if the view has this.
 fn add(mesh: &mut Mesh, element: impl Element + 'static, view: &View) -> Result<usize> {
     if view.by_user {
         mesh.add(user::UserElement(Box::new(element)))

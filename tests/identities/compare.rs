@@ -17,32 +17,32 @@ pub(crate) struct NamedVariant<'a> {
     pub(crate) variant: SceneVariant,
 }
 
-/// Response of the usual variant; `None`, and noted, if a builder refuses it.
+/// Response of the usual variant; `None`, and counted, if building it is an error.
 pub(crate) fn usual_response(choice: &Choice, tally: &mut IdentityTally) -> Option<SceneResponse> {
     super::grounds::clear_shared_kernels();
     tally.scene(&choice.words());
     match run(choice, &PLAIN_VIEW, SceneVariant::Usual) {
         Ok(response) => Some(response),
         Err(error) => {
-            tally.refuse(format!("{}: {error}", choice.name()));
+            tally.add_error(format!("{}: {error}", choice.name()));
             None
         }
     }
 }
 
-/// Compares a variant with the usual response, to a limit relative to each group's largest number.
+/// Compares a variant with the usual response; the limit is relative to each group's largest number.
 ///
-/// Landings and slips amplify rounding: where the limit is exceeded, perturbed scenes show by how much.
+/// Landing and slip amplify rounding: where the limit is exceeded, perturbed scenes measure the amplification.
 pub(crate) fn compare_variant(
     choice: &Choice,
-    usual: &SceneResponse,
-    named: &NamedVariant,
+    usual_response: &SceneResponse,
+    named_variant: &NamedVariant,
     limit: f64,
     tally: &mut IdentityTally,
 ) {
-    let place = format!("{}: {}", named.name, choice.name());
-    let response = run(choice, named.view, named.variant);
-    compare_response(choice, usual, &ComparedGroups::all(&place), response, limit, tally);
+    let place = format!("{}: {}", named_variant.name, choice.name());
+    let response = run(choice, named_variant.view, named_variant.variant);
+    compare_response(choice, usual_response, &ComparedGroups::all(&place), response, limit, tally);
 }
 
 /// Groups of numbers to compare, and the place for the report.
@@ -60,36 +60,37 @@ impl<'a> ComparedGroups<'a> {
 /// As [`compare_variant`], of a response that was computed.
 pub(crate) fn compare_response(
     choice: &Choice,
-    usual: &SceneResponse,
-    compared: &ComparedGroups,
+    usual_response: &SceneResponse,
+    groups_to_compare: &ComparedGroups,
     response: Result<SceneResponse>,
     limit: f64,
     tally: &mut IdentityTally,
 ) {
-    let ComparedGroups { place, groups } = compared;
+    let ComparedGroups { place, groups } = groups_to_compare;
     match response {
         Ok(response) => {
-            let difference = usual.difference_in(&response, groups);
+            let difference = usual_response.difference_in(&response, groups);
             let limit = if difference.value > limit {
-                limit.max(amplified_perturbation(choice, usual, groups))
+                limit.max(amplified_perturbation(choice, usual_response, groups))
             } else {
                 limit
             };
             tally.within(&format!("{}, {place}", difference.group), difference.value, limit);
         }
-        Err(error) => tally.fail(format!("{place}: refused, {}: {error}", error_kind(&error))),
+        Err(error) => tally.fail(format!("{place}: error, {}: {error}", error_kind(&error))),
     }
 }
 
 /// Largest difference of scenes that differ by 1e-10 in shaking, soil and friction, amplified.
-fn amplified_perturbation(choice: &Choice, usual: &SceneResponse, groups: &[&str]) -> f64 {
-    let mut largest = 0.0_f64;
+fn amplified_perturbation(choice: &Choice, usual_response: &SceneResponse, groups: &[&str]) -> f64 {
+    let mut max_difference = 0.0_f64;
     for factors in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
         if let Ok(perturbed) = run(choice, &PLAIN_VIEW, SceneVariant::Perturbed(factors)) {
-            largest = usual.difference_in(&perturbed, groups).value.max(largest);
+            max_difference =
+                usual_response.difference_in(&perturbed, groups).value.max(max_difference);
         }
     }
-    largest * AMPLIFICATION_FACTOR
+    max_difference * AMPLIFICATION_FACTOR
 }
 
 /// Largest difference of two lists.

@@ -141,12 +141,12 @@ fn random_path(random: &mut Random, counts: [usize; 2]) -> Vec<Vec<f64>> {
     let node_dofs = counts[0] + counts[1];
     let mut path = vec![vec![0.0; 2 * node_dofs]];
     for _ in 0..PATH_STEPS {
-        let last = &path[path.len() - 1];
-        let next = last.iter().enumerate().map(|(dof, value)| {
+        let last_displacement = &path[path.len() - 1];
+        let next_displacement = last_displacement.iter().enumerate().map(|(dof, value)| {
             let step = if dof % node_dofs < counts[0] { 2e-3 } else { 4e-3 };
             value + random.within(-step, step)
         });
-        path.push(next.collect());
+        path.push(next_displacement.collect());
     }
     path
 }
@@ -198,10 +198,10 @@ fn beams_of_fibres_in_a_plane_of_space() {
         let in_space = section.space_beam(1.0, orientation).and_then(|beam| {
             let results = follow(&beam, &points, &space_path)?;
             // Forces along x and y and the moment about z of the plane; the others vanish.
-            let reduced = |values: &[f64]| -> Vec<f64> {
-                let local = components(&axes, values);
-                let scale = local.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
-                let vectors = local.chunks(6).map(|node| {
+            let plane_values = |values: &[f64]| -> Vec<f64> {
+                let local_values = components(&axes, values);
+                let scale = local_values.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+                let vectors = local_values.chunks(6).map(|node| {
                     for across in [node[2], node[3], node[4]] {
                         assert!(across.abs() < 1e-9 * scale, "{across} across the plane");
                     }
@@ -209,8 +209,8 @@ fn beams_of_fibres_in_a_plane_of_space() {
                 });
                 vectors.flatten().collect()
             };
-            let forces = reduced(&results.forces);
-            let tangent_forces = reduced(&results.tangent_forces);
+            let forces = plane_values(&results.forces);
+            let tangent_forces = plane_values(&results.tangent_forces);
             Ok(PathResults { forces, tangent_forces, energies: results.energies })
         });
         tally.scene(&section.words());

@@ -47,8 +47,14 @@ fn text(plan: &Blueprint) -> String {
     }
     let _ = writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", plan.points.len());
     for (number, [x, y, z]) in plan.points.iter().enumerate() {
-        let others = if plan.in_space { [y, z] } else { [z, y] };
-        let _ = writeln!(text, "{} {x:?} {:?} {:?}", number + 1, others[0], others[1]);
+        let other_coordinates = if plan.in_space { [y, z] } else { [z, y] };
+        let _ = writeln!(
+            text,
+            "{} {x:?} {:?} {:?}",
+            number + 1,
+            other_coordinates[0],
+            other_coordinates[1]
+        );
     }
     let _ = writeln!(text, "$EndNodes\n$Elements\n{}", cells.len());
     for (number, kind, nodes) in &cells {

@@ -123,7 +123,7 @@ pub(crate) fn law(kind: LawPart, numbers: &Numbers, view: &View) -> Result<Box<d
             let law = law.with_elastic_range(0.2)?.with_depth_gradient(stiffness)?;
             Box::new(law)
         }
-        // Soil that stands without the wall, so that the law suits the base too.
+        // The active pressure is zero, so that the law suits the base, too.
         LawPart::Earth => Box::new(EarthPressure::new(0.0, 6.0 * pressure, friction)?),
         LawPart::Layer => {
             let layer = ThinLayer::from_stiffness(stiffness, 0.5 * stiffness, friction)?;
@@ -184,7 +184,7 @@ fn wave(
             plane_wave.field_from_vertical(&record(numbers, numbers.peaks[2], view)?, origin)?
         }
         MotionPart::Across => {
-            // The mirror image of a motion to the left of the direction is one to the right.
+            // Mirrored, a motion to the left of the direction is one to the right.
             let peak = view.frame.sign() * numbers.peaks[0];
             plane_wave.field_from_across(&record(numbers, peak, view)?, origin)?
         }

@@ -25,7 +25,7 @@ pub(crate) fn quads(numbers: &Numbers, has_eight_nodes: bool) -> Blueprint {
         for (column, node) in line.iter_mut().enumerate() {
             if row % parts == 0 || column % parts == 0 {
                 let x = numbers.sides[0] * (column as f64 / (parts * QUAD_COLUMNS) as f64 - 0.5);
-                // The top leans.
+                // The rows are shifted sideways with height.
                 let z = numbers.height * row as f64 / (parts * QUAD_ROWS) as f64;
                 *node = plan.point([x + 0.1 * z * numbers.eccentricity[0], 0.0, z]);
             }

@@ -21,7 +21,7 @@ pub(crate) struct Numbers {
     pub(crate) density: f64,
     /// Eccentricity of masses along x and y, of the sides.
     pub(crate) eccentricity: [f64; 2],
-    /// Lowest frequency of the structure on a fixed base, about, Hz.
+    /// Approximate lowest frequency of the structure on a fixed base, Hz.
     pub(crate) frequency: f64,
     /// Shear modulus of the soil, Pa.
     pub(crate) modulus: f64,

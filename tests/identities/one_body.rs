@@ -93,7 +93,7 @@ fn unit_faces(division: BaseDivision, random: &mut Random) -> BaseFaces {
     let side = [-0.5, 0.5];
     let corners = rectangle(side, side);
     let cut = random.within(-0.3, 0.3);
-    let inner = [random.within(-0.3, 0.3), random.within(-0.3, 0.3)];
+    let inner_point = [random.within(-0.3, 0.3), random.within(-0.3, 0.3)];
     let parts = [[-0.5, cut], [cut, 0.5]];
     match division {
         BaseDivision::OneFace => vec![corners],
@@ -108,7 +108,7 @@ fn unit_faces(division: BaseDivision, random: &mut Random) -> BaseFaces {
         }
         BaseDivision::TwoTriangles => two_triangles(&corners).to_vec(),
         BaseDivision::Fan => {
-            (0..4).map(|k| vec![corners[k], corners[(k + 1) % 4], inner]).collect()
+            (0..4).map(|k| vec![corners[k], corners[(k + 1) % 4], inner_point]).collect()
         }
         BaseDivision::SkewQuads => irregular_quadrilaterals(random),
         BaseDivision::UnevenTriangles => {
@@ -140,8 +140,12 @@ fn choices(seed: u64, count: usize) -> impl Iterator<Item = (Choice, Numbers, Ra
     })
 }
 
-fn run(choice: &Choice, numbers: &Numbers, made: ProbedStructure) -> Result<SceneResponse> {
-    run_with(choice, numbers, &PLAIN_VIEW, made)
+fn run(
+    choice: &Choice,
+    numbers: &Numbers,
+    probed_structure: ProbedStructure,
+) -> Result<SceneResponse> {
+    run_with(choice, numbers, &PLAIN_VIEW, probed_structure)
 }
 
 fn words(choice: &Choice, form: &'static str) -> [&'static str; 5] {
@@ -251,12 +255,12 @@ fn bricks_shells_and_rigid_links_are_the_rigid_body() {
         let form = forms[number % forms.len()];
         grounds::clear_shared_kernels();
         tally.scene(&words(&choice, form));
-        let divided = match form {
+        let divided_body = match form {
             "bricks" => bricks(&numbers),
             _ => on_shells(&numbers, form.contains("triangles"), form.contains("link")),
         };
         let results =
-            [cuboid(&numbers), divided].map(|structure| run(&choice, &numbers, structure?));
+            [cuboid(&numbers), divided_body].map(|structure| run(&choice, &numbers, structure?));
         let limit = if form.contains("link") { RIGID_LIMIT } else { BENDING_LIMIT };
         let place = format!("{form}, {:.2?} m, {}", numbers.sides, choice.name());
         tally.compare(&place, results, |tally, expected, computed| {

@@ -1,5 +1,5 @@
 //! The parts of scenes: grounds, structures, laws, motions, schemes, coordinates. A new part adds its row here, and where
-//! the compiler then asks for it; `table.rs` compares the types with the library's.
+//! the code then compiles only with it; `table.rs` compares the types with the library's.
 
 use basemat_problems::random::Random;
 
@@ -133,7 +133,7 @@ parts! {
 }
 
 impl BodyPart {
-    /// Whether its solids yield.
+    /// Whether the structure has solids that yield.
     pub(crate) fn yields(self) -> bool {
         matches!(self, Self::Clay | Self::Sand | Self::ClayPair)
     }
@@ -143,7 +143,7 @@ impl BodyPart {
         self.yields() || matches!(self, Self::Hysteretic | Self::Sprung)
     }
 
-    /// Whether it has finite elements that Gmsh meshes.
+    /// Whether the structure has finite elements that a file of Gmsh can contain.
     pub(crate) fn has_a_gmsh_mesh(self) -> bool {
         matches!(
             self,
@@ -158,7 +158,7 @@ impl BodyPart {
         )
     }
 
-    /// Whether its damping or P–Δ couples the modes of the structure without ground.
+    /// Whether damping or P–Δ couples the modes of the structure without ground.
     fn couples_modes(self) -> bool {
         match self {
             Self::Slender
@@ -248,7 +248,7 @@ impl Choice {
 /// Random candidates for each scene; the one with the most new pairs is chosen.
 const CANDIDATE_COUNT: usize = 60;
 
-/// `count` scenes in a space that cover as many pairs of parts as they can, but those with solids that yield.
+/// `count` scenes in a space that cover as many pairs of parts as they can, without solids that yield.
 pub(crate) fn covering(space: Space, seed: u64, count: usize) -> Vec<Choice> {
     covering_bodies(space, false, seed, count)
 }
@@ -261,15 +261,15 @@ pub(crate) fn covering_yielding(seed: u64, count: usize) -> Vec<Choice> {
 fn covering_bodies(space: Space, yields: bool, seed: u64, count: usize) -> Vec<Choice> {
     let mut random = Random(seed);
     let mut covered: Vec<[&'static str; 2]> = Vec::new();
-    let mut chosen = Vec::new();
+    let mut chosen_parts = Vec::new();
     for _ in 0..count {
         let candidates = (0..CANDIDATE_COUNT).map(|_| Choice::draw(&mut random, space, yields));
-        let best = candidates.max_by_key(|choice| {
+        let best_candidate = candidates.max_by_key(|choice| {
             choice.pairs().iter().filter(|pair| !covered.contains(pair)).count()
         });
-        let Some(best) = best else { break };
-        covered.extend(best.pairs());
-        chosen.push(best);
+        let Some(best_candidate) = best_candidate else { break };
+        covered.extend(best_candidate.pairs());
+        chosen_parts.push(best_candidate);
     }
-    chosen
+    chosen_parts
 }

@@ -103,7 +103,7 @@ fn written(format: &str, step: f64, samples: &[f64]) -> Option<(String, Box<dyn 
             });
             (head + &rows.collect::<String>(), Box::new(KNetCsvFormat::default()))
         }
-        // Counts and fixed widths: their files are read below.
+        // Formats with counts and fixed widths are compared by the agencies' files below.
         _ => return None,
     })
 }

@@ -14,21 +14,22 @@ use super::view::PLAIN_VIEW;
 
 /// States after a step of a run without a break, and of a run resumed there in a new simulation.
 fn both_runs(choice: &Choice, first_steps: usize) -> Result<[Vec<State>; 2]> {
-    let mut whole = builder(choice, &PLAIN_VIEW, SceneVariant::Usual)?.build()?;
+    let mut uninterrupted_simulation =
+        builder(choice, &PLAIN_VIEW, SceneVariant::Usual)?.build()?;
     for _ in 0..first_steps {
-        whole.step()?;
+        uninterrupted_simulation.step()?;
     }
-    let checkpoint = whole.checkpoint()?;
-    let mut resumed = builder(choice, &PLAIN_VIEW, SceneVariant::Usual)?.build()?;
+    let checkpoint = uninterrupted_simulation.checkpoint()?;
+    let mut resumed_simulation = builder(choice, &PLAIN_VIEW, SceneVariant::Usual)?.build()?;
     // A used simulation has other variables, which the checkpoint replaces.
     for _ in 0..first_steps % 3 {
-        resumed.step()?;
+        resumed_simulation.step()?;
     }
-    resumed.resume(&checkpoint)?;
+    resumed_simulation.resume(&checkpoint)?;
     let mut states = [Vec::new(), Vec::new()];
     for _ in first_steps..RUN_STEPS {
-        states[0].push(whole.step()?.clone());
-        states[1].push(resumed.step()?.clone());
+        states[0].push(uninterrupted_simulation.step()?.clone());
+        states[1].push(resumed_simulation.step()?.clone());
     }
     Ok(states)
 }
@@ -53,7 +54,7 @@ fn runs_of_soil_that_yields_resume_to_the_last_bit() {
                     tally.fail(format!("{place}: differs {step} steps after the break"));
                 }
             }
-            Err(error) => tally.refuse(format!("{place}: {error}")),
+            Err(error) => tally.add_error(format!("{place}: {error}")),
         }
     }
     tally.close(0.75);

@@ -111,7 +111,7 @@ fn models_in_space_turn_freely() {
         let model = match plan.model(&PLAIN_VIEW) {
             Ok(model) => model,
             Err(error) => {
-                tally.refuse(format!("{number}: {error}"));
+                tally.add_error(format!("{number}: {error}"));
                 continue;
             }
         };
@@ -129,12 +129,18 @@ fn models_in_space_turn_freely() {
 /// Number of motions without force, by the eigenvalues of the matrix scaled to a unit diagonal.
 fn free_motion_count(structure: &dyn Structure) -> usize {
     let mut matrix = stiffness(structure);
-    let largest = (0..matrix.len()).fold(0.0, |largest: f64, k| largest.max(matrix[k][k]));
-    if largest == 0.0 {
+    let max_magnitude = (0..matrix.len()).fold(0.0, |max: f64, k| max.max(matrix[k][k]));
+    if max_magnitude == 0.0 {
         return matrix.len();
     }
     let scales: Vec<f64> = (0..matrix.len())
-        .map(|k| if matrix[k][k] > 1e-14 * largest { matrix[k][k].sqrt() } else { largest.sqrt() })
+        .map(|k| {
+            if matrix[k][k] > 1e-14 * max_magnitude {
+                matrix[k][k].sqrt()
+            } else {
+                max_magnitude.sqrt()
+            }
+        })
         .collect();
     for (i, row) in matrix.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {
@@ -179,13 +185,13 @@ fn every_structure_has_all_rigid_motions() {
 
 /// A few choices of each structure.
 fn bodies(space: Space) -> Vec<Choice> {
-    let mut chosen: Vec<Choice> = Vec::new();
+    let mut chosen_scenes: Vec<Choice> = Vec::new();
     for choice in covering(space, 77, 120) {
-        if chosen.iter().filter(|other| other.body == choice.body).count() < scenes(2, 8) {
-            chosen.push(choice);
+        if chosen_scenes.iter().filter(|other| other.body == choice.body).count() < scenes(2, 8) {
+            chosen_scenes.push(choice);
         }
     }
-    chosen
+    chosen_scenes
 }
 
 /// GOAL: reduced models keep six rigid motions.
@@ -205,7 +211,7 @@ fn reduced_models_keep_them() {
                     tally.fail(format!("{number}: {count} rigid motions, not 6"));
                 }
             }
-            Err(error) => tally.refuse(format!("{number}: {error}")),
+            Err(error) => tally.add_error(format!("{number}: {error}")),
         }
     }
     tally.close(0.8);

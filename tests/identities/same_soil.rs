@@ -65,11 +65,11 @@ fn relative_difference(one: &[f64], other: &[f64]) -> f64 {
     assert_eq!(one.len(), other.len());
     let scale = one.iter().chain(other).fold(0.0, |scale: f64, value| scale.max(value.abs()));
     let pairs = one.iter().zip(other);
-    let largest = pairs.fold(0.0, |largest: f64, (a, b)| {
+    let max_magnitude = pairs.fold(0.0, |max_magnitude: f64, (a, b)| {
         let difference = (a - b).abs();
-        if difference.is_nan() { f64::NAN } else { largest.max(difference) }
+        if difference.is_nan() { f64::NAN } else { max_magnitude.max(difference) }
     });
-    if largest == 0.0 { 0.0 } else { largest / scale }
+    if max_magnitude == 0.0 { 0.0 } else { max_magnitude / scale }
 }
 
 /// Real and imaginary parts of complex numbers, one after the other.

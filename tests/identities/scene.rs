@@ -53,7 +53,7 @@ impl SceneVariant {
     }
 }
 
-/// The builder of a choice in a view, without its coordinates' part.
+/// The builder of a choice in a view, without its coordinates.
 pub(crate) fn builder(
     choice: &Choice,
     view: &View,
@@ -65,8 +65,8 @@ pub(crate) fn builder(
         numbers.modulus *= 1.0 + 1e-10 * modulus;
         numbers.friction *= 1.0 + 1e-10 * friction;
     }
-    let made = structures::structure(choice, &numbers, view)?;
-    builder_with(choice, &numbers, view, variant, made)
+    let probed_structure = structures::structure(choice, &numbers, view)?;
+    builder_with(choice, &numbers, view, variant, probed_structure)
 }
 
 /// The builder of a choice on a structure of these numbers.
@@ -203,7 +203,7 @@ impl SceneResponse {
         if self.steps != other.steps {
             return GroupDifference { value: f64::INFINITY, group: "numbers of steps" };
         }
-        let mut largest = GroupDifference { value: 0.0, group: "" };
+        let mut max_difference = GroupDifference { value: 0.0, group: "" };
         for (group, name) in
             RESPONSE_GROUPS.iter().enumerate().filter(|(_, name)| groups.contains(name))
         {
@@ -213,16 +213,16 @@ impl SceneResponse {
                 _ => self.largest(group),
             };
             let pairs = self.groups[group].iter().zip(&other.groups[group]);
-            let difference = pairs.fold(0.0, |largest: f64, (a, b)| {
+            let difference = pairs.fold(0.0, |max_difference: f64, (a, b)| {
                 let difference = (a - b).abs();
-                if difference.is_nan() { f64::NAN } else { largest.max(difference) }
+                if difference.is_nan() { f64::NAN } else { max_difference.max(difference) }
             });
             let value = if difference == 0.0 { 0.0 } else { difference / scale };
-            if value.is_nan() || value > largest.value {
-                largest = GroupDifference { value, group: name };
+            if value.is_nan() || value > max_difference.value {
+                max_difference = GroupDifference { value, group: name };
             }
         }
-        largest
+        max_difference
     }
 }
 

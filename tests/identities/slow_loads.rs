@@ -27,11 +27,20 @@ const REST_STEPS: usize = 100;
 /// Limit of remaining oscillations, and of slips by loads in increments.
 const DISPLACEMENT_LIMIT: f64 = 0.01;
 
-/// Springs with damping that makes the ramp slow; a bed without history, as soil radiates for long.
-fn damped_bed(choice: &Choice, numbers: &Numbers, made: &ProbedStructure) -> Result<SpringGround> {
+/// Springs with damping by which the ramp is slow; the bed has no history, since soil radiates for long.
+fn damped_bed(
+    choice: &Choice,
+    numbers: &Numbers,
+    probed_structure: &ProbedStructure,
+) -> Result<SpringGround> {
     let count = if choice.space == Space::Plan { MAT_CELLS } else { STRIP_ELEMENTS };
     let stiffness = 2.0 * numbers.modulus / numbers.sides[0];
-    let bed = SpringGround::under(made.structure.as_ref(), count, stiffness, 0.7 * stiffness)?;
+    let bed = SpringGround::under(
+        probed_structure.structure.as_ref(),
+        count,
+        stiffness,
+        0.7 * stiffness,
+    )?;
     let dashpot = 0.02 * stiffness;
     bed.with_dashpots(dashpot, dashpot)
 }
@@ -42,9 +51,9 @@ fn builder(
     numbers: &Numbers,
     value: impl Fn(f64) -> f64 + Clone + Send + 'static,
 ) -> Result<SimulationBuilder> {
-    let made = structures::structure(choice, numbers, &PLAIN_VIEW)?;
-    let ground = damped_bed(choice, numbers, &made)?;
-    let ProbedStructure { structure, top } = made;
+    let probed_structure = structures::structure(choice, numbers, &PLAIN_VIEW)?;
+    let ground = damped_bed(choice, numbers, &probed_structure)?;
+    let ProbedStructure { structure, top } = probed_structure;
     let in_plan = choice.space == Space::Plan;
     // Half of the force that slides or overturns the structure.
     let weight = SCENE_GRAVITY * numbers.mass(in_plan);
@@ -78,21 +87,25 @@ fn ramp(time: f64) -> f64 {
 
 /// Displacements of the static state, from those without the load, and of the end of the ramp.
 fn static_and_ramp_displacements(choice: &Choice, numbers: &Numbers) -> Result<[Vec<f64>; 2]> {
-    let unloaded = builder(choice, numbers, |_| 0.0)?.build()?.static_displacement().to_vec();
-    let loaded = builder(choice, numbers, |_| 1.0)?.build()?.static_displacement().to_vec();
+    let unloaded_displacement =
+        builder(choice, numbers, |_| 0.0)?.build()?.static_displacement().to_vec();
+    let loaded_displacement =
+        builder(choice, numbers, |_| 1.0)?.build()?.static_displacement().to_vec();
     let mut simulation = builder(choice, numbers, ramp)?.build()?;
     for _ in 0..RAMP_STEPS + REST_STEPS {
         simulation.step()?;
     }
     let at_end = simulation.state().displacement().to_vec();
-    let by_load = loaded.iter().zip(&unloaded).map(|(a, b)| a - b).collect();
+    let by_load =
+        loaded_displacement.iter().zip(&unloaded_displacement).map(|(a, b)| a - b).collect();
     Ok([by_load, at_end])
 }
 
 fn check(space: Space, row: &'static str, count: usize) {
     let mut tally = IdentityTally::new(row);
     for choice in covering(space, 111, count) {
-        // Friction that decreases with speed has another slow limit than the static one; motions do not matter.
+        // Friction that decreases with speed has another slow limit than the static one. The motion of the choice has
+        // no effect.
         let coordinate = CoordinatePart::Physical;
         let choice = Choice { motion: MotionPart::Loads, coordinate, ..choice };
         if choice.law == LawPart::Varying || choice.body.is_nonlinear() {
@@ -103,10 +116,10 @@ fn check(space: Space, row: &'static str, count: usize) {
         match static_and_ramp_displacements(&choice, &numbers) {
             Ok([static_state, at_end]) => {
                 let difference = largest_difference(&static_state, &at_end);
-                let relative = difference / largest(&static_state);
-                tally.within(&choice.name(), relative, DISPLACEMENT_LIMIT);
+                let relative_difference = difference / largest(&static_state);
+                tally.within(&choice.name(), relative_difference, DISPLACEMENT_LIMIT);
             }
-            Err(error) => tally.refuse(format!("{}: {error}", choice.name())),
+            Err(error) => tally.add_error(format!("{}: {error}", choice.name())),
         }
     }
     tally.close(0.75);

@@ -40,7 +40,7 @@ fn check_order(space: Space, row: &'static str, count: usize) {
     }
     let mut tally = IdentityTally::new(row);
     for choice in covering(space, 121, count) {
-        // Slips and landings are not smooth.
+        // Slip and landing are not smooth in time.
         let coordinate = CoordinatePart::Physical;
         let choice = Choice { law: LawPart::Bonded, coordinate, ..choice };
         if choice.body.is_nonlinear() {
@@ -64,7 +64,7 @@ fn check_order(space: Space, row: &'static str, count: usize) {
                     tally.within(&choice.name(), fine / coarse, limit);
                 }
             }
-            Err(error) => tally.refuse(format!("{}: {error}", choice.name())),
+            Err(error) => tally.add_error(format!("{}: {error}", choice.name())),
         }
     }
     tally.close(0.75);
@@ -115,7 +115,7 @@ fn long_steps_are_warned_of() {
                         tally.fail(format!("{text}: {}", choice.name()));
                     }
                 }
-                Err(error) => tally.refuse(format!("{}: {error}", choice.name())),
+                Err(error) => tally.add_error(format!("{}: {error}", choice.name())),
             }
         }
     }

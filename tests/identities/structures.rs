@@ -116,9 +116,9 @@ fn in_the_plane(body: BodyPart, numbers: &Numbers, view: &View) -> Result<Probed
         BodyPart::Sprung => {
             let building = building(numbers, view)?;
             let drift = building.drift(1)?;
-            let sprung =
+            let building_with_springs =
                 WithSprings::new(building).spring(drift, yielding_spring(numbers, view)?)?;
-            ProbedStructure::new(sprung, top(ROOF_DOF, 1))
+            ProbedStructure::new(building_with_springs, top(ROOF_DOF, 1))
         }
         BodyPart::Pair | BodyPart::ClayPair => pair(body == BodyPart::ClayPair, numbers, view)?,
         BodyPart::Matrices => matrices(numbers, view)?,
@@ -136,16 +136,16 @@ fn in_the_plane(body: BodyPart, numbers: &Numbers, view: &View) -> Result<Probed
 /// A block and storeys side by side, in the order from the left.
 fn pair(has_clay_block: bool, numbers: &Numbers, view: &View) -> Result<ProbedStructure> {
     let half_size = Numbers { sides: numbers.sides.map(|side| 0.5 * side), ..*numbers };
-    let unmoved = View { shift: [0.0; 2], ..*view };
+    let view_without_shift = View { shift: [0.0; 2], ..*view };
     let distance = 0.5 * numbers.sides[0];
     let block_center = view.surface_point([-distance, 0.0])[0];
     let building_center = view.surface_point([distance, 0.0])[0];
     let block: Box<dyn Structure> = if has_clay_block {
-        of_blueprint(&models::clay(&half_size), &unmoved)?.structure
+        of_blueprint(&models::clay(&half_size), &view_without_shift)?.structure
     } else {
-        Box::new(block(&half_size, &unmoved)?)
+        Box::new(block(&half_size, &view_without_shift)?)
     };
-    let building = building(&half_size, &unmoved)?;
+    let building = building(&half_size, &view_without_shift)?;
     let is_mirrored = view.frame.mirrored;
     let group = if is_mirrored {
         StructureGroup::new().with(building, building_center)?.with(block, block_center)?
@@ -222,8 +222,8 @@ pub(crate) fn body(numbers: &Numbers, height: f64, view: &View) -> Result<RigidB
     let length = frame.length;
     let [a, b] = numbers.sides;
     let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
-    let unmoved = View { shift: [0.0; 2], ..*view };
-    let outline = corners.map(|[x, y]| unmoved.surface_point([x * a, y * b]));
+    let view_without_shift = View { shift: [0.0; 2], ..*view };
+    let outline = corners.map(|[x, y]| view_without_shift.surface_point([x * a, y * b]));
     let outline = view.ordered(outline.to_vec());
     let mass = numbers.density * a * b * height;
     let about_axes =
@@ -233,7 +233,8 @@ pub(crate) fn body(numbers: &Numbers, height: f64, view: &View) -> Result<RigidB
         [[about_axes[0], 0.0, 0.0], [0.0, about_axes[1], 0.0], [0.0, 0.0, about_vertical]]
             .map(|row| row.map(|part| part * frame.mass * length * length));
     let eccentricity = numbers.eccentricity;
-    let gravity_center = unmoved.point([eccentricity[0] * a, eccentricity[1] * b, 0.5 * height]);
+    let gravity_center =
+        view_without_shift.point([eccentricity[0] * a, eccentricity[1] * b, 0.5 * height]);
     let body = RigidBody::from_mass(outline, mass * frame.mass, inertia, gravity_center)?;
     body.centered_at(view.surface_point([0.0; 2]))
 }
@@ -252,10 +253,11 @@ pub(crate) fn on_faces(
     let mut mass = Triplets::new(6);
     body.mass(&mut mass)?;
     let center = view.surface_point([0.0; 2]);
-    let unmoved = View { shift: [0.0; 2], ..*view };
+    let view_without_shift = View { shift: [0.0; 2], ..*view };
     let mut base_faces = Vec::new();
     for face in faces {
-        let corners: Vec<_> = face.iter().map(|corner| unmoved.surface_point(*corner)).collect();
+        let corners: Vec<_> =
+            face.iter().map(|corner| view_without_shift.surface_point(*corner)).collect();
         let corners = view.ordered(corners);
         base_faces.push(BaseNode::rigid_face(&corners, center, [0, 1, 2, 3, 4, 5]));
     }
@@ -306,10 +308,12 @@ fn floors(has_p_delta: bool, numbers: &Numbers, view: &View) -> Result<ProbedStr
     let [kx, ky] = view.along_axes([5.0 * mass * rate * rate, 4.0 * mass * rate * rate]);
     let sides = view.along_axes(numbers.sides.map(|side| side * length));
     let twist = 0.3 * (kx + ky) * sides[0] * sides[1];
-    let unmoved = View { shift: [0.0; 2], ..*view };
+    let view_without_shift = View { shift: [0.0; 2], ..*view };
     let eccentricity = numbers.eccentricity;
-    let [mass_center, stiffness_center] = [eccentricity, [-eccentricity[1], eccentricity[0]]]
-        .map(|[x, y]| unmoved.surface_point([x * numbers.sides[0], y * numbers.sides[1]]));
+    let [mass_center, stiffness_center] =
+        [eccentricity, [-eccentricity[1], eccentricity[0]]].map(|[x, y]| {
+            view_without_shift.surface_point([x * numbers.sides[0], y * numbers.sides[1]])
+        });
     let storey = PlanStorey::new(0.5 * numbers.height * length, mass, sides, [kx, ky, twist]);
     let damping = [kx, ky, twist].map(|k| 0.06 * k / rate);
     let storey = PlanStorey { mass_center, stiffness_center, damping, ..storey };
@@ -318,7 +322,7 @@ fn floors(has_p_delta: bool, numbers: &Numbers, view: &View) -> Result<ProbedStr
         building = building.with_p_delta(SCENE_GRAVITY * frame.acceleration())?;
     }
     let mut top = building.floor(1, [0.0; 2])?;
-    // The floors do not move vertically beside the base.
+    // The floors do not move vertically relative to the base.
     top[2] = 2.into();
     Ok(ProbedStructure::new(building, top))
 }

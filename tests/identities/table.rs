@@ -68,14 +68,14 @@ fn implemented(name: &str, folder: &str) -> BTreeSet<String> {
 
 /// Asserts that all types of a folder with this trait are in the rows.
 fn assert_all(name: &str, folder: &str, rows: impl IntoIterator<Item = &'static str>) {
-    let mut listed: BTreeSet<String> = rows.into_iter().map(str::to_owned).collect();
-    listed.extend(WITHOUT_ROWS.iter().map(|(part, _)| (*part).to_owned()));
+    let mut listed_types: BTreeSet<String> = rows.into_iter().map(str::to_owned).collect();
+    listed_types.extend(WITHOUT_ROWS.iter().map(|(part, _)| (*part).to_owned()));
     let types = implemented(name, folder);
     assert!(!types.is_empty(), "no {name} in src/{folder}");
-    let missing: Vec<_> = types.difference(&listed).collect();
+    let missing_types: Vec<_> = types.difference(&listed_types).collect();
     assert!(
-        missing.is_empty(),
-        "{missing:?} of {name} in src/{folder} has no row in tests/identities/parts.rs"
+        missing_types.is_empty(),
+        "{missing_types:?} of {name} in src/{folder} has no row in tests/identities/parts.rs"
     );
 }
 

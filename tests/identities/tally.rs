@@ -14,8 +14,8 @@ static COVERED: Mutex<BTreeSet<[&'static str; 2]>> = Mutex::new(BTreeSet::new())
 pub(crate) struct IdentityTally {
     row: &'static str,
     scenes: usize,
-    /// Scenes that a builder refuses, both ways, with the reason.
-    refused: Vec<String>,
+    /// Scenes that are errors in both forms, with the reason.
+    errors: Vec<String>,
     pairs: BTreeSet<[&'static str; 2]>,
     /// Largest value over its limit.
     largest_ratio: f64,
@@ -34,7 +34,7 @@ impl IdentityTally {
         Self {
             row,
             scenes: 0,
-            refused: Vec::new(),
+            errors: Vec::new(),
             pairs: BTreeSet::new(),
             largest_ratio: 0.0,
             largest_text: String::new(),
@@ -59,16 +59,16 @@ impl IdentityTally {
         }
     }
 
-    /// Notes a scene that a builder refuses whichever way it is written.
-    pub(crate) fn refuse(&mut self, text: String) {
-        self.refused.push(text);
+    /// Adds a scene that is an error in either form.
+    pub(crate) fn add_error(&mut self, text: String) {
+        self.errors.push(text);
     }
 
     pub(crate) fn fail(&mut self, text: String) {
         self.failures.push(text);
     }
 
-    /// Compares two results; notes a refusal of both, and fails if one alone is refused.
+    /// Compares two results; counts two errors, and fails if one alone is an error.
     pub(crate) fn compare<T>(
         &mut self,
         place: &str,
@@ -77,10 +77,10 @@ impl IdentityTally {
     ) {
         match results {
             [Ok(one), Ok(other)] => compare(self, one, other),
-            [Err(error), Err(_)] => self.refuse(format!("{place}: {error}")),
+            [Err(error), Err(_)] => self.add_error(format!("{place}: {error}")),
             results => {
                 let errors = results.map(|result| result.err().map(|error| error.to_string()));
-                self.fail(format!("{place}: one alone is refused, {errors:?}"));
+                self.fail(format!("{place}: one alone is an error, {errors:?}"));
             }
         }
     }
@@ -107,15 +107,15 @@ impl IdentityTally {
             covered.len()
         };
         println!(
-            "{}: {} scenes, {} refused, {} pairs of parts ({all_pairs} in all rows so far), largest {}",
+            "{}: {} scenes, {} with errors, {} pairs of parts ({all_pairs} in all rows so far), largest {}",
             self.row,
             self.scenes,
-            self.refused.len(),
+            self.errors.len(),
             self.pairs.len(),
             self.largest_text,
         );
-        for text in &self.refused {
-            println!("    refused: {text}");
+        for text in &self.errors {
+            println!("    error: {text}");
         }
         let mut report = String::new();
         for text in &self.failures {
@@ -123,9 +123,9 @@ impl IdentityTally {
         }
         let failures = self.failures.len();
         assert!(failures == 0, "{}: {failures} failures{report}", self.row);
-        let accepted_scenes = (self.scenes - self.refused.len().min(self.scenes)) as f64;
+        let accepted_scenes = (self.scenes - self.errors.len().min(self.scenes)) as f64;
         let is_enough = accepted_scenes >= accepted * self.scenes as f64;
-        assert!(is_enough, "{}: too many refused", self.row);
+        assert!(is_enough, "{}: too many errors", self.row);
         assert!(self.scenes > 0, "{}: no scene", self.row);
     }
 }

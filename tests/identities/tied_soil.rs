@@ -109,8 +109,8 @@ impl Constrained {
     }
 
     /// T v.
-    fn full(&self, reduced: &[f64]) -> Vec<f64> {
-        self.reduced_dofs.iter().map(|dof| reduced[*dof]).collect()
+    fn full(&self, reduced_displacement: &[f64]) -> Vec<f64> {
+        self.reduced_dofs.iter().map(|dof| reduced_displacement[*dof]).collect()
     }
 
     /// Adds Tᵀ A T.
@@ -259,7 +259,7 @@ fn ties_are_equal_displacements() {
         let support = [Support::Fixed, Support::Bonded, Support::Uplifting][number % 3];
         let stiffness = numbers.modulus / numbers.sides[0];
         tally.scene(&["tied column", support.word(), "springs"]);
-        let tied = tied_column(&numbers, &plan)
+        let tied_column = tied_column(&numbers, &plan)
             .and_then(|column| column_scene(&numbers, column, support, stiffness))
             .and_then(|builder| column_results(&numbers, builder));
         let by_hand = free_column(&numbers, &plan)
@@ -269,7 +269,7 @@ fn ties_are_equal_displacements() {
             })
             .and_then(|builder| column_results(&numbers, builder));
         let place = format!("{number}: {support:?}, {:?}, {:.2?} m", plan.quad_law, numbers.sides);
-        tally.compare(&place, [tied, by_hand], |tally, expected, computed| {
+        tally.compare(&place, [tied_column, by_hand], |tally, expected, computed| {
             let difference = relative_difference(&expected.forces, &computed.forces);
             tally.within(&format!("forces, {place}"), difference, DIFFERENCE_LIMIT);
             let difference = relative_difference(&expected.energies, &computed.energies);

@@ -1,4 +1,4 @@
-//! GOAL: a trench filled with the soil around it is no trench; a trench without depth is a strip; a body on a mat that
+//! GOAL: a filled trench moves as the ground without a trench; a trench without depth is a strip; a body on a mat that
 //! moves in one plane is a block per metre.
 //! SCENE: trenches under waves; strips; blocks on springs; long mats.
 //! REFERENCE: the free field; strips and blocks in the plane.
@@ -53,9 +53,9 @@ fn fill_trench(
             mesh.add(Quad4::new(corners, material, QuadFormulation::default()))?;
         }
     }
-    let down = (1..=rows).rev().map(|row| row * row_length);
+    let left_wall_nodes = (1..=rows).rev().map(|row| row * row_length);
     let up = (0..=rows).map(|row| row * row_length + columns);
-    let outline: Vec<usize> = down.chain(0..columns).chain(up).collect();
+    let outline: Vec<usize> = left_wall_nodes.chain(0..columns).chain(up).collect();
     let surface_node = rows * row_length + columns / 2;
     Ok(TrenchFill { model: FemModel::in_trench(mesh, &outline)?, surface_node })
 }
@@ -100,34 +100,34 @@ const FILLED_TRENCH_STEPS: usize = 120;
 /// Largest difference of the middle of the filled surface from the free surface, relative to the largest displacement.
 fn surface_difference(
     ground: TrenchGround,
-    fill: TrenchFill,
+    trench_fill: TrenchFill,
     motion: TrenchMotion,
     time_step: f64,
 ) -> Result<f64> {
-    let along = fill.model.row(fill.surface_node, Direction::X)?;
-    let up = fill.model.row(fill.surface_node, Direction::Y)?;
+    let along = trench_fill.model.row(trench_fill.surface_node, Direction::X)?;
+    let up = trench_fill.model.row(trench_fill.surface_node, Direction::Y)?;
     let surface = motion.clone();
     let mut simulation = Simulation::builder(time_step)
         .gravity(0.0)
         .ground(ground)
-        .structure(fill.model)
+        .structure(trench_fill.model)
         .interface(Bonded)
         .motion(motion)
         .expected_steps(FILLED_TRENCH_STEPS)
         .probe(Probe::absolute_displacement("along", along))
         .probe(Probe::absolute_displacement("up", up))
         .build()?;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut difference = 0.0_f64;
     for _ in 0..FILLED_TRENCH_STEPS {
         let state = simulation.step()?;
         let expected = surface.displacement(0.0, state.time);
         for (computed, expected) in state.probes.iter().zip(expected) {
-            largest = largest.max(expected.abs());
+            max_magnitude = max_magnitude.max(expected.abs());
             difference = difference.max((computed - expected).abs());
         }
     }
-    Ok(difference / largest)
+    Ok(difference / max_magnitude)
 }
 
 /// GOAL: the middle of the filled surface moves as the free surface.
@@ -149,7 +149,7 @@ fn own_soil_fills_a_trench_without_a_trace() {
         let kind = ["vertical waves", "SV wave", "vertical waves", "P wave"][number % 4];
         let layers = if number % 2 == 0 { "layers" } else { "half-plane" };
         tally.scene(&["trench", layers, "quadrilaterals", "bonded", kind]);
-        // Periods of some ten travel times from the base.
+        // Periods are some ten travel times from the base of the trench.
         let rate = 1.0 / (depth / speed * random.within(2.5, 5.0));
         let angle = random.within(0.1, 0.3);
         let place = format!("{number}: {kind}, {layers}, half width {half:.2}, depth {depth:.2}");
@@ -157,13 +157,13 @@ fn own_soil_fills_a_trench_without_a_trace() {
             .and_then(|trench| TrenchGround::new(profile, trench.elements(4, 3)?))
             .and_then(|ground| {
                 let motion = trench_motion(&ground, soil, kind, angle, half, record(rate)?)?;
-                let fill = fill_trench(half, depth, &soil, 8, 6)?;
+                let trench_fill = fill_trench(half, depth, &soil, 8, 6)?;
                 let time_step = 8.0 / rate / FILLED_TRENCH_STEPS as f64;
-                surface_difference(ground, fill, motion, time_step)
+                surface_difference(ground, trench_fill, motion, time_step)
             });
         match difference {
             Ok(difference) => tally.within(&place, difference, 0.03),
-            Err(error) => tally.refuse(format!("{place}: {error}")),
+            Err(error) => tally.add_error(format!("{place}: {error}")),
         }
     }
     tally.close(0.7);
@@ -189,8 +189,8 @@ fn a_trench_without_depth_is_a_strip() {
         let soil = Soil::from_shear_wave_speed(200.0, poisson, 1900.0).unwrap();
         let mut profile = SoilProfile::on_half_plane(soil);
         if number % 2 == 1 {
-            let soft = Soil::from_shear_wave_speed(120.0, poisson, 1800.0).unwrap();
-            profile = profile.with_layer(soft, half * random.within(0.5, 2.0)).unwrap();
+            let soft_soil = Soil::from_shear_wave_speed(120.0, poisson, 1800.0).unwrap();
+            profile = profile.with_layer(soft_soil, half * random.within(0.5, 2.0)).unwrap();
         }
         let layers = if number % 2 == 1 { "layers" } else { "half-plane" };
         tally.scene(&["trench", layers, "strip"]);
@@ -275,7 +275,7 @@ fn a_body_in_one_plane_is_a_block_per_metre() {
         let scene = SpringScene { size: [a, b, height], density, stiffness, friction, record };
         let mut in_plane = scene.in_plane().unwrap();
         let mut in_plan = scene.in_plan().unwrap();
-        let mut largest = [0.0_f64; 3];
+        let mut max_values = [0.0_f64; 3];
         let mut differences = [0.0_f64; 3];
         for _ in 0..300 {
             let block = in_plane.step().unwrap();
@@ -287,13 +287,13 @@ fn a_body_in_one_plane_is_a_block_per_metre() {
                 [block.normal_force, body.normal_force / b],
             ];
             for (k, [expected, computed]) in pairs.into_iter().enumerate() {
-                largest[k] = largest[k].max(expected.abs());
+                max_values[k] = max_values[k].max(expected.abs());
                 differences[k] = differences[k].max((expected - computed).abs());
             }
         }
         for (k, name) in ["shear", "moment", "normal"].into_iter().enumerate() {
             let place = format!("{number}: {name}, {a:.2} × {b:.2} m");
-            tally.within(&place, differences[k] / largest[k], 1e-6);
+            tally.within(&place, differences[k] / max_values[k], 1e-6);
         }
     }
     tally.close(1.0);
@@ -317,9 +317,9 @@ fn a_long_mat_has_the_impedance_of_a_strip() {
         let soil = Soil::new(1.0, random.within(0.1, 0.4), 1.0).unwrap();
         tally.scene(&["half-plane", "mat", "strip"]);
         let frequency = random.within(1.0, 1.5) / std::f64::consts::TAU;
-        // The difference of two lengths has no ends.
-        let short = mat_impedances(soil, 2.0, frequency);
-        let long = mat_impedances(soil, 4.0, frequency);
+        // In the difference of two lengths the effects of the ends cancel.
+        let short_mat = mat_impedances(soil, 2.0, frequency);
+        let long_mat = mat_impedances(soil, 4.0, frequency);
         let strip = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 12).unwrap()).unwrap();
         let contact = StripContact::Bonded;
         let expected = strip.impedances(&[frequency], contact, &mut unobserved).unwrap()[0];
@@ -328,7 +328,7 @@ fn a_long_mat_has_the_impedance_of_a_strip() {
                 .into_iter()
                 .enumerate()
         {
-            let per_metre = (long[k] - short[k]) * (1.0 / 4.0);
+            let per_metre = (long_mat[k] - short_mat[k]) * (1.0 / 4.0);
             let error = (per_metre - expected).abs() / expected.abs();
             tally.within(&format!("{number}: {name}"), error, 0.1);
         }

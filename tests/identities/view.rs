@@ -1,9 +1,9 @@
-//! A scene seen from another place: translated, turned, mirrored, renumbered, in other units.
+//! A scene in another form: translated, turned, mirrored, renumbered, in other units.
 
 use basemat_problems::random::Random;
 use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
-/// How a scene in SI units is written down.
+/// Form in which a scene in SI units is built.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
     /// Units, and whether x is mirrored.
@@ -41,9 +41,9 @@ pub(crate) fn random_units(random: &mut Random) -> UnitFrame {
 impl View {
     /// A vector `[x, y, z]` of the scene, in any unit, along the axes of the view.
     pub(crate) fn vector(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let mirrored = [self.frame.sign() * x, y];
-        let turned = (0..self.turns).fold(mirrored, |[x, y], _| [0.0 - y, x]);
-        [turned[0], turned[1], z]
+        let mirrored_vector = [self.frame.sign() * x, y];
+        let turned_vector = (0..self.turns).fold(mirrored_vector, |[x, y], _| [0.0 - y, x]);
+        [turned_vector[0], turned_vector[1], z]
     }
 
     /// The vector of the scene that [`View::vector`] writes as `[x, y, z]`.
@@ -59,8 +59,8 @@ impl View {
 
     /// A point of the scene (m) in the view's unit.
     pub(crate) fn point(&self, point: [f64; 3]) -> [f64; 3] {
-        let turned = self.vector(point);
-        [turned[0] + self.shift[0], turned[1] + self.shift[1], turned[2]]
+        let turned_point = self.vector(point);
+        [turned_point[0] + self.shift[0], turned_point[1] + self.shift[1], turned_point[2]]
             .map(|part| part * self.frame.length)
     }
 

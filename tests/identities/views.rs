@@ -46,8 +46,8 @@ fn check(choices: &[Choice], row: &'static str) {
         let view_count = if basemat_problems::heavy() { views.len() } else { few_views };
         for k in 0..view_count {
             let (name, view) = &views[(number + 2 * k) % views.len()];
-            let named = NamedVariant { name, view, variant: SceneVariant::Usual };
-            compare_variant(choice, &response, &named, limit, &mut tally);
+            let named_variant = NamedVariant { name, view, variant: SceneVariant::Usual };
+            compare_variant(choice, &response, &named_variant, limit, &mut tally);
         }
     }
     tally.close(0.75);

@@ -14,31 +14,35 @@ const DIFFERENCE_LIMIT: f64 = 1e-7;
 fn check(choices: Vec<Choice>, row: &'static str) {
     let mut tally = IdentityTally::new(row);
     for choice in choices {
-        let other = choice.coordinate;
+        let usual_coordinate = choice.coordinate;
         let physical = Choice { coordinate: CoordinatePart::Physical, ..choice };
         let Some(response) = usual_response(&physical, &mut tally) else { continue };
         tally.pair(&choice.words());
-        let named = NamedVariant {
+        let named_variant = NamedVariant {
             name: "parts of a user",
             view: &View { by_user: true, ..PLAIN_VIEW },
             variant: SceneVariant::ByUser,
         };
-        compare_variant(&physical, &response, &named, DIFFERENCE_LIMIT, &mut tally);
+        compare_variant(&physical, &response, &named_variant, DIFFERENCE_LIMIT, &mut tally);
         if physical.body.has_a_gmsh_mesh() {
             tally.pair(&["Gmsh", physical.body.word()]);
-            let named = NamedVariant {
+            let named_variant = NamedVariant {
                 name: "mesh from Gmsh",
                 view: &View { read_from_gmsh: true, ..PLAIN_VIEW },
                 variant: SceneVariant::Usual,
             };
-            compare_variant(&physical, &response, &named, DIFFERENCE_LIMIT, &mut tally);
+            compare_variant(&physical, &response, &named_variant, DIFFERENCE_LIMIT, &mut tally);
         }
-        if other != CoordinatePart::Physical {
-            let limit =
-                if other == CoordinatePart::Reduced { REDUCED_LIMIT } else { DIFFERENCE_LIMIT };
-            let variant = SceneVariant::InCoordinates(other);
-            let named = NamedVariant { name: other.word(), view: &PLAIN_VIEW, variant };
-            compare_variant(&physical, &response, &named, limit, &mut tally);
+        if usual_coordinate != CoordinatePart::Physical {
+            let limit = if usual_coordinate == CoordinatePart::Reduced {
+                REDUCED_LIMIT
+            } else {
+                DIFFERENCE_LIMIT
+            };
+            let variant = SceneVariant::InCoordinates(usual_coordinate);
+            let named_variant =
+                NamedVariant { name: usual_coordinate.word(), view: &PLAIN_VIEW, variant };
+            compare_variant(&physical, &response, &named_variant, limit, &mut tally);
         }
     }
     tally.close(0.75);

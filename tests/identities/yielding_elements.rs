@@ -1,4 +1,4 @@
-//! GOAL: an element that yields is the same at any angle, seen in a mirror, and from any of its corners.
+//! GOAL: an element that yields has the same response at any angle, mirrored, and with its nodes in another order.
 //! SCENE: single quadrilaterals of clay and sand, of random shape, along random paths with internal variables.
 //! REFERENCE: the element as it stands.
 
@@ -126,8 +126,10 @@ fn compare(
     let image = |values: &[f64]| -> Vec<f64> {
         let mut list = Vec::new();
         for step in values.chunks(2 * order.len()) {
-            let mapped = map.apply_to_all(step);
-            list.extend(order.iter().flat_map(|&node| [mapped[2 * node], mapped[2 * node + 1]]));
+            let mapped_step = map.apply_to_all(step);
+            list.extend(
+                order.iter().flat_map(|&node| [mapped_step[2 * node], mapped_step[2 * node + 1]]),
+            );
         }
         list
     };
@@ -156,10 +158,10 @@ fn elements_that_yield_turn_with_their_nodes() {
         let points = points(&mut random, node_count);
         let mut path = vec![vec![0.0; 2 * node_count]];
         for _ in 0..PATH_STEPS {
-            let last = &path[path.len() - 1];
-            path.push(last.iter().map(|u| u + random.within(-2e-3, 2e-3)).collect());
+            let last_displacement = &path[path.len() - 1];
+            path.push(last_displacement.iter().map(|u| u + random.within(-2e-3, 2e-3)).collect());
         }
-        // From another corner, and clockwise in a mirror, which reverses the order.
+        // The nodes begin at another corner; in a mirror, which reverses the order, they are clockwise.
         let first_corner = random.pick(&[0, 1, 2, 3]);
         let corner =
             |k: usize| if map.is_mirrored { first_corner + 4 - k } else { first_corner + k };
@@ -171,8 +173,13 @@ fn elements_that_yield_turn_with_their_nodes() {
         let image_path: Vec<Vec<f64>> = path
             .iter()
             .map(|displacement| {
-                let mapped = map.apply_to_all(displacement);
-                order.iter().flat_map(|&node| [mapped[2 * node], mapped[2 * node + 1]]).collect()
+                let mapped_displacement = map.apply_to_all(displacement);
+                order
+                    .iter()
+                    .flat_map(|&node| {
+                        [mapped_displacement[2 * node], mapped_displacement[2 * node + 1]]
+                    })
+                    .collect()
             })
             .collect();
         tally.scene(&[kind, if map.is_mirrored { "mirrored" } else { "turned" }]);

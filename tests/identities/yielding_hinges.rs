@@ -1,4 +1,4 @@
-//! GOAL: a hinge that yields is the same at any angle, seen in a mirror, and from its other side.
+//! GOAL: a hinge that yields has the same response at any angle, mirrored, and with its nodes exchanged.
 //! SCENE: single hinges of all kinds, with and without rigid arms, along random paths.
 //! REFERENCE: the hinge as it stands.
 
@@ -120,7 +120,7 @@ impl HingeCase {
 }
 
 /// Displacements of two nodes after a map, in the order of the element's nodes.
-fn mapped(values: &[f64], map: &SpaceMap, is_reversed: bool) -> Vec<f64> {
+fn mapped_displacements(values: &[f64], map: &SpaceMap, is_reversed: bool) -> Vec<f64> {
     let node_values = values.len() / 2;
     let mut nodes: Vec<Vec<f64>> = Vec::new();
     for node in values.chunks(node_values) {
@@ -162,8 +162,8 @@ fn hinges_that_yield_turn_with_their_nodes() {
         let order = if is_in_space { 12 } else { 6 };
         let mut path = vec![vec![0.0; order]];
         for _ in 0..PATH_STEPS {
-            let last = &path[path.len() - 1];
-            path.push(last.iter().map(|u| u + random.within(-4e-3, 4e-3)).collect());
+            let last_displacement = &path[path.len() - 1];
+            path.push(last_displacement.iter().map(|u| u + random.within(-4e-3, 4e-3)).collect());
         }
         let first = [2.0, -1.0, if is_in_space { 3.0 } else { 0.0 }];
         let second: [f64; 3] = std::array::from_fn(|k| first[k] + case.arm[k]);
@@ -172,9 +172,12 @@ fn hinges_that_yield_turn_with_their_nodes() {
             image_points.reverse();
         }
         let image_path: Vec<Vec<f64>> =
-            path.iter().map(|values| mapped(values, &map, is_reversed)).collect();
+            path.iter().map(|values| mapped_displacements(values, &map, is_reversed)).collect();
         let mapped_list = |values: &[f64]| -> Vec<f64> {
-            values.chunks(order).flat_map(|step| mapped(step, &map, is_reversed)).collect()
+            values
+                .chunks(order)
+                .flat_map(|step| mapped_displacements(step, &map, is_reversed))
+                .collect()
         };
         tally.scene(&[case.kind, if is_reversed { "other side" } else { "one side" }]);
         let results: [Result<PathResults>; 2] = [

@@ -44,20 +44,20 @@ proptest! {
 
     #[test]
     fn mirrored_record_gives_mirrored_response(strength in 0.2..0.8, mu in 0.1..0.8) {
-        let plain = rocking_states(SI_UNITS, strength, mu);
-        let mirrored = rocking_states(UnitFrame { mirrored: true, ..SI_UNITS }, strength, mu);
-        prop_assert!(plain.iter().any(|s| s.uplifted_fraction > 0.0 || s.value(Quantity::LargestSlip) > 1e-4));
+        let reference_states = rocking_states(SI_UNITS, strength, mu);
+        let mirrored_states = rocking_states(UnitFrame { mirrored: true, ..SI_UNITS }, strength, mu);
+        prop_assert!(reference_states.iter().any(|s| s.uplifted_fraction > 0.0 || s.value(Quantity::LargestSlip) > 1e-4));
         let signs = [-1.0, 1.0, -1.0];
         for (k, sign) in signs.into_iter().enumerate() {
-            let pairs = plain.iter().zip(&mirrored).map(|(a, b)| {
+            let pairs = reference_states.iter().zip(&mirrored_states).map(|(a, b)| {
                 (a.absolute_displacement()[k], sign * b.absolute_displacement()[k])
             });
             let error = relative_difference(pairs);
             prop_assert!(error < 1e-10, "degree of freedom {k}: {error:e}");
         }
-        let last = plain[0].contact.len() - 1;
-        let error = relative_difference(plain.iter().zip(&mirrored).flat_map(|(a, b)| {
-            (0..=last).map(|e| (a.contact[e].pressure, b.contact[last - e].pressure))
+        let last_index = reference_states[0].contact.len() - 1;
+        let error = relative_difference(reference_states.iter().zip(&mirrored_states).flat_map(|(a, b)| {
+            (0..=last_index).map(|e| (a.contact[e].pressure, b.contact[last_index - e].pressure))
         }));
         prop_assert!(error < 1e-8, "pressure: {error:e}");
     }
@@ -85,12 +85,12 @@ proptest! {
     fn bonded_responses_superpose(a in -2.0..2.0, b in -2.0..2.0) {
         let first = bonded_states(a);
         let second = bonded_states(b);
-        let both = bonded_states(a + b);
+        let states_of_the_sum = bonded_states(a + b);
         let mut pairs = Vec::new();
-        for (step, both) in both.iter().enumerate() {
+        for (step, states_of_the_sum) in states_of_the_sum.iter().enumerate() {
             let x = first[step].absolute_displacement();
             let y = second[step].absolute_displacement();
-            for (dof, z) in both.absolute_displacement().iter().enumerate() {
+            for (dof, z) in states_of_the_sum.absolute_displacement().iter().enumerate() {
                 pairs.push((x[dof] + y[dof], *z));
             }
         }
@@ -144,8 +144,11 @@ fn contact_conditions_hold_at_every_step() {
                 open_count += usize::from(mode == Mode::Open);
                 slip_count += usize::from(mode.is_slip());
             }
-            let dissipated = pair[1].energy_balance.contact - pair[0].energy_balance.contact;
-            assert!(dissipated >= -1e-14 * max_input, "friction {mu}: {dissipated:e} gained");
+            let dissipated_energy = pair[1].energy_balance.contact - pair[0].energy_balance.contact;
+            assert!(
+                dissipated_energy >= -1e-14 * max_input,
+                "friction {mu}: {dissipated_energy:e} gained"
+            );
         }
     }
     println!("{open_count} open and {slip_count} sliding element steps");
@@ -236,9 +239,9 @@ fn a_failed_step_leaves_the_state_unchanged() {
 }
 
 /// Changes the mode in every iteration once an element slides.
-fn never_converged(mode: Mode, start: &PreviousContact, next: Mode) -> Mode {
+fn never_converged(mode: Mode, start: &PreviousContact, next_mode: Mode) -> Mode {
     match mode {
-        _ if start.state.slip.abs() <= 1e-5 || next != mode => next,
+        _ if start.state.slip.abs() <= 1e-5 || next_mode != mode => next_mode,
         Mode::Stick => Mode::Open,
         _ => Mode::Stick,
     }

@@ -1,4 +1,4 @@
-//! GOAL: meshes from Gmsh are read, or refused with the line of the error.
+//! GOAL: meshes from Gmsh are read, or cause an error with its line.
 //! SCENE: the example of Gmsh's manual, partitions, second-order elements, damaged files, any
 //! bytes.
 //! REFERENCE: a layered block written and read back; typed errors.
@@ -134,8 +134,8 @@ fn matrices(model: &FemModel) -> [Vec<f64>; 2] {
 
 #[test]
 fn a_written_block_is_read_back() {
-    let soft = Material::new(1.0e9, 0.3, 1800.0).unwrap();
-    let layers = [Layer::new(1.0, 2, soft), Layer::new(1.0, 1, concrete())];
+    let soft_material = Material::new(1.0e9, 0.3, 1800.0).unwrap();
+    let layers = [Layer::new(1.0, 2, soft_material), Layer::new(1.0, 1, concrete())];
     let mesh = Mesh::graded_block(&[0.0, 0.3, 0.7, 1.0], &layers).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     let text = gmsh_text(model.mesh(), 6, &[0, 1, 2, 3]);
@@ -143,7 +143,7 @@ fn a_written_block_is_read_back() {
     // The upper surface is in an unnamed group of number 9 as well.
     assert_eq!(gmsh.surfaces(), ["9", "lower part", "upper"]);
     assert_eq!(gmsh.lines(), ["base"]);
-    let read_mesh = gmsh.mesh(&[("upper", concrete()), ("lower part", soft)]).unwrap();
+    let read_mesh = gmsh.mesh(&[("upper", concrete()), ("lower part", soft_material)]).unwrap();
     assert_eq!(read_mesh.nodes(), model.mesh().nodes());
     let read_model = FemModel::new(read_mesh, &gmsh.line("base").unwrap()).unwrap();
     assert_eq!(read_model.base(), model.base());
@@ -155,7 +155,7 @@ fn a_written_block_is_read_back() {
 }
 
 /// Line and cause of the error of `text`.
-pub(super) fn refusal(text: &str) -> (usize, FileFault) {
+pub(super) fn read_error(text: &str) -> (usize, FileFault) {
     match read(text) {
         Err(Error::File(FileError { file, line, fault })) if file == "test.msh" => (line, fault),
         other => panic!("{other:?}"),
@@ -163,29 +163,29 @@ pub(super) fn refusal(text: &str) -> (usize, FileFault) {
 }
 
 /// Line and cause of the error of the manual's example with `from` replaced by `to`.
-fn refusal_with(from: &str, to: &str) -> (usize, FileFault) {
-    refusal(&MANUAL_EXAMPLE.replacen(from, to, 1))
+fn error_with(from: &str, to: &str) -> (usize, FileFault) {
+    read_error(&MANUAL_EXAMPLE.replacen(from, to, 1))
 }
 
 #[test]
-fn invalid_files_are_refused_with_their_line() {
-    assert!(matches!(refusal_with("4.1 0 8", "4.0 0 8"), (2, FileFault::Format { .. })));
-    assert!(matches!(refusal_with("4.1 0 8", "4.1 1 8"), (2, FileFault::Missing { .. })));
-    assert!(matches!(refusal_with("4.1 0 8", "4.1 1 4"), (2, FileFault::Format { .. })));
-    assert!(matches!(refusal_with("2 1 3 2", "2 1 2 2"), (22, FileFault::Format { .. })));
-    assert_eq!(refusal_with("0. 1. 0.", "0. 1. 0.5"), (16, value("z of a node", "0.5", "0")));
-    assert_eq!(refusal_with("1. 1. 0.", "1. x 0."), (15, not_a_number("x")));
-    assert_eq!(refusal_with("1. 1. 0.", "1. nan 0."), (15, not_a_number("nan")));
-    assert!(matches!(refusal_with("2 2 5 6 3", "2 2 5 7 3"), (24, FileFault::Missing { .. })));
-    assert_eq!(refusal_with("\n6\n", "\n5\n"), (12, value("node 5", "given twice", "given once")));
-    assert!(matches!(refusal_with("$EndNodes", "$EndElements"), (19, FileFault::Missing { .. })));
-    let begin = value("field", "'Elements'", "the beginning of a section");
-    assert_eq!(refusal_with("$Elements", "Elements"), (20, begin));
-    assert!(matches!(refusal(""), (0, FileFault::Missing { .. })));
-    let long = value("length of the line", "65536 bytes or more", "less");
-    assert_eq!(refusal(&"1".repeat(100_000)), (1, long));
-    let truncated = refusal(&MANUAL_EXAMPLE[..MANUAL_EXAMPLE.find("2 2 5 6 3").unwrap()]);
-    assert!(matches!(truncated, (24, FileFault::Missing { .. })), "{truncated:?}");
+fn invalid_files_are_errors_with_their_line() {
+    assert!(matches!(error_with("4.1 0 8", "4.0 0 8"), (2, FileFault::Format { .. })));
+    assert!(matches!(error_with("4.1 0 8", "4.1 1 8"), (2, FileFault::Missing { .. })));
+    assert!(matches!(error_with("4.1 0 8", "4.1 1 4"), (2, FileFault::Format { .. })));
+    assert!(matches!(error_with("2 1 3 2", "2 1 2 2"), (22, FileFault::Format { .. })));
+    assert_eq!(error_with("0. 1. 0.", "0. 1. 0.5"), (16, value("z of a node", "0.5", "0")));
+    assert_eq!(error_with("1. 1. 0.", "1. x 0."), (15, not_a_number("x")));
+    assert_eq!(error_with("1. 1. 0.", "1. nan 0."), (15, not_a_number("nan")));
+    assert!(matches!(error_with("2 2 5 6 3", "2 2 5 7 3"), (24, FileFault::Missing { .. })));
+    assert_eq!(error_with("\n6\n", "\n5\n"), (12, value("node 5", "given twice", "given once")));
+    assert!(matches!(error_with("$EndNodes", "$EndElements"), (19, FileFault::Missing { .. })));
+    let missing_section = value("field", "'Elements'", "the beginning of a section");
+    assert_eq!(error_with("$Elements", "Elements"), (20, missing_section));
+    assert!(matches!(read_error(""), (0, FileFault::Missing { .. })));
+    let long_line = value("length of the line", "65536 bytes or more", "less");
+    assert_eq!(read_error(&"1".repeat(100_000)), (1, long_line));
+    let truncated_text = read_error(&MANUAL_EXAMPLE[..MANUAL_EXAMPLE.find("2 2 5 6 3").unwrap()]);
+    assert!(matches!(truncated_text, (24, FileFault::Missing { .. })), "{truncated_text:?}");
     let Err(Error::File(error)) = GmshMesh::read("no such file") else {
         panic!("there is a file")
     };
@@ -195,11 +195,14 @@ fn invalid_files_are_refused_with_their_line() {
 /// Editors may write a byte-order mark before the first line; anywhere else it is not a number.
 #[test]
 fn a_byte_order_mark_is_skipped() {
-    let marked = format!("\u{feff}{MANUAL_EXAMPLE}");
-    assert_eq!(read(&marked).unwrap(), read(MANUAL_EXAMPLE).unwrap());
-    // Line numbers are those without it.
-    assert_eq!(refusal(&marked.replacen("1. 1. 0.", "1. x 0.", 1)), (15, not_a_number("x")));
-    assert_eq!(refusal_with("1. 1. 0.", "\u{feff}1. 1. 0.").0, 15);
+    let text_with_mark = format!("\u{feff}{MANUAL_EXAMPLE}");
+    assert_eq!(read(&text_with_mark).unwrap(), read(MANUAL_EXAMPLE).unwrap());
+    // Line numbers are those of the text without the mark.
+    assert_eq!(
+        read_error(&text_with_mark.replacen("1. 1. 0.", "1. x 0.", 1)),
+        (15, not_a_number("x"))
+    );
+    assert_eq!(error_with("1. 1. 0.", "\u{feff}1. 1. 0.").0, 15);
 }
 
 /// The manual's example with `x` as the coordinate of its fifth node.
@@ -208,7 +211,7 @@ fn manual_with_coordinate(x: &str) -> String {
 }
 
 #[test]
-fn numbers_are_read_completely_or_refused() {
+fn numbers_are_read_completely_or_are_errors() {
     for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
         assert_eq!(
             read(&manual_with_coordinate(two)).unwrap(),
@@ -216,8 +219,13 @@ fn numbers_are_read_completely_or_refused() {
             "{two}"
         );
     }
-    for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1e999", "inf", "\u{2212}2", "2;", "**", "2/1"] {
-        assert_eq!(refusal(&manual_with_coordinate(bad)), (17, not_a_number(bad)));
+    for invalid_number in
+        ["2,0", "2.0m", "2D", "0x2", "2_0", "1e999", "inf", "\u{2212}2", "2;", "**", "2/1"]
+    {
+        assert_eq!(
+            read_error(&manual_with_coordinate(invalid_number)),
+            (17, not_a_number(invalid_number))
+        );
     }
 }
 
@@ -241,25 +249,25 @@ fn missing_groups_are_named() {
     assert!(gmsh.line("base").unwrap_err().to_string().contains("there is no line 'base'"));
     // A quadrilateral that crosses itself has an area of neither sign.
     let crossed_text = MANUAL_EXAMPLE.replacen("1 1 2 3 4", "1 1 3 2 4", 1);
-    let crossed = read(&crossed_text).unwrap();
-    let error = crossed.mesh(&[("", concrete())]).unwrap_err();
+    let crossed_mesh = read(&crossed_text).unwrap();
+    let error = crossed_mesh.mesh(&[("", concrete())]).unwrap_err();
     let Error::File(FileError { line, fault, .. }) = &error else {
         panic!("{error}")
     };
     let FileFault::Unusable(inside) = fault else { panic!("{error}") };
     assert!(matches!(&**inside, Error::Item { item, .. } if item == "element 1"), "{error}");
-    let refused_line = crossed_text.lines().nth(line - 1).unwrap();
-    assert_eq!(refused_line, "1 1 3 2 4");
+    let wrong_line = crossed_text.lines().nth(line - 1).unwrap();
+    assert_eq!(wrong_line, "1 1 3 2 4");
     assert!(error.to_string().contains(&format!("line {line}: element 1: ")), "{error}");
 }
 
 #[test]
 fn counts_must_be_those_announced() {
-    let nodes = refusal_with("1 6 1 6", "1 7 1 6");
+    let nodes = error_with("1 6 1 6", "1 7 1 6");
     assert_eq!(nodes, (18, count("nodes", 6, "7, as announced")));
-    let elements = refusal_with("1 2 1 2", "1 1 1 2");
+    let elements = error_with("1 2 1 2", "1 1 1 2");
     assert_eq!(elements, (24, count("elements", 2, "1, as announced")));
-    let kind = refusal_with("2 1 3 2", "2 1 10 2");
+    let kind = error_with("2 1 3 2", "2 1 10 2");
     assert!(kind.0 == 22 && kind.1.to_string().contains("SecondOrderIncomplete"), "{}", kind.1);
 }
 
@@ -279,8 +287,8 @@ fn rounding_of_z_is_ignored() {
 #[test]
 fn a_group_has_one_material() {
     let gmsh = read(MANUAL_EXAMPLE).unwrap();
-    let soft = Material::new(1.0e9, 0.2, 2400.0).unwrap();
-    let error = gmsh.mesh(&[("", concrete()), ("", soft)]).unwrap_err();
+    let soft_material = Material::new(1.0e9, 0.2, 2400.0).unwrap();
+    let error = gmsh.mesh(&[("", concrete()), ("", soft_material)]).unwrap_err();
     let Error::File(FileError { fault, .. }) = error else { panic!("{error}") };
     assert_eq!(fault, value("material of surface ''", "given twice", "given once"));
 }

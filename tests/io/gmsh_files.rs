@@ -50,13 +50,13 @@ fn elements_groups_and_lines_are_those_of_the_file() {
             let line: Vec<[f64; 2]> =
                 gmsh.line(line).unwrap().into_iter().map(|node| gmsh.nodes()[node]).collect();
             let first = line[0];
-            let last = line[line.len() - 1];
-            assert!((first[0] + 3.0).abs() < 1e-12 && (last[0] - 3.0).abs() < 1e-12);
+            let last_node = line[line.len() - 1];
+            assert!((first[0] + 3.0).abs() < 1e-12 && (last_node[0] - 3.0).abs() < 1e-12);
             assert!(line.iter().all(|node| (node[1] - height).abs() < 1e-12));
             assert!(line.windows(2).all(|pair| pair[1][0] - pair[0][0] > 0.1));
             assert!(line.len() > 16, "{}", line.len());
         }
-        // The whole base: no other node is as low.
+        // The line is the whole base: no other node is as low.
         assert_eq!(
             gmsh.line("base").unwrap(),
             model.mesh().nodes_at_height(0.0, 1e-9).unwrap(),
@@ -80,8 +80,8 @@ fn masses_and_energies_of_uniform_strain_are_exact() {
         let mut mass = Triplets::new(model.dofs());
         model.mass(&mut mass).unwrap();
         let expected = 2500.0 * 12.0 + 1800.0 * 18.0;
-        let found = dot(&translation, &product(&mass, &translation));
-        assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
+        let computed = dot(&translation, &product(&mass, &translation));
+        assert!((computed / expected - 1.0).abs() < 1e-9, "{name}: {computed}");
         // u_x = x: σ_xx ε_xx = λ + 2μ.
         let mut strain = vec![0.0; model.dofs()];
         for (node, [x, ..]) in model.mesh().nodes().iter().enumerate() {
@@ -90,8 +90,8 @@ fn masses_and_energies_of_uniform_strain_are_exact() {
         let expected =
             constrained_modulus(2.0e9, 0.25) * 12.0 + constrained_modulus(0.5e9, 0.3) * 18.0;
         let force = product(&stiffness(&model), &strain);
-        let found = dot(&strain, &force);
-        assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
+        let computed = dot(&strain, &force);
+        assert!((computed / expected - 1.0).abs() < 1e-9, "{name}: {computed}");
         for (node, &[x, y, _]) in model.mesh().nodes().iter().enumerate() {
             let inside = x.abs() < 2.99 && y > 0.01 && y < 4.99 && (y - 2.0).abs() > 0.01;
             if inside {
@@ -166,9 +166,12 @@ fn a_static_solution_is_that_of_the_layered_block() {
     let block = Mesh::layered_block(-3.0..3.0, 48, &layers).unwrap();
     let fine = compliance(&FemModel::on_base(block).unwrap());
     for ((name, _), tolerance) in GMSH_FILES.into_iter().zip([5e-3, 2e-3]) {
-        let found = compliance(&model(&file(name)));
-        println!("{name}: {found:.6e}, fine block {fine:.6e}, error {:.1e}", found / fine - 1.0);
-        assert!((found / fine - 1.0).abs() < tolerance, "{name}: {found} {fine}");
+        let computed = compliance(&model(&file(name)));
+        println!(
+            "{name}: {computed:.6e}, fine block {fine:.6e}, error {:.1e}",
+            computed / fine - 1.0
+        );
+        assert!((computed / fine - 1.0).abs() < tolerance, "{name}: {computed} {fine}");
     }
 }
 
@@ -184,9 +187,9 @@ fn a_curve_belongs_to_all_of_its_groups() {
     let gmsh = GmshMesh::read(&path).unwrap();
     assert_eq!(gmsh.lines(), ["base", "left half"]);
     for (name, count) in [("base", 7), ("left half", 3)] {
-        let found = line_coordinates(&gmsh, name);
-        assert_eq!(found.len(), count, "{name}");
-        for (k, x) in found.into_iter().enumerate() {
+        let computed = line_coordinates(&gmsh, name);
+        assert_eq!(computed.len(), count, "{name}");
+        for (k, x) in computed.into_iter().enumerate() {
             assert!((x - k as f64).abs() < 1e-9, "{name}: {x}");
         }
     }

@@ -1,4 +1,4 @@
-//! GOAL: versions 2.2 and 4.1 of Gmsh's format, as text and binary, contain the same mesh; damaged files are refused.
+//! GOAL: versions 2.2 and 4.1 of Gmsh's format, as text and binary, contain the same mesh; damaged files are errors.
 //! SCENE: files written by Gmsh 4.15 (`tests/data/gmsh/formats.py`): bricks, a wall of quadrilaterals in two groups, a
 //! wall of triangles, a column, a point; the example of the manual; files with any byte changed, cut anywhere.
 //! REFERENCE: the four forms of one mesh; places and volumes by hand.
@@ -51,10 +51,10 @@ fn all_forms_are_the_same_mesh() {
     for form in FILE_FORMS {
         let gmsh = read(&bytes(form)).unwrap();
         assert_eq!(gmsh.nodes().len(), first.nodes().len(), "{form}");
-        for (found, expected) in
+        for (computed, expected) in
             gmsh.nodes().as_flattened().iter().zip(first.nodes().as_flattened())
         {
-            assert!((found - expected).abs() < 1e-15, "{form}: {found} {expected}");
+            assert!((computed - expected).abs() < 1e-15, "{form}: {computed} {expected}");
         }
         for (dimension, group, count) in counts {
             let mut cells = gmsh.cells(dimension, group).unwrap();
@@ -68,9 +68,9 @@ fn all_forms_are_the_same_mesh() {
         }
         let head = gmsh.cells(0, "head").unwrap()[0][0];
         assert_eq!(gmsh.nodes()[head], [2.0, 1.0, 1.3]);
-        let found = stiffness(&model(&gmsh));
-        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
-            assert!((found - expected).abs() < 1e-12 * scale, "{form}: {found} {expected}");
+        let computed = stiffness(&model(&gmsh));
+        for (computed, expected) in computed.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((computed - expected).abs() < 1e-12 * scale, "{form}: {computed} {expected}");
         }
         assert_eq!(model(&gmsh).mesh().elements().len(), 4 + 12 + 2);
     }
@@ -106,34 +106,38 @@ fn the_example_of_the_manual_of_version_2_is_read() {
     }
 }
 
-/// A file that ends early is refused wherever it ends.
+/// A file that ends early is an error wherever it ends.
 #[test]
-fn files_that_end_early_are_refused() {
+fn files_that_end_early_are_errors() {
     for form in FILE_FORMS {
-        let all = bytes(form);
+        let file_bytes = bytes(form);
         let end = b"$EndElements";
-        let last = all.windows(end.len()).rposition(|part| part == end).unwrap() + end.len();
-        for length in 0..last {
-            match read(&all[..length]) {
+        let data_end =
+            file_bytes.windows(end.len()).rposition(|part| part == end).unwrap() + end.len();
+        for length in 0..data_end {
+            match read(&file_bytes[..length]) {
                 Err(Error::File(FileError { fault, .. })) => assert!(!fault.to_string().is_empty()),
                 other => panic!("{form} cut at {length}: {other:?}"),
             }
         }
-        assert!(read(&all[..last]).is_ok());
+        assert!(read(&file_bytes[..data_end]).is_ok());
     }
 }
 
-/// Counts larger than any file are refused when the file ends, without memory for them.
+/// Counts larger than any file are errors when the file ends, without memory for them.
 #[test]
-fn counts_beyond_the_file_are_refused() {
+fn counts_beyond_the_file_are_errors() {
     for (form, section) in
         [("binary41", "$Nodes\n"), ("binary41", "$Elements\n"), ("binary41", "$Entities\n")]
     {
-        let all = bytes(form);
-        let at = all.windows(section.len()).position(|part| part == section.as_bytes()).unwrap()
+        let file_bytes = bytes(form);
+        let at = file_bytes
+            .windows(section.len())
+            .position(|part| part == section.as_bytes())
+            .unwrap()
             + section.len();
         for word in 0..4 {
-            let mut changed = all.clone();
+            let mut changed = file_bytes.clone();
             changed[at + 8 * word..at + 8 * word + 8]
                 .copy_from_slice(&(u64::MAX - 1).to_le_bytes());
             // The smallest and the largest tag are not used.
@@ -154,7 +158,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn damaged_forms_are_read_or_refused(
+    fn damaged_forms_are_read_or_are_errors(
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {
@@ -185,8 +189,8 @@ fn nodes_of_a_file_are_merged() {
         $Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 1 0 0\n6 2 0 0\n7 2 1 0\n8 1.0000001 1 0\n$EndNodes\n\
         $Elements\n4\n1 3 2 9 1 1 2 3 4\n2 3 2 9 2 5 6 7 8\n3 1 2 7 1 1 2\n4 1 2 7 2 5 6\n$EndElements\n";
     let mut plane = GmshMesh::from_reader("squares.msh", text.as_bytes()).unwrap();
-    let separate = plane.nodes().len();
-    assert_eq!((plane.merge_nodes(1e-4).unwrap(), separate, plane.nodes().len()), (2, 8, 6));
+    let separate_count = plane.nodes().len();
+    assert_eq!((plane.merge_nodes(1e-4).unwrap(), separate_count, plane.nodes().len()), (2, 8, 6));
     assert_eq!(plane.line("7").unwrap().len(), 3);
     let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     assert_eq!(plane.mesh(&[("9", concrete)]).unwrap().nodes().len(), 6);
@@ -197,7 +201,7 @@ fn nodes_of_a_file_are_merged() {
     for tolerance in [1.2, -1.0] {
         assert!(space.merge_nodes(tolerance).is_err());
     }
-    let flat = text.replace("4 0 1 0\n", "4 0 0.00001 0\n");
-    let error = read(flat.as_bytes()).unwrap().merge_nodes(1e-4).unwrap_err();
+    let flat_text = text.replace("4 0 1 0\n", "4 0 0.00001 0\n");
+    let error = read(flat_text.as_bytes()).unwrap().merge_nodes(1e-4).unwrap_err();
     assert!(matches!(&error, Error::File(FileError { line: 17, .. })), "{error}");
 }

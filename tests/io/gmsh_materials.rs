@@ -96,20 +96,20 @@ fn elements_of_a_group_share_its_law() {
     let mesh = gmsh.unwrap().mesh(&[("clay", clay())]).unwrap();
     for [first, second] in [[0, 1], [2, 3]] {
         let elements: Vec<&dyn Element> = mesh.elements().collect();
-        let moved = elements[first].with_nodes(elements[second].nodes()).unwrap();
-        let moved: &dyn Any = moved.as_ref();
+        let moved_element = elements[first].with_nodes(elements[second].nodes()).unwrap();
+        let moved_element: &dyn Any = moved_element.as_ref();
         let is_shared = if first == 0 {
-            moved.downcast_ref() == Some(element::<Quad4>(&mesh, second))
+            moved_element.downcast_ref() == Some(element::<Quad4>(&mesh, second))
         } else {
-            moved.downcast_ref() == Some(element::<Quad8>(&mesh, second))
+            moved_element.downcast_ref() == Some(element::<Quad8>(&mesh, second))
         };
         assert!(is_shared, "elements {first} and {second}");
     }
 }
 
-/// GOAL: a formulation that no material that yields has is refused with the line of the element.
+/// GOAL: a formulation that materials that yield do not have is an error with the line of the element.
 #[test]
-fn formulations_of_elastic_materials_are_refused_for_others() {
+fn formulations_of_elastic_materials_are_errors_for_others() {
     let gmsh = read(ROW_OF_SQUARES).unwrap();
     let groups = [("clay", clay().into()), ("sand", sand().into()), ("wall", concrete().into())];
     let groups: [(&str, SharedMaterial); 3] = groups;

@@ -190,7 +190,7 @@ fn beams_have_their_section_and_orientation() {
         .collect();
     assert_eq!(column_elements.len(), 3);
     for (axis, moment) in [(0, 0.004), (1, 0.002)] {
-        let bent = forces(&mesh, column_elements.iter().copied(), |[_, _, z]| {
+        let bent_forces = forces(&mesh, column_elements.iter().copied(), |[_, _, z]| {
             let deflection = z * z * (9.0 - z) / 54.0;
             let slope = z * (6.0 - z) / 18.0;
             let mut displacement = [0.0; 6];
@@ -198,7 +198,7 @@ fn beams_have_their_section_and_orientation() {
             displacement[4 - axis] = if axis == 0 { slope } else { -slope };
             displacement
         });
-        let work = bent.work;
+        let work = bent_forces.work;
         let expected = 3.0 * 30.0e9 * moment / 27.0;
         assert!((work / expected - 1.0).abs() < 1e-12, "{axis}: {work} {expected}");
     }
@@ -277,47 +277,47 @@ fn fault<T: std::fmt::Debug>(result: basemat::Result<T>) -> (usize, FileFault) {
 }
 
 /// Line and text of the error of a part of a mesh.
-struct PartRefusal {
+struct PartError {
     line: usize,
     text: String,
 }
 
 /// Error of the mesh of `text` with these parts.
-fn refusal(text: &str, parts: &[(&str, GmshPart)]) -> PartRefusal {
+fn read_error(text: &str, parts: &[(&str, GmshPart)]) -> PartError {
     let (line, fault) = fault(read(text).unwrap().mesh(parts));
-    PartRefusal { line, text: fault.to_string() }
+    PartError { line, text: fault.to_string() }
 }
 
 #[test]
 fn inverted_bricks_are_reordered() {
     let mesh = read(BRICK_FILE).unwrap().mesh(&brick_parts()).unwrap();
-    let inverted = BRICK_FILE.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
-    let reordered = read(&inverted).unwrap().mesh(&brick_parts()).unwrap();
+    let inverted_brick = BRICK_FILE.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
+    let reordered_mesh = read(&inverted_brick).unwrap().mesh(&brick_parts()).unwrap();
     let last_nodes = mesh.elements().last().unwrap().nodes();
     assert_eq!(last_nodes, [0, 1, 2, 3, 4, 5, 6, 7]);
-    assert_eq!(reordered.elements().last().unwrap().nodes(), last_nodes);
+    assert_eq!(reordered_mesh.elements().last().unwrap().nodes(), last_nodes);
 }
 
 #[test]
 fn elements_need_one_part_unless_they_are_sides() {
     // The line on the edge needs no part.
     assert_eq!(read(BRICK_FILE).unwrap().mesh(&brick_parts()).unwrap().elements().len(), 3);
-    let PartRefusal { line, text } = refusal(BRICK_FILE, &brick_parts()[1..]);
+    let PartError { line, text } = read_error(BRICK_FILE, &brick_parts()[1..]);
     assert!(line == 43 && text.contains("part for line 1 of the group 'mast'"), "{line} {text}");
     let left_out = [&brick_parts()[1..], &[("mast", GmshPart::LeftOut)]].concat();
     assert_eq!(read(BRICK_FILE).unwrap().mesh(&left_out).unwrap().elements().len(), 2);
     // The slab is a face of the brick.
     let without_slab = [brick_parts()[0], brick_parts()[2]];
     assert_eq!(read(BRICK_FILE).unwrap().mesh(&without_slab).unwrap().elements().len(), 2);
-    let PartRefusal { line, text } = refusal(BRICK_FILE, &brick_parts()[..2]);
+    let PartError { line, text } = read_error(BRICK_FILE, &brick_parts()[..2]);
     assert!(line == 49 && text.contains("brick 4 of the group 'block'"), "{line} {text}");
     let two_groups = BRICK_FILE.replacen("2 2 1 1 3 0", "2 2 1 2 3 9 0", 1);
     let two = [&brick_parts()[..], &[("9", GmshPart::Shell(soft(), 0.1))]].concat();
-    let PartRefusal { line, text } = refusal(&two_groups, &two);
+    let PartError { line, text } = read_error(&two_groups, &two);
     assert!(line == 47 && text.contains("quadrilateral 3, in 'slab' and '9',"), "{text}");
-    let text = refusal(BRICK_FILE, &[&brick_parts()[..], &brick_parts()[..1]].concat()).text;
+    let text = read_error(BRICK_FILE, &[&brick_parts()[..], &brick_parts()[..1]].concat()).text;
     assert!(text.contains("part of group 'mast' is given twice"), "{text}");
-    let text = refusal(BRICK_FILE, &[("mast", GmshPart::Shell(concrete(), 0.2))]).text;
+    let text = read_error(BRICK_FILE, &[("mast", GmshPart::Shell(concrete(), 0.2))]).text;
     assert!(text.contains("there is no surface 'mast'"), "{text}");
     let reason = fault(read(BRICK_FILE).unwrap().cells(3, "slab")).1;
     assert!(reason.to_string().contains("volume 'slab'"));
@@ -330,20 +330,22 @@ fn invalid_elements_are_named_with_their_line() {
         brick_parts()[2],
         ("mast", GmshPart::Beam(concrete(), section(), Z_AXIS)),
     ];
-    let PartRefusal { line, text } = refusal(BRICK_FILE, &along);
+    let PartError { line, text } = read_error(BRICK_FILE, &along);
     assert!(line == 43 && text.starts_with("element 1: beam between nodes 4 and 8"), "{text}");
-    let crossed = BRICK_FILE.replacen("3 5 6 7 8", "3 5 7 6 8", 1);
-    let PartRefusal { line, text } = refusal(&crossed, &brick_parts());
+    let crossed_text = BRICK_FILE.replacen("3 5 6 7 8", "3 5 7 6 8", 1);
+    let PartError { line, text } = read_error(&crossed_text, &brick_parts());
     assert!(line == 47 && text.starts_with("element 3: shell"), "{text}");
-    let flat = BRICK_FILE.replacen("0 0 1\n", "0 0 -1\n", 1);
-    let PartRefusal { line, text } = refusal(&flat, &brick_parts());
+    let flat_text = BRICK_FILE.replacen("0 0 1\n", "0 0 -1\n", 1);
+    let PartError { line, text } = read_error(&flat_text, &brick_parts());
     assert!(line == 49 && text.starts_with("element 4: brick"), "{text}");
-    let thin = [brick_parts()[0], brick_parts()[2], ("slab", GmshPart::Shell(concrete(), 0.0))];
-    let PartRefusal { line, text } = refusal(BRICK_FILE, &thin);
+    let thin_parts =
+        [brick_parts()[0], brick_parts()[2], ("slab", GmshPart::Shell(concrete(), 0.0))];
+    let PartError { line, text } = read_error(BRICK_FILE, &thin_parts);
     assert!(line == 47 && text.contains("thickness of a shell is 0"), "{text}");
-    let twice = BRICK_FILE.replacen("2 1 3 1\n3 5 6 7 8", "2 1 3 2\n3 5 6 7 8\n9 7 8 5 6", 1);
+    let repeated_text =
+        BRICK_FILE.replacen("2 1 3 1\n3 5 6 7 8", "2 1 3 2\n3 5 6 7 8\n9 7 8 5 6", 1);
     let fault_of_twin = value("quadrilateral of nodes 7 8 5 6", "given twice", "given once");
-    assert_eq!(fault(read(&twice.replacen("4 4 1 4", "4 5 1 9", 1))), (48, fault_of_twin));
+    assert_eq!(fault(read(&repeated_text.replacen("4 4 1 4", "4 5 1 9", 1))), (48, fault_of_twin));
 }
 
 #[test]
@@ -357,9 +359,9 @@ fn unsupported_elements_are_named_and_counted() {
     ];
     for (kind, name, remedy) in kinds {
         let text = BRICK_FILE.replacen("3 1 5 1\n", &format!("3 1 {kind} 12\n"), 1);
-        let refusal = fault(read(&text));
-        let FileFault::Format { found, needed } = refusal.1 else { panic!() };
-        assert_eq!((refusal.0, &found[..]), (48, name));
+        let error = fault(read(&text));
+        let FileFault::Format { found, needed } = error.1 else { panic!() };
+        assert_eq!((error.0, &found[..]), (48, name));
         assert!(needed.ends_with(remedy), "{needed}");
     }
 }
@@ -376,9 +378,9 @@ fn brick_with_point(groups: &str) -> GmshSpaceMesh {
 #[test]
 fn points_of_groups_are_nodes() {
     assert_eq!(brick_with_point("0").nodes(), read(BRICK_FILE).unwrap().nodes());
-    let named = brick_with_point("1 6");
-    assert_eq!(named.nodes()[named.cells(0, "6").unwrap()[0][0]], [0.0, 0.0, -9.0]);
-    assert!(named.mesh(&brick_parts()).is_ok());
+    let pointed_mesh = brick_with_point("1 6");
+    assert_eq!(pointed_mesh.nodes()[pointed_mesh.cells(0, "6").unwrap()[0][0]], [0.0, 0.0, -9.0]);
+    assert!(pointed_mesh.mesh(&brick_parts()).is_ok());
 }
 
 proptest! {

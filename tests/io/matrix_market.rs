@@ -1,4 +1,4 @@
-//! GOAL: Matrix Market files keep every bit; invalid files are refused with line and cause.
+//! GOAL: Matrix Market files keep every bit; invalid files are errors with line and cause.
 //! SCENE: files of scipy, spellings in use, round trips, invalid files.
 //! REFERENCE: numbers that scipy and numpy give for the same files.
 
@@ -57,14 +57,14 @@ fn files_of_scipy_are_read_as_by_scipy() {
 #[test]
 fn round_trips_keep_every_bit() {
     let mut random = Random(5);
-    for symmetric in [false, true] {
+    for is_symmetric in [false, true] {
         let mut matrix = Triplets::new(40);
         for _ in 0..300 {
             let i = (random.bits() % 40) as usize;
             let j = (random.bits() % 40) as usize;
             let value = random.within(-1.0, 1.0) * random.log_within(1e-300, 1e300);
             matrix.add(i, j, value);
-            if symmetric && i != j {
+            if is_symmetric && i != j {
                 matrix.add(j, i, value);
             }
         }
@@ -72,14 +72,14 @@ fn round_trips_keep_every_bit() {
         let mut file = Vec::new();
         matrix.to_matrix_market("memory", &mut file).unwrap();
         let text = String::from_utf8(file).unwrap();
-        assert_eq!(text.lines().next().unwrap().ends_with("symmetric"), symmetric);
+        assert_eq!(text.lines().next().unwrap().ends_with("symmetric"), is_symmetric);
         assert!(text.lines().all(|line| !line.ends_with(" 0e0")), "zeros in the file");
-        let back = parse(&text).unwrap();
-        assert_eq!(dense(&back), dense(&matrix));
-        // And once more, byte by byte.
-        let mut again = Vec::new();
-        back.to_matrix_market("memory", &mut again).unwrap();
-        assert_eq!(again, text.as_bytes());
+        let matrix_read = parse(&text).unwrap();
+        assert_eq!(dense(&matrix_read), dense(&matrix));
+        // The matrix that was read is written again, byte by byte.
+        let mut text_written_again = Vec::new();
+        matrix_read.to_matrix_market("memory", &mut text_written_again).unwrap();
+        assert_eq!(text_written_again, text.as_bytes());
     }
 }
 
@@ -97,9 +97,9 @@ fn spellings_in_use_are_read() {
 #[test]
 fn a_byte_order_mark_is_skipped() {
     let text = "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 2.0\n";
-    let marked = format!("\u{feff}{text}");
-    assert_eq!(parse(&marked).unwrap(), parse(text).unwrap());
-    assert_eq!(parse(&marked.replace("2.0", "x")), Err(fault(3, not_a_number("x"))));
+    let text_with_mark = format!("\u{feff}{text}");
+    assert_eq!(parse(&text_with_mark).unwrap(), parse(text).unwrap());
+    assert_eq!(parse(&text_with_mark.replace("2.0", "x")), Err(fault(3, not_a_number("x"))));
     assert!(parse(&text.replace("2.0", "\u{feff}2.0")).is_err());
 }
 
@@ -109,21 +109,22 @@ fn file_of_one(value: &str) -> String {
 }
 
 #[test]
-fn numbers_are_read_completely_or_refused() {
+fn numbers_are_read_completely_or_are_errors() {
     for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
         assert_eq!(dense(&parse(&file_of_one(two)).unwrap()), [2.0], "{two}");
     }
-    for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1D999", "inf", "\u{2212}2", "2;", "**", "Dinf"]
+    for invalid_number in
+        ["2,0", "2.0m", "2D", "0x2", "2_0", "1D999", "inf", "\u{2212}2", "2;", "**", "Dinf"]
     {
-        let error = parse(&file_of_one(bad)).unwrap_err();
-        assert_eq!(error, fault(3, not_a_number(bad)), "{bad}");
+        let error = parse(&file_of_one(invalid_number)).unwrap_err();
+        assert_eq!(error, fault(3, not_a_number(invalid_number)), "{invalid_number}");
     }
-    for bad in ["1,0", "1.0", "1D0", "-1", "1e0"] {
-        let text = file_of_one("2").replace("1 1 2", &format!("{bad} 1 2"));
-        let not_whole = fault(3, not_whole(bad));
-        let not_index = fault(3, value("index", bad, "from 1 to 1"));
+    for invalid_number in ["1,0", "1.0", "1D0", "-1", "1e0"] {
+        let text = file_of_one("2").replace("1 1 2", &format!("{invalid_number} 1 2"));
+        let not_whole = fault(3, not_whole(invalid_number));
+        let not_index = fault(3, value("index", invalid_number, "from 1 to 1"));
         let error = parse(&text).unwrap_err();
-        assert!([not_whole, not_index].contains(&error), "{bad}: {error}");
+        assert!([not_whole, not_index].contains(&error), "{invalid_number}: {error}");
     }
 }
 
@@ -187,8 +188,8 @@ fn too_large(rows: f64, bytes: f64) -> FileFault {
 }
 
 #[test]
-fn invalid_files_are_refused_with_line_and_cause() {
-    let long = "1".repeat(70_000);
+fn invalid_files_are_errors_with_line_and_cause() {
+    let long_word = "1".repeat(70_000);
     for (text, line, reason) in [
         (String::new(), 0, FileFault::Missing { quantity: "header".into() }),
         ("1 2 3\n".into(), 1, wrong_header("1 2 3")),
@@ -233,7 +234,7 @@ fn invalid_files_are_refused_with_line_and_cause() {
         (array("2 2\n1\n2\n3\n"), 5, wrong_entries(3, 4)),
         (array("2 2\n1\n2\n3\n4\n5\n"), 7, wrong_entries(5, 4)),
         (array("2 2\n1 2\n"), 3, wrong_fields(2, "1")),
-        (coordinate(&long), 2, value("length of the line", "65536 bytes or more", "less")),
+        (coordinate(&long_word), 2, value("length of the line", "65536 bytes or more", "less")),
         (coordinate("\u{fffd}\n"), 2, wrong_fields(1, "3")),
     ] {
         assert_eq!(
@@ -243,34 +244,38 @@ fn invalid_files_are_refused_with_line_and_cause() {
             &text[..text.len().min(90)]
         );
     }
-    let missing = Triplets::read_matrix_market("/no/such/file.mtx").unwrap_err();
-    assert!(missing.to_string().starts_with("/no/such/file.mtx cannot be read"));
-    let nowhere = Triplets::new(1).write_matrix_market("/no/such/file.mtx").unwrap_err();
-    assert!(nowhere.to_string().contains("cannot be written"), "{nowhere}");
-    let mut bad = Triplets::new(1);
-    bad.add(0, 0, f64::NAN);
-    assert!(matches!(bad.to_matrix_market("m", Vec::new()), Err(Error::Input { .. })));
-    let mut bad = Triplets::new(1);
-    bad.add(0, 1, 1.0);
-    assert!(matches!(bad.to_matrix_market("m", Vec::new()), Err(Error::Index { .. })));
+    let error_of_a_missing_file = Triplets::read_matrix_market("/no/such/file.mtx").unwrap_err();
+    assert!(error_of_a_missing_file.to_string().starts_with("/no/such/file.mtx cannot be read"));
+    let error_of_a_missing_folder =
+        Triplets::new(1).write_matrix_market("/no/such/file.mtx").unwrap_err();
+    assert!(
+        error_of_a_missing_folder.to_string().contains("cannot be written"),
+        "{error_of_a_missing_folder}"
+    );
+    let mut invalid_matrix = Triplets::new(1);
+    invalid_matrix.add(0, 0, f64::NAN);
+    assert!(matches!(invalid_matrix.to_matrix_market("m", Vec::new()), Err(Error::Input { .. })));
+    let mut invalid_matrix = Triplets::new(1);
+    invalid_matrix.add(0, 1, 1.0);
+    assert!(matches!(invalid_matrix.to_matrix_market("m", Vec::new()), Err(Error::Index { .. })));
 }
 
 #[test]
 fn an_invalid_matrix_leaves_the_file_unchanged() {
     let path = std::env::temp_dir().join(format!("basemat_{}_kept.mtx", std::process::id()));
-    let mut good = Triplets::new(2);
-    good.add(0, 0, 1.0);
-    good.write_matrix_market(&path).unwrap();
-    let mut bad = Triplets::new(2);
-    bad.add(0, 2, 1.0);
-    assert!(matches!(bad.write_matrix_market(&path), Err(Error::Index { .. })));
-    let kept = Triplets::read_matrix_market(&path);
+    let mut matrix = Triplets::new(2);
+    matrix.add(0, 0, 1.0);
+    matrix.write_matrix_market(&path).unwrap();
+    let mut invalid_matrix = Triplets::new(2);
+    invalid_matrix.add(0, 2, 1.0);
+    assert!(matches!(invalid_matrix.write_matrix_market(&path), Err(Error::Index { .. })));
+    let kept_matrix = Triplets::read_matrix_market(&path);
     std::fs::remove_file(&path).unwrap();
-    assert_eq!(kept.unwrap(), good);
+    assert_eq!(kept_matrix.unwrap(), matrix);
 }
 
 #[test]
-fn orders_beyond_memory_are_refused() {
+fn orders_beyond_memory_are_errors() {
     for order in [100_000_001, usize::MAX - 1, usize::MAX] {
         let written = Triplets::new(order).to_matrix_market("huge", Vec::new());
         assert!(matches!(written, Err(Error::Memory(_))), "{order}");

@@ -25,14 +25,14 @@ fn folder(name: &str) -> PathBuf {
 
 /// Checks that tags are nested and closed; returns the arrays by name.
 pub(super) fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
-    let mut open: Vec<String> = Vec::new();
+    let mut open_tags: Vec<String> = Vec::new();
     let mut found = BTreeMap::new();
     for piece in xml.trim_start_matches("<?xml version=\"1.0\"?>").split('<').skip(1) {
         let (tag, text) = piece.split_once('>').expect("every < has its >");
         if let Some(closed) = tag.strip_prefix('/') {
-            assert_eq!(open.pop().as_deref(), Some(closed));
+            assert_eq!(open_tags.pop().as_deref(), Some(closed));
         } else if !tag.ends_with('/') {
-            open.push(tag.split_whitespace().next().unwrap().to_owned());
+            open_tags.push(tag.split_whitespace().next().unwrap().to_owned());
         }
         if tag.starts_with("DataArray") {
             let name = tag.split("Name=\"").nth(1).unwrap().split('"').next().unwrap();
@@ -42,7 +42,7 @@ pub(super) fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
             assert!(text.trim().is_empty(), "text in {tag}");
         }
     }
-    assert!(open.is_empty() && !found.is_empty());
+    assert!(open_tags.is_empty() && !found.is_empty());
     found
 }
 
@@ -110,28 +110,28 @@ fn a_series_has_the_recorded_states() {
         assert_eq!(base["pressure"], pressure);
         let gap: Vec<f64> = state.contact.iter().map(|c| c.gap).collect();
         assert_eq!(base["gap"], gap);
-        let open: Vec<bool> = base["mode"].iter().map(|&mode| mode == 3.0).collect();
+        let is_open: Vec<bool> = base["mode"].iter().map(|&mode| mode == 3.0).collect();
         let expected: Vec<bool> = state.modes.iter().map(|&mode| mode == Mode::Open).collect();
-        assert_eq!(open, expected);
+        assert_eq!(is_open, expected);
         assert_eq!(base["types"], vec![3.0; state.modes.len()]);
     }
 }
 
 #[test]
 fn deformed_shapes_move_as_their_structures() {
-    // A building rotates about the middle of its base; its floors sway relative to the base.
+    // A building rotates about the middle of its base; its floors drift relative to the base.
     let storeys = [Storey::new(3.0, 1e4, 1e7), Storey::new(4.0, 1e4, 1e7)];
     let building = ShearBuilding::new(10.0, 1e4, 1e5, &storeys).unwrap();
     let building = building.centered_at(7.0).unwrap();
     let shape = DeformedShape::of_building(&building).unwrap();
     assert_eq!(shape.points()[5].position, [12.0, 7.0]);
     assert_eq!(shape.cells().len(), 3 + 4);
-    let moved = shape.displacements(&[0.1, 0.2, 0.01, 0.3, 0.4]).unwrap();
-    for (found, expected) in moved[5].iter().zip([0.4, 0.2 + 0.05]) {
+    let displacements = shape.displacements(&[0.1, 0.2, 0.01, 0.3, 0.4]).unwrap();
+    for (found, expected) in displacements[5].iter().zip([0.4, 0.2 + 0.05]) {
         assert!((found - expected).abs() < 1e-15);
     }
-    assert_eq!(moved[0][0], 0.1);
-    assert_eq!(moved[2][0], 0.3);
+    assert_eq!(displacements[0][0], 0.1);
+    assert_eq!(displacements[2][0], 0.3);
 
     // Beams are lines, and a node without degrees of freedom does not move.
     let mut mesh = Mesh::new();
@@ -145,8 +145,8 @@ fn deformed_shapes_move_as_their_structures() {
     assert_eq!(shape.cells(), [[0, 1], [1, 2]]);
     let mut dofs = vec![0.0; 9];
     dofs[model.dof(1, Direction::Y).unwrap()] = 0.25;
-    let moved = shape.displacements(&dofs).unwrap();
-    assert_eq!(moved, [[0.0; 3], [0.0, 0.25, 0.0], [0.0; 3], [0.0; 3]]);
+    let displacements = shape.displacements(&dofs).unwrap();
+    assert_eq!(displacements, [[0.0; 3], [0.0, 0.25, 0.0], [0.0; 3], [0.0; 3]]);
 
     // Followers of a rigid link move with its node.
     let mut mesh = Mesh::new();
@@ -161,13 +161,14 @@ fn deformed_shapes_move_as_their_structures() {
     let model = FemModel::new(mesh, &edges).unwrap();
     let model = model.with_rigid_link(foot, &edges).unwrap();
     let shift = model.rigid_motion(Direction::X, [0.0; 3]);
-    let moved = DeformedShape::of_model(&model).displacements(&shift).unwrap();
-    assert_eq!(moved, [[1.0, 0.0, 0.0]; 4]);
+    let displacements = DeformedShape::of_model(&model).displacements(&shift).unwrap();
+    assert_eq!(displacements, [[1.0, 0.0, 0.0]; 4]);
 
     // A rigid rotation of a block keeps all distances, to second order.
     let shape = DeformedShape::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
-    let moved = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();
-    let moved_point = |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + moved[k][d]);
+    let displacements = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();
+    let moved_point =
+        |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + displacements[k][d]);
     let distance =
         (moved_point(0)[0] - moved_point(2)[0]).hypot(moved_point(0)[1] - moved_point(2)[1]);
     assert!((distance - 52.0_f64.sqrt()).abs() < 1e-9);
@@ -183,16 +184,16 @@ fn invalid_requests_are_errors() {
     }
     // More degrees of freedom than the run has.
     let point = ShapePoint { position: [0.0; 2], horizontal: 98.into(), ..ShapePoint::default() };
-    let other = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
-    let error = paraview::write_series(&folder, "a", &other, &time_series).unwrap_err();
+    let other_shape = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
+    let error = paraview::write_series(&folder, "a", &other_shape, &time_series).unwrap_err();
     assert!(matches!(error, Error::Index { index: 98, bound: 98, .. }));
     let simulation = scene(SI_UNITS, 0.6)
         .structure(block(SI_UNITS))
         .interface(friction(0.3))
         .build()
         .unwrap();
-    let without = Recorder::new().start(&simulation).unwrap();
-    let error = paraview::write_series(&folder, "a", &shape, &without).unwrap_err();
+    let series_without_frames = Recorder::new().start(&simulation).unwrap();
+    let error = paraview::write_series(&folder, "a", &shape, &series_without_frames).unwrap_err();
     assert!(matches!(error, Error::Scene { .. }));
     // A folder that cannot be created.
     std::fs::create_dir_all(&folder).unwrap();
@@ -205,7 +206,7 @@ fn invalid_requests_are_errors() {
     assert!(DeformedShape::new(vec![point.clone()], vec![vec![0, 1]]).is_err());
     let nan = ShapePoint { position: [f64::NAN, 0.0], ..point.clone() };
     assert!(DeformedShape::new(vec![nan], vec![]).is_err());
-    let infinite = ShapePoint { vertical: (0, f64::INFINITY).into(), ..point };
-    assert!(DeformedShape::new(vec![infinite], vec![]).is_err());
+    let infinite_point = ShapePoint { vertical: (0, f64::INFINITY).into(), ..point };
+    assert!(DeformedShape::new(vec![infinite_point], vec![]).is_err());
     assert!(DeformedShape::of_block(&block(SI_UNITS), 0.0).is_err());
 }

@@ -110,14 +110,14 @@ fn states_of_yielding_solids_are_cell_data() {
     assert!((5e-3..1e-2).contains(&state.plastic_strain), "{state:?}");
     assert!((0.5..1.0).contains(&state.mobilised_strength), "{state:?}");
     assert_eq!(arrays["displacement"].len(), 3 * model.mesh().nodes().len());
-    let linear = FemModel::on_base(
+    let linear_model = FemModel::on_base(
         Mesh::quad8_block(&[0.0, 1.0], &[0.0, 1.0], |_, _| concrete.clone()).unwrap(),
     );
-    let error = paraview::write_solid_state(&path, &linear.unwrap(), &dofs).unwrap_err();
+    let error = paraview::write_solid_state(&path, &linear_model.unwrap(), &dofs).unwrap_err();
     assert!(matches!(error, Error::Scene { .. }), "{error}");
 }
 
-/// What a grid must hold.
+/// Expected values of a grid.
 struct ExpectedGrid {
     time: f64,
     /// Plastic strain and mobilised strength of each cell.
@@ -131,7 +131,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |max: f64, value| max.max(value.abs()))
 }
 
-/// Block of clay beside a column of concrete, whose state a series holds at several times.
+/// Block of clay beside a column of concrete, whose states a series contains at several times.
 fn grids_of_a_run(folder: &Path) -> Vec<ExpectedGrid> {
     let clay = SharedMaterial::from(Iwan::hyperbolic(20.0e6, 25.0e3, 0.4, 0.45, 1900.0).unwrap());
     let concrete = SharedMaterial::from(Material::new(30.0e9, 0.2, 2400.0).unwrap());
@@ -177,7 +177,7 @@ fn grids_of_a_run(folder: &Path) -> Vec<ExpectedGrid> {
     expected
 }
 
-/// GOAL: the grids of a run hold the state of every time, and the collection lists them.
+/// GOAL: the grids of a run contain the state of every time, and the collection lists them.
 #[test]
 fn states_of_soil_that_yields_are_a_series() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vtk_solid_series");
@@ -233,8 +233,8 @@ fn assert_cells(grid: &BTreeMap<String, Vec<f64>>, model: &FemModel) {
             assert_eq!(between(&corners, k, k + 4), between(&corners, 0, 4));
         }
     }
-    let others = [6, 7, 10, 9, 6, 7, 13, 12, 7, 8, 13, 9, 14, 15, 6, 7, 9, 16, 6, 16];
-    assert_eq!(cells[16..], others);
+    let other_cells = [6, 7, 10, 9, 6, 7, 13, 12, 7, 8, 13, 9, 14, 15, 6, 7, 9, 16, 6, 16];
+    assert_eq!(cells[16..], other_cells);
 }
 
 #[test]
@@ -268,9 +268,9 @@ fn models_in_space_are_written_as_cells() {
         assert!(values.iter().any(|value| value.abs() > 1e-6), "{name}");
         let component = |node, direction| values[model.dof(node, direction).unwrap()];
         for node in (0..17).filter(|node| *node != 15) {
-            let moved = [Direction::X, Direction::Y, Direction::Z]
+            let displacements = [Direction::X, Direction::Y, Direction::Z]
                 .map(|direction| component(node, direction));
-            assert_eq!(grid[name][3 * node..3 * node + 3], moved, "{name} {node}");
+            assert_eq!(grid[name][3 * node..3 * node + 3], displacements, "{name} {node}");
         }
         let u = component(14, Direction::X);
         let v = component(14, Direction::Y);
@@ -289,9 +289,9 @@ fn models_in_space_are_written_as_cells() {
 
     // One state alone.
     paraview::write_state(folder.join("rest.vtu"), &shape, &rest).unwrap();
-    let alone = grid_of(&folder, "rest.vtu");
-    assert_eq!(alone["displacement"], grid["static_displacement"]);
-    assert_eq!(alone["connectivity"], grid["connectivity"]);
-    let short = paraview::write_state(folder.join("no.vtu"), &shape, &rest[..10]);
-    assert!(matches!(short, Err(Error::Index { .. })), "{short:?}");
+    let single_grid = grid_of(&folder, "rest.vtu");
+    assert_eq!(single_grid["displacement"], grid["static_displacement"]);
+    assert_eq!(single_grid["connectivity"], grid["connectivity"]);
+    let result = paraview::write_state(folder.join("no.vtu"), &shape, &rest[..10]);
+    assert!(matches!(result, Err(Error::Index { .. })), "{result:?}");
 }

@@ -34,12 +34,12 @@ fn a_resumed_run_has_the_same_bits() -> Result<()> {
     let mut series = Recorder::new().start(&simulation)?;
     let run = simulation.run(600, |state| series.record(state))?;
     assert!(run.energy_error < 1e-9, "{}", run.energy_error);
-    let saved = simulation.checkpoint()?;
+    let checkpoint = simulation.checkpoint()?;
     simulation.run(400, |state| series.record(state))?;
-    let mut other = block_on_wall(4)?.build()?;
-    other.resume(&saved)?;
-    other.run(400, |_| {})?;
-    assert_eq!(other.state(), simulation.state());
+    let mut other_simulation = block_on_wall(4)?.build()?;
+    other_simulation.resume(&checkpoint)?;
+    other_simulation.run(400, |_| {})?;
+    assert_eq!(other_simulation.state(), simulation.state());
 
     let state = &simulation.state().joints[0];
     println!("{state:?}");
@@ -58,7 +58,7 @@ fn a_resumed_run_has_the_same_bits() -> Result<()> {
             && state.contact_energy <= balance.contact + 1e-9 * balance.largest
     );
     // Another number of elements is another scene.
-    assert!(block_on_wall(3)?.build()?.resume(&saved).is_err());
+    assert!(block_on_wall(3)?.build()?.resume(&checkpoint).is_err());
     Ok(())
 }
 
@@ -91,8 +91,11 @@ fn frames_and_envelopes_of_a_joint_follow_its_elements() -> Result<()> {
     for (element, envelope) in envelopes.iter().enumerate() {
         let contact = states.iter().map(|state| &state.joints[0].contact[element]);
         let largest_gap = contact.clone().fold(0.0, |max: f64, contact| max.max(contact.gap));
-        let highest = contact.fold(f64::MIN, |max, contact| max.max(contact.pressure));
-        assert_eq!((envelope.gap.value, envelope.pressure.highest.value), (largest_gap, highest));
+        let max_pressure = contact.fold(f64::MIN, |max, contact| max.max(contact.pressure));
+        assert_eq!(
+            (envelope.gap.value, envelope.pressure.highest.value),
+            (largest_gap, max_pressure)
+        );
         let is_open = |state: &&State| !state.joints[0].modes[element].is_closed();
         let open_time = 0.005 * states[1..].iter().filter(is_open).count() as f64;
         assert!((envelope.open - open_time).abs() < 1e-9, "{} of {open_time}", envelope.open);
@@ -111,9 +114,9 @@ fn frames_and_envelopes_of_a_joint_follow_its_elements() -> Result<()> {
     assert!(series.joint_frames(1).is_err() && run.joint_envelope_csv(1).is_err());
 
     let text = serde_json::to_string(&series).unwrap();
-    let read: TimeSeries = serde_json::from_str(&text).unwrap();
-    assert_eq!(read.joint_frames(0)?.collect::<Vec<_>>(), frames);
-    assert_eq!(read.bytes(), series.bytes());
+    let series_read: TimeSeries = serde_json::from_str(&text).unwrap();
+    assert_eq!(series_read.joint_frames(0)?.collect::<Vec<_>>(), frames);
+    assert_eq!(series_read.bytes(), series.bytes());
     Ok(())
 }
 

@@ -104,14 +104,14 @@ fn a_released_frame_has_the_quarter_period_of_one_column() -> Result<()> {
             .gravity_stage(GravityStage::Unloaded)
             .build()?;
         let expected = (1.0 / (1.0 - tilt / alpha)).acosh() / rate(mass_ratio);
-        let mut previous = tilt;
+        let mut previous_tilt = tilt;
         let quarter = loop {
             let state = simulation.step()?;
             let rotation = state.displacement()[2];
             if rotation <= 0.0 || state.time > 2.0 * expected {
-                break state.time - step * rotation / (rotation - previous);
+                break state.time - step * rotation / (rotation - previous_tilt);
             }
-            previous = rotation;
+            previous_tilt = rotation;
         };
         println!(
             "N = {columns}, γ = {mass_ratio}: {quarter} s of {expected} s, {:e}",

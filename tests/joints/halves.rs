@@ -70,8 +70,8 @@ fn responses(is_cut: bool) -> Result<[Vec<f64>; 2]> {
 /// REFERENCE: the column without a cut.
 #[test]
 fn a_bonded_joint_does_not_change_a_column() -> Result<()> {
-    let whole = responses(false)?;
+    let responses_of_whole_column = responses(false)?;
     let cut = responses(true)?;
-    assert_same_responses(&whole, &cut, 1e-9);
+    assert_same_responses(&responses_of_whole_column, &cut, 1e-9);
     Ok(())
 }

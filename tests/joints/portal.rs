@@ -91,15 +91,16 @@ fn responses(
     Ok(responses)
 }
 
-/// The beam touches no ground: it moves with the mean of both foundations' grounds, which differ under the wave.
+/// The beam does not stand on the ground: it moves with the mean of both foundations' grounds, which differ under the
+/// wave.
 ///
 /// REFERENCE: the portal without joints.
 #[test]
 fn bonded_joints_do_not_change_a_portal_under_a_travelling_wave() -> Result<()> {
     let wave = || TravellingWave::new(el_centro_1940(), 300.0, -6.0);
-    let whole = responses(false, wave()?, Coordinates::Physical)?;
+    let responses_of_whole_portal = responses(false, wave()?, Coordinates::Physical)?;
     let cut = responses(true, wave()?, Coordinates::Physical)?;
-    assert_same_responses(&whole, &cut, 1e-7);
+    assert_same_responses(&responses_of_whole_portal, &cut, 1e-7);
     Ok(())
 }
 
@@ -108,7 +109,11 @@ fn bonded_joints_do_not_change_a_portal_under_a_travelling_wave() -> Result<()> 
 fn a_portal_with_joints_moves_the_same_in_modes() -> Result<()> {
     let physical = responses(true, el_centro_1940(), Coordinates::Physical)?;
     assert_same_responses(&physical, &responses(true, el_centro_1940(), Coordinates::Modes)?, 1e-7);
-    let reduced = Coordinates::Reduced { tolerance: 1e-5 };
-    assert_same_responses(&physical, &responses(true, el_centro_1940(), reduced)?, 1e-3);
+    let reduced_coordinates = Coordinates::Reduced { tolerance: 1e-5 };
+    assert_same_responses(
+        &physical,
+        &responses(true, el_centro_1940(), reduced_coordinates)?,
+        1e-3,
+    );
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Scenes with joints that are refused.
+//! Scenes with joints that are errors.
 
 use basemat::bem::SpringGround;
 use basemat::coupled::Joint;
@@ -20,14 +20,14 @@ fn line(points: &[[f64; 2]]) -> Vec<BaseNode> {
 #[test]
 fn lines_that_are_not_opposite_each_other() {
     let upper = || line(&[[-1.0, 2.0], [1.0, 2.0]]);
-    let is_refused = |points: &[[f64; 2]]| {
+    let is_error = |points: &[[f64; 2]]| {
         matches!(Joint::between(upper(), line(points), 4), Err(Error::Input { .. }))
     };
     assert!(Joint::between(upper(), line(&[[-1.0, 2.0], [1.0, 2.0]]), 4).is_ok());
-    assert!(is_refused(&[[1.0, 2.0], [-1.0, 2.0]]), "the other sense");
-    assert!(is_refused(&[[1.0, 2.0], [3.0, 2.0]]), "beside");
-    assert!(is_refused(&[[-1.0, 2.0], [1.0, 2.5]]), "not parallel");
-    assert!(is_refused(&[[-1.0, 2.0], [f64::NAN, 2.0]]), "not finite");
+    assert!(is_error(&[[1.0, 2.0], [-1.0, 2.0]]), "the other sense");
+    assert!(is_error(&[[1.0, 2.0], [3.0, 2.0]]), "beside");
+    assert!(is_error(&[[-1.0, 2.0], [1.0, 2.5]]), "not parallel");
+    assert!(is_error(&[[-1.0, 2.0], [f64::NAN, 2.0]]), "not finite");
     assert!(matches!(Joint::between(upper(), line(&[[0.0, 2.0]]), 4), Err(Error::Size { .. })));
     assert!(matches!(Joint::between(upper(), upper(), 0), Err(Error::Size { .. })));
     let joint = Joint::between(upper(), upper(), 4).unwrap();
@@ -93,7 +93,7 @@ fn scenes_without_support_or_in_plan() -> Result<()> {
     let nodes =
         |member: usize, nodes: &Vec<BaseNode>| group()?.contact_nodes(member, nodes.clone());
     let first = || Joint::between(nodes(1, &bottom)?, nodes(0, &top)?, 2);
-    // Nothing holds the third block.
+    // The third block has no connection.
     assert!(scene(vec![first()?]).is_err());
     // The third block stands on itself.
     let self_joint = Joint::between(nodes(2, &bottom)?, nodes(2, &bottom)?, 2)?;
@@ -102,18 +102,18 @@ fn scenes_without_support_or_in_plan() -> Result<()> {
         Err(Error::Scene { quantity: "joints", .. })
     ));
     // A side with nodes of two blocks.
-    let mixed = vec![nodes(1, &bottom)?[0].clone(), nodes(2, &bottom)?[1].clone()];
-    let mixed = mixed.into_iter().map(|node| BaseNode { z: 2.0, ..node }).collect();
-    let mixed = Joint::between(mixed, nodes(0, &top)?, 2)?;
+    let mixed_side = vec![nodes(1, &bottom)?[0].clone(), nodes(2, &bottom)?[1].clone()];
+    let mixed_side = mixed_side.into_iter().map(|node| BaseNode { z: 2.0, ..node }).collect();
+    let mixed_side = Joint::between(mixed_side, nodes(0, &top)?, 2)?;
     let second = Joint::between(nodes(2, &bottom)?, nodes(1, &upper_top)?, 2)?;
     assert!(matches!(
-        scene(vec![first()?, second, mixed]),
+        scene(vec![first()?, second, mixed_side]),
         Err(Error::Scene { quantity: "joint", .. })
     ));
     // A degree of freedom that does not exist.
-    let missing = vec![BaseNode::free(-1.0, 90, 91), BaseNode::free(1.0, 92, 93)];
-    assert!(scene(vec![Joint::between(missing.clone(), missing, 2)?]).is_err());
-    // A list of laws of the wrong length, and none.
+    let missing_dofs = vec![BaseNode::free(-1.0, 90, 91), BaseNode::free(1.0, 92, 93)];
+    assert!(scene(vec![Joint::between(missing_dofs.clone(), missing_dofs, 2)?]).is_err());
+    // A list of laws that is empty or has the wrong length.
     assert!(scene(vec![first()?.with_laws(Vec::new())]).is_err());
     // A gap that a bonded joint would close.
     let second = || Joint::between(nodes(2, &bottom)?, nodes(1, &upper_top)?, 2);

@@ -13,7 +13,7 @@ use basemat::{Result, Simulation};
 
 use super::assert_same_responses;
 
-/// Stiffness of the ground per area, Pa/m: as good as hard after all impacts.
+/// Stiffness of the ground per area, Pa/m: with no effect on the response after all impacts.
 const GROUND_STIFFNESS: f64 = 1e21;
 const ELEMENT_COUNT: usize = 8;
 const FRICTION_COEFFICIENT: f64 = 0.45;

@@ -31,12 +31,12 @@ impl SlidingBlocks {
             FRICTION_COEFFICIENTS[0] * total_weight,
             FRICTION_COEFFICIENTS[1] * upper_mass * STANDARD_GRAVITY,
         ];
-        let relative = [self.velocities[0], self.velocities[1] - self.velocities[0]];
+        let relative_velocities = [self.velocities[0], self.velocities[1] - self.velocities[0]];
         let sense = |velocity: f64| if velocity == 0.0 { None } else { Some(velocity.signum()) };
         let forces = |base_force: f64, upper_force: f64| {
             [(base_force - upper_force) / lower_mass - ground, upper_force / upper_mass - ground]
         };
-        match relative.map(sense) {
+        match relative_velocities.map(sense) {
             [Some(base), Some(upper)] => forces(-base * limits[0], -upper * limits[1]),
             [Some(base), None] => {
                 let common = -base * limits[0] / (lower_mass + upper_mass);
@@ -84,20 +84,20 @@ impl SlidingBlocks {
     fn advance(&mut self, mut duration: f64, ground: f64) {
         while duration > 0.0 {
             let accelerations = self.accelerations(ground);
-            let relative = [self.velocities[0], self.velocities[1] - self.velocities[0]];
+            let relative_velocities = [self.velocities[0], self.velocities[1] - self.velocities[0]];
             let rates = [accelerations[0], accelerations[1] - accelerations[0]];
             // Time until the first relative velocity vanishes.
             let mut step = duration;
             let mut stopping = None;
             for k in 0..2 {
-                let time = -relative[k] / rates[k];
-                if relative[k] != 0.0 && time > 0.0 && time <= step {
+                let time = -relative_velocities[k] / rates[k];
+                if relative_velocities[k] != 0.0 && time > 0.0 && time <= step {
                     step = time;
                     stopping = Some(k);
                 }
             }
             for k in 0..2 {
-                self.slips[k] += relative[k] * step + 0.5 * rates[k] * step * step;
+                self.slips[k] += relative_velocities[k] * step + 0.5 * rates[k] * step * step;
             }
             for (velocity, acceleration) in self.velocities.iter_mut().zip(accelerations) {
                 *velocity += acceleration * step;
@@ -107,11 +107,11 @@ impl SlidingBlocks {
                 Some(_) => self.velocities[1] = self.velocities[0],
                 None => {}
             }
-            // A block that sticks keeps exactly the velocity of what it stands on.
-            if relative[0] == 0.0 && rates[0] == 0.0 {
+            // A block that sticks has exactly the velocity of the block or ground under it.
+            if relative_velocities[0] == 0.0 && rates[0] == 0.0 {
                 self.velocities[0] = 0.0;
             }
-            if relative[1] == 0.0 && rates[1] == 0.0 {
+            if relative_velocities[1] == 0.0 && rates[1] == 0.0 {
                 self.velocities[1] = self.velocities[0];
             }
             duration -= step;

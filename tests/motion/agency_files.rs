@@ -8,7 +8,7 @@ use basemat::motion::{
 };
 use basemat_problems::faults::{is_contradiction, is_unprocessed, value};
 
-use super::{GRAVITY_UNIT, SI_UNIT, STANDARD_GRAVITY, error_at, read, refusal};
+use super::{GRAVITY_UNIT, SI_UNIT, STANDARD_GRAVITY, error_at, error_in, read};
 
 /// Samples of the short files of CESMD, repeated.
 const SHORT_FILE_SAMPLES: [f64; 8] = [0.0, 12.5, -30.25, 44.0, -8.75, 3.0, 1.5, 0.0];
@@ -131,7 +131,7 @@ fn components_of_a_station_are_read_at_once() {
     let single = read_all("esm_hne.asc", &EsmFormat);
     assert_eq!((single.len(), single[0].0.as_str()), (1, "HNE"));
     for component in [0, 4] {
-        let error = refusal(&bytes("afad_three.txt"), &AfadFormat { component });
+        let error = error_in(&bytes("afad_three.txt"), &AfadFormat { component });
         assert_eq!(
             error.fault,
             value("requested component", &component.to_string(), "from 1 to 3")
@@ -155,11 +155,11 @@ fn repeated(repetitions: usize, factor: f64) -> impl Iterator<Item = f64> {
 fn cosmos_files_have_the_interval_of_their_data() {
     let format = CosmosFormat::default();
     assert_file("cosmos_interval_5ms.v2c", &format, 0.005, repeated(50, 0.01));
-    let error = refusal(&bytes("cosmos_counts.v0c"), &format);
+    let error = error_in(&bytes("cosmos_counts.v0c"), &format);
     assert!(error.line == 44 && is_unprocessed(&error.fault), "{error}");
     assert!(error.fault.to_string().contains("raw counts"), "{error}");
 
-    // If the interval of the data is unknown, the recorder's counts. A contradicting duration is refused.
+    // If the interval of the data is unknown, the recorder's counts. A contradicting duration is an error.
     let text = String::from_utf8(bytes("cosmos_interval_5ms.v2c")).unwrap();
     let recorder = text.replace("     5.000000  -999", "  -999.000000  -999");
     assert_eq!(read(&recorder, &format).unwrap().time_step(), 0.005);
@@ -170,7 +170,7 @@ fn cosmos_files_have_the_interval_of_their_data() {
         ("     5.000000  -999.000000", "     5.000000     4.000000"),
     ] {
         assert!(text.contains(from));
-        let error = refusal(&text.replace(from, to), &format);
+        let error = error_in(&text.replace(from, to), &format);
         assert!(is_contradiction(&error.fault), "{to}: {error}");
     }
 }
@@ -203,7 +203,7 @@ fn short_files_of_other_agencies_are_read() {
     assert_file("afad.txt", &afad, 0.005, second.into_iter());
     for name in ["esm.asc", "afad.txt"] {
         for format in [columns, single] {
-            let error = refusal(&bytes(name), &format);
+            let error = error_in(&bytes(name), &format);
             assert!(
                 error.line == 2 && error.fault.to_string().contains("more than one line of header")
             );
@@ -212,17 +212,17 @@ fn short_files_of_other_agencies_are_read() {
     }
 }
 
-/// GOAL: times rounded too coarsely for a time step are refused; the error names `time_step`.
+/// GOAL: times rounded too coarsely for a time step are errors; the error names `time_step`.
 #[test]
-fn times_that_are_rounded_too_coarsely_are_refused() {
+fn times_that_are_rounded_too_coarsely_are_errors() {
     let columns = ColumnFormat::new(SI_UNIT);
-    let error = refusal(&bytes("rounded128.csv"), &columns);
+    let error = error_in(&bytes("rounded128.csv"), &columns);
     assert!(error.line == 5 && error.fault.to_string().contains("`time_step`"), "{error}");
     let with_step = ColumnFormat { time_step: Some(1.0 / 128.0), ..columns };
     // 200 samples a second, printed to 10 ms.
     let text = "0.00 1\n0.01 2\n0.01 3\n0.02 4\n0.02 5\n";
     let needed = "stated (`time_step`): times rounded to 0.01 s do not show it";
-    assert_eq!(refusal(text, &columns), error_at(3, value("time step", "near 0.005 s", needed)));
+    assert_eq!(error_in(text, &columns), error_at(3, value("time step", "near 0.005 s", needed)));
     let expected = (0..200).map(|k| f64::from(k % 5));
     assert_file("rounded128.csv", &with_step, 1.0 / 128.0, expected);
 }

@@ -1,4 +1,4 @@
-//! GOAL: values along lines are all read, or refused with a line; no column of them is taken for the record.
+//! GOAL: values along lines are all read, or cause an error with a line; no column of them is taken for the record.
 //! SCENE: eight values on a line with and without a lost value, cards of SHAKE, lists of samples, tables.
 //! REFERENCE: the words of the files, counted and converted here one by one.
 
@@ -11,7 +11,7 @@ use basemat::motion::{
 use basemat_problems::faults::{count, is_unprocessed};
 
 use super::agency_files::{bytes, path};
-use super::{GRAVITY_UNIT, STANDARD_GRAVITY, error_at, read, refusal};
+use super::{GRAVITY_UNIT, STANDARD_GRAVITY, error_at, error_in, read};
 
 /// Values along the lines, in g, every 10 ms.
 fn along_lines_in_g() -> AlongLinesFormat {
@@ -67,7 +67,7 @@ fn all_values_of_a_line_are_read() {
     }
 }
 
-/// GOAL: a column of a series along lines, an eighth of the record, is refused.
+/// GOAL: a column of a series along lines, an eighth of the record, is an error.
 #[test]
 fn no_column_of_a_series_is_read() {
     for name in ["eight_per_line.txt", "shake91.acc"] {
@@ -76,10 +76,10 @@ fn no_column_of_a_series_is_read() {
             assert!(read(&bytes(name), &format).is_err(), "{name} {number}");
         }
     }
-    let error = refusal(&bytes("eight_per_line.txt"), &column_in_g(1));
+    let error = error_in(&bytes("eight_per_line.txt"), &column_in_g(1));
     assert!(error.line == 1 && error.fault.to_string().contains("AlongLinesFormat"), "{error}");
     let single_column = ColumnFormat::equally_spaced(GRAVITY_UNIT, 0.01);
-    let error = refusal(&bytes("eight_per_line.txt"), &single_column);
+    let error = error_in(&bytes("eight_per_line.txt"), &single_column);
     assert!(error.fault.to_string().contains("AlongLinesFormat"), "{error}");
     // A sentence of eight words is no row of titles.
     let titled =
@@ -88,7 +88,7 @@ fn no_column_of_a_series_is_read() {
     assert!(Record::read_all(path("eight_per_line.txt"), &single_column).is_err());
     // Lines of unequal length.
     for number in [1, 2, 3] {
-        let error = refusal(&bytes("eight_per_line_ragged.txt"), &column_in_g(number));
+        let error = error_in(&bytes("eight_per_line_ragged.txt"), &column_in_g(number));
         assert_eq!(error, error_at(4, count("columns", 3, "8, as before")), "{number}");
     }
     // A stated number of samples confirms columns.
@@ -108,7 +108,7 @@ fn columns_without_titles_are_read_beside_times() {
     }
     let record = read(&text, &column_in_g(2)).unwrap();
     assert_eq!((record.len(), record.accelerations()[3]), (30, 9.0 * STANDARD_GRAVITY));
-    let error = refusal(&text, &along_lines_in_g());
+    let error = error_in(&text, &along_lines_in_g());
     assert!(error.line == 1 && error.fault.to_string().contains("column 1"), "{error}");
     let counted = AlongLinesFormat { samples: Some(90), ..along_lines_in_g() };
     assert_eq!(read(&text, &counted).unwrap().len(), 90);
@@ -135,17 +135,17 @@ fn a_lost_value_is_found() {
     let short = lines[11].rsplit_once(' ').unwrap().0;
     lines[11] = short;
     assert_eq!(
-        refusal(&lines.join("\n"), &along_lines_in_g()),
+        error_in(&lines.join("\n"), &along_lines_in_g()),
         error_at(12, count("columns", 7, "8, as before"))
     );
     let long = format!("{short} 0.1 0.2");
     lines[11] = &long;
     assert_eq!(
-        refusal(&lines.join("\n"), &along_lines_in_g()),
+        error_in(&lines.join("\n"), &along_lines_in_g()),
         error_at(12, count("columns", 9, "8, as before"))
     );
     let one_more = AlongLinesFormat { samples: Some(201), ..along_lines_in_g() };
-    assert_eq!(refusal(&text, &one_more), error_at(25, count("samples", 200, "201")));
+    assert_eq!(error_in(&text, &one_more), error_at(25, count("samples", 200, "201")));
 }
 
 /// GOAL: cards of SHAKE are read by their Fortran format, with the number of the card as ninth field.
@@ -163,7 +163,7 @@ fn cards_are_read_by_their_fortran_format() {
     // Without header and format, the number of the card would be taken for a value.
     let text = String::from_utf8(bytes("shake91.acc")).unwrap();
     let cards = text.split_once('\n').unwrap().1;
-    let error = refusal(cards, &along_lines_in_g());
+    let error = error_in(cards, &along_lines_in_g());
     assert!(error.line == 1 && error.fault.to_string().contains("column 9"), "{error}");
     let card_format = AlongLinesFormat { layout: Some(layout), ..along_lines_in_g() };
     assert_series(&read(cards, &card_format).unwrap(), &expected, STANDARD_GRAVITY);
@@ -172,7 +172,7 @@ fn cards_are_read_by_their_fortran_format() {
     assert_eq!((touching.len(), touching[1]), (200, -10.055_655));
     let record = read(&bytes("shake_touch.acc"), &with_header).unwrap();
     assert_series(&record, &touching, STANDARD_GRAVITY);
-    let error = refusal(&bytes("shake_touch.acc"), &with_layout);
+    let error = error_in(&bytes("shake_touch.acc"), &with_layout);
     assert!(error.line == 2 && matches!(error.fault, FileFault::Format { .. }), "{error}");
     // Cards out of order, a value behind the columns, and a card of seven values among cards of eight.
     let mut swapped: Vec<&str> = cards.lines().collect();
@@ -180,7 +180,7 @@ fn cards_are_read_by_their_fortran_format() {
     let with_ninth_value = cards.replacen("       2\n", " 0.12345\n", 1);
     let with_seven_values = cards.replacen("-0.079792       2", "                2", 1);
     for (text, line) in [(swapped.join("\n"), 5), (with_ninth_value, 2), (with_seven_values, 2)] {
-        assert_eq!(refusal(&text, &card_format).line, line);
+        assert_eq!(error_in(&text, &card_format).line, line);
     }
     // Numbers without points, as Fortran reads them.
     let text = "    1    -2    30\n 12345     0";
@@ -210,11 +210,11 @@ fn lists_of_samples_have_their_headers_step_and_unit() {
     assert!(read(&without_unit, &list).is_err());
     // Another unit than the header's, counts, pairs, pieces, a wrong number of samples.
     assert!(read(&text, &in_gal).is_err());
-    let error = refusal(&text.replacen("M/S**2", "Counts", 1), &list);
+    let error = error_in(&text.replacen("M/S**2", "Counts", 1), &list);
     assert!(error.line == 1 && is_unprocessed(&error.fault), "{error}");
-    assert_eq!(refusal(&text.replacen("SLIST", "TSPAIR", 1), &list).line, 1);
-    assert_eq!(refusal(&(text.clone() + &text), &list).line, 36);
-    let error = refusal(&text.replacen("200 samples", "201 samples", 1), &list);
+    assert_eq!(error_in(&text.replacen("SLIST", "TSPAIR", 1), &list).line, 1);
+    assert_eq!(error_in(&(text.clone() + &text), &list).line, 36);
+    let error = error_in(&text.replacen("200 samples", "201 samples", 1), &list);
     assert_eq!(error, error_at(35, count("samples", 200, "201")));
 }
 
@@ -232,13 +232,14 @@ fn words_of_list() -> Vec<f64> {
 #[test]
 fn units_and_headers_are_checked() {
     for header in ["Acceleration (cm/s2)", "# unit: gal"] {
-        let error = refusal(&format!("{header}\n0.1 0.2\n0.3 0.5\n0.1 0.6\n"), &along_lines_in_g());
+        let error =
+            error_in(&format!("{header}\n0.1 0.2\n0.3 0.5\n0.1 0.6\n"), &along_lines_in_g());
         assert!(error.fault.to_string().contains("title"), "{header}: {error}");
     }
     let record =
         read("Acceleration (g)\n0.1 0.2\n0.3 0.5\n0.1 0.6\n", &along_lines_in_g()).unwrap();
     assert_eq!(record.len(), 6);
-    let error = refusal("Station 7\n0.1 0.2\n0.3 0.5\n", &along_lines_in_g());
+    let error = error_in("Station 7\n0.1 0.2\n0.3 0.5\n", &along_lines_in_g());
     assert_eq!(error.line, 1);
     assert!(error.fault.to_string().contains("header_lines"), "{error}");
     for text in

@@ -118,9 +118,9 @@ fn baselines_remove_a_polynomial() {
     }
 }
 
-/// GOAL: degrees out of range and records too short for them are refused.
+/// GOAL: degrees out of range and records too short for them are errors.
 #[test]
-fn invalid_baselines_are_refused() {
+fn invalid_baselines_are_errors() {
     let record = el_centro_1940();
     for baseline in [
         Baseline::VelocityPolynomial { degree: 0 },

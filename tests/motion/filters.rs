@@ -51,9 +51,9 @@ fn high_pass_removes_an_offset() {
     assert!(final_velocity.abs() < 1e-3 * largest(filtered.velocities()));
 }
 
-/// GOAL: corners, orders and tapers out of range are refused.
+/// GOAL: corners, orders and tapers out of range are errors.
 #[test]
-fn invalid_filters_are_refused() {
+fn invalid_filters_are_errors() {
     let record = Record::new(TIME_STEP, vec![1.0; 2001]).unwrap().tapered(2.0, 2.0).unwrap();
     for corner in [0.0, -1.0, f64::NAN, f64::INFINITY, 50.0] {
         assert!(matches!(record.high_pass(corner, 2), Err(Error::Input { .. })), "{corner}");

@@ -200,7 +200,7 @@ proptest! {
 
     /// GOAL: damaged files give a record or an error.
     #[test]
-    fn damaged_files_are_read_or_refused(
+    fn damaged_files_are_read_or_are_errors(
         damages in prop::collection::vec((any::<Index>(), damage()), 1..8),
     ) {
         for (text, format) in valid_files() {
@@ -211,7 +211,7 @@ proptest! {
 
     /// GOAL: arbitrary bytes give a record or an error.
     #[test]
-    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
+    fn any_bytes_are_read_or_are_errors(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         for (_, format) in valid_files() {
             check(Record::from_reader("any", &bytes[..], format.as_ref()));
         }
@@ -219,7 +219,7 @@ proptest! {
 
     /// GOAL: sources that fail within a file give an error.
     #[test]
-    fn sources_that_fail_are_refused(bytes_per_call in 1_usize..9, fraction in 0.0..1.2_f64) {
+    fn sources_that_fail_are_errors(bytes_per_call in 1_usize..9, fraction in 0.0..1.2_f64) {
         for (text, format) in valid_files() {
             let bytes = text.as_bytes();
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
@@ -236,7 +236,7 @@ proptest! {
 
 /// GOAL: files that are hard to read give a record or an error, with every reader.
 #[test]
-fn corpus_is_read_or_refused() {
+fn corpus_is_read_or_are_errors() {
     let folder = basemat_problems::data_path("fuzz");
     let mut files = 0;
     for entry in std::fs::read_dir(folder).unwrap() {

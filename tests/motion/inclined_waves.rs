@@ -1,4 +1,4 @@
-//! GOAL: inclined waves have the right amplification, Rayleigh waves the right ellipses; components that vanish are refused.
+//! GOAL: inclined waves have the right amplification, Rayleigh waves the right ellipses; components that vanish are errors.
 //! SCENE: plane SV and P waves over angle and ν.
 //! REFERENCE: a solution of 30 digits; Ewing, Jardetzky & Press 1957.
 
@@ -96,7 +96,7 @@ fn vertical_incidence_doubles_one_component() {
 
 /// Asserts the error of a component with little motion.
 #[track_caller]
-fn assert_refused(outcome: Result<TravellingWave>, name: &str) {
+fn assert_errors(outcome: Result<TravellingWave>, name: &str) {
     let Err(error @ Error::Input { value, .. }) = outcome else {
         panic!("{name}: accepted")
     };
@@ -113,24 +113,24 @@ fn components_that_vanish_are_not_prescribed() {
         for offset in [0.0_f64, 1e-12, -1e-9, 1e-6, -1e-4, 1e-3] {
             let name = format!("nu {poisson}, {offset:e} rad off");
             let near_45_degrees = sv(poisson, FRAC_PI_4 + offset);
-            assert_refused(near_45_degrees.field_from_horizontal(&record, 0.0), &name);
+            assert_errors(near_45_degrees.field_from_horizontal(&record, 0.0), &name);
             if offset.abs() < 1e-9 && poisson != 0.0 {
                 let near_critical = sv(poisson, critical + offset);
-                assert_refused(near_critical.field_from_vertical(&record, 0.0), &name);
+                assert_errors(near_critical.field_from_vertical(&record, 0.0), &name);
             }
             let offset = offset.abs();
-            assert_refused(sv(poisson, offset).field_from_vertical(&record, 0.0), &name);
-            assert_refused(p(poisson, offset).field_from_horizontal(&record, 0.0), &name);
+            assert_errors(sv(poisson, offset).field_from_vertical(&record, 0.0), &name);
+            assert_errors(p(poisson, offset).field_from_horizontal(&record, 0.0), &name);
         }
     }
     for offset in [1e-3, 1e-6, 1e-12] {
         let grazing = p(0.0, FRAC_PI_2 - offset);
-        assert_refused(grazing.field_from_vertical(&record, 0.0), "P, nu 0, grazing");
+        assert_errors(grazing.field_from_vertical(&record, 0.0), "P, nu 0, grazing");
         assert!(grazing.field_from_horizontal(&record, 0.0).is_ok());
     }
     for angle in [44.9_f64, 45.1] {
         let wave = sv(0.0, angle.to_radians());
-        assert_refused(wave.field_from_horizontal(&record, 0.0), "one unit of length");
+        assert_errors(wave.field_from_horizontal(&record, 0.0), "one unit of length");
     }
     // A few degrees away the component is accepted.
     for (angle, poisson) in [(43.0, 0.0), (43.0, 0.3), (48.0, 0.3), (2.0, 0.3)] {
@@ -163,9 +163,9 @@ fn accepted_components_are_not_small() {
     assert!(accepted > 50_000, "{accepted}");
 }
 
-/// GOAL: at 45°, where Rayleigh's function may vanish, amplitudes are finite or the angle is refused, for any modulus.
+/// GOAL: at 45°, where Rayleigh's function may vanish, amplitudes are finite or the angle is an error, for any modulus.
 #[test]
-fn amplitudes_at_45_degrees_are_finite_or_refused() {
+fn amplitudes_at_45_degrees_are_finite_or_are_errors() {
     for k in 0..2000 {
         let soil = Soil::new(1e6 * 1.01_f64.powi(k % 1000), 0.0, 1000.0 + f64::from(k)).unwrap();
         match PlaneWave::sv(soil, FRAC_PI_4) {
@@ -230,9 +230,9 @@ fn rayleigh_waves_follow_roots_of_thirty_digits() {
     }
 }
 
-/// GOAL: travelling waves are delayed by distance over velocity; velocities and origins out of range are refused.
+/// GOAL: travelling waves are delayed by distance over velocity; velocities and origins out of range are errors.
 #[test]
-fn travelling_waves_are_delayed_and_refuse_invalid_input() {
+fn travelling_waves_are_delayed_and_need_valid_input() {
     for velocity in [0.0, f64::NAN, 1e-320] {
         assert!(TravellingWave::new(el_centro_1940(), velocity, 0.0).is_err());
     }

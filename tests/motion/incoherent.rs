@@ -1,4 +1,4 @@
-//! GOAL: incoherent motions have their coherence, keep the record where it is prescribed, and refuse what is not defined.
+//! GOAL: incoherent motions have their coherence, keep the record where it is prescribed, and return errors for what is not defined.
 //! SCENE: a pulse at cells of different sides, El Centro on a mat and on a strip.
 //! REFERENCE: means of Luco and Wong's coherence by sums over many points, sample means over seeds, travelling waves.
 
@@ -262,7 +262,7 @@ fn fault(incoherence: &Incoherence, record: Record, elements: &[ContactElement])
 }
 
 #[test]
-fn undefined_motions_are_refused() {
+fn undefined_motions_are_errors() {
     let cells = cells();
     let fine = Incoherence::new(LucoWong::new(COHERENCE_PARAMETER, SHEAR_WAVE_SPEED).unwrap());
     assert!(LucoWong::new(-0.1, 300.0).is_err() && LucoWong::new(0.1, 0.0).is_err());
@@ -288,7 +288,7 @@ fn undefined_motions_are_refused() {
 
 /// A function that is no coherence has a negative eigenvalue, which is an error with its frequency, or clipped.
 #[test]
-fn negative_eigenvalues_are_refused_or_clipped() {
+fn negative_eigenvalues_are_errors_or_clipped() {
     // Neighbours move together, and others do not: eigenvalues 1, 1 ± √2 of three cells.
     let neighbours = || {
         CoherenceFn::of_separation(|frequency, [x, _]| {

@@ -134,9 +134,9 @@ fn either_component_can_be_prescribed() {
     }
 }
 
-/// GOAL: a record that does not end at rest has no transform and is refused.
+/// GOAL: a record that does not end at rest has no transform and is an error.
 #[test]
-fn records_that_do_not_end_at_rest_are_refused() {
+fn records_that_do_not_end_at_rest_are_errors() {
     let drifting = Record::new(0.1, vec![0.0, 1.0, 0.0, -0.9, 0.0]).unwrap();
     let wave = rayleigh();
     for outcome in

@@ -38,9 +38,9 @@ fn read(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> Result
     Record::from_reader("text", text.as_ref(), format)
 }
 
-/// Error of a text that is refused.
+/// Error of a text that cannot be read.
 #[track_caller]
-fn refusal(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> FileError {
+fn error_in(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> FileError {
     match read(text, format) {
         Err(Error::File(error)) => {
             assert_eq!(error.file, "text");

@@ -1,4 +1,4 @@
-//! GOAL: files of the strong-motion databases are read in every layout in use, or refused with line and reason.
+//! GOAL: files of the strong-motion databases are read in every layout in use, or cause an error with line and reason.
 //! SCENE: variants of PEER, COSMOS, CSMIP and K-NET files, printed here in the layouts that `agency_files` reads;
 //! arbitrary bytes.
 //! REFERENCE: the samples that were printed.
@@ -13,7 +13,7 @@ use basemat_problems::faults::{
 };
 use proptest::prelude::*;
 
-use super::{SI_UNIT, STANDARD_GRAVITY, assert_record, error_at, read, refusal};
+use super::{SI_UNIT, STANDARD_GRAVITY, assert_record, error_at, error_in, read};
 
 const PEER_TITLE: &str = "PEER NGA STRONG MOTION DATABASE RECORD\nEl Centro, 180\n";
 
@@ -42,13 +42,13 @@ fn peer_headers_vary() {
 
 /// Error of a PEER file after its title and unit.
 #[track_caller]
-fn peer_refusal(text: &str) -> FileError {
-    refusal(&format!("{PEER_TITLE}ACCELERATION TIME SERIES IN UNITS OF G\n{text}"), &PeerFormat)
+fn peer_error(text: &str) -> FileError {
+    error_in(&format!("{PEER_TITLE}ACCELERATION TIME SERIES IN UNITS OF G\n{text}"), &PeerFormat)
 }
 
-/// GOAL: PEER files with another number of samples or another quantity than stated are refused.
+/// GOAL: PEER files with another number of samples or another quantity than stated are errors.
 #[test]
-fn peer_files_that_contradict_their_header_are_refused() {
+fn peer_files_that_contradict_their_header_are_errors() {
     for (samples, line, fault) in [
         ("1 2", 5, wrong_count(2, 3)),
         ("1 2\n3 4", 6, wrong_count(4, 3)),
@@ -56,14 +56,14 @@ fn peer_files_that_contradict_their_header_are_refused() {
         ("1 2 x3", 5, not_a_number("x3")),
         ("1 2 ***", 5, not_a_number("***")),
     ] {
-        let error = peer_refusal(&format!("NPTS= 3, DT= .01 SEC\n{samples}\n"));
+        let error = peer_error(&format!("NPTS= 3, DT= .01 SEC\n{samples}\n"));
         assert_eq!(error, error_at(line, fault));
     }
     for header in ["NPTS= 3, DT= 0 SEC", "NPTS= 1, DT= 1", "NPTS=, DT=", "NPTS= 1e99, DT=.1"] {
-        let error = peer_refusal(&format!("{header}\n1 2 3\n"));
+        let error = peer_error(&format!("{header}\n1 2 3\n"));
         assert!(error.line == 4 && is_missing(&error.fault), "{header}: {error}");
     }
-    let error = refusal(&format!("{PEER_TITLE}no numbers\n"), &PeerFormat);
+    let error = error_in(&format!("{PEER_TITLE}no numbers\n"), &PeerFormat);
     assert!(is_missing(&error.fault));
     for other in [
         "VELOCITY TIME SERIES IN UNITS OF CM/S",
@@ -75,24 +75,24 @@ fn peer_files_that_contradict_their_header_are_refused() {
         "ACCELERATION TIME SERIES IN UNITS OF GAL",
     ] {
         let text = format!("{PEER_TITLE}{other}\nNPTS= 2, DT= .01 SEC\n1 2\n");
-        let error = refusal(&text, &PeerFormat);
+        let error = error_in(&text, &PeerFormat);
         assert!(error.line == 3 && is_no_acceleration(&error.fault), "{error}");
     }
 }
 
-/// GOAL: PEER files without a unit, or with a time step out of range, are refused.
+/// GOAL: PEER files without a unit, or with a time step out of range, are errors.
 #[test]
 fn peer_files_must_name_their_unit() {
     for header in ["", "SAN FRANCISCO (G)\n", "ACCELERATION TIME SERIES\n"] {
         let text = format!("{PEER_TITLE}{header}NPTS= 2, DT= .01 SEC\n1 2\n");
-        let error = refusal(&text, &PeerFormat);
+        let error = error_in(&text, &PeerFormat);
         assert_eq!(error.line, if header.is_empty() { 3 } else { 4 });
         let unit = "there is no unit (UNITS OF G) in the header, or none that makes sense";
         assert!(is_missing(&error.fault) && error.fault.to_string() == unit, "{error}");
     }
     // A time step whose record would overflow.
     let text = format!("{PEER_TITLE}UNITS OF G\nNPTS= 2, DT= 1e308 SEC\n1 2\n");
-    let error = refusal(&text, &PeerFormat);
+    let error = error_in(&text, &PeerFormat);
     assert!(error.line == 0 && matches!(error.fault, FileFault::Unusable(_)), "{error}");
 }
 
@@ -106,7 +106,7 @@ fn rows_of_fields(fields: &[String], columns: usize) -> String {
     fields.chunks(columns).map(|row| row.concat() + "\n").collect()
 }
 
-/// GOAL: counts of K-NET files become accelerations; wrong numbers of samples and header lines are refused.
+/// GOAL: counts of K-NET files become accelerations; wrong numbers of samples and header lines are errors.
 #[test]
 fn k_net_counts_become_accelerations() {
     let header = "Origin Time       2011/03/11 14:46:00\nLat.              38.103\n\
@@ -122,9 +122,9 @@ fn k_net_counts_become_accelerations() {
 
     // The last line lost, or a second too many.
     let short = format!("{two_seconds}{}", rows_of_fields(&fields[..192], 8));
-    assert_eq!(refusal(&short, &KNetFormat), error_at(33, wrong_count(192, 200)));
+    assert_eq!(error_in(&short, &KNetFormat), error_at(33, wrong_count(192, 200)));
     let three_seconds = text.replace("(s)  2", "(s)  3");
-    assert_eq!(refusal(&three_seconds, &KNetFormat), error_at(34, wrong_count(200, 300)));
+    assert_eq!(error_in(&three_seconds, &KNetFormat), error_at(34, wrong_count(200, 300)));
     for (key, other) in [
         ("Sampling Freq(Hz) 100Hz", "Sampling Freq(Hz) 0Hz"),
         ("Sampling Freq(Hz) 100Hz", "Sampling Freq(Hz)"),
@@ -133,7 +133,7 @@ fn k_net_counts_become_accelerations() {
         ("7845(gal)/8223790", "7845(m)/8223790"),
         ("Memo.", "Remark"),
     ] {
-        let error = refusal(&text.replace(key, other), &KNetFormat);
+        let error = error_in(&text.replace(key, other), &KNetFormat);
         assert!(is_missing(&error.fault), "{other}: {error}");
     }
 }
@@ -147,7 +147,7 @@ const CSMIP_TEXT: &str = "Corrected accelerogram from Chan  1\n\
     Corrected accelerogram from Chan  2\n\
     2 points of accel data equally spaced at  .010 sec, in g. (8f10.3)\n   .5 -.5\n";
 
-/// GOAL: the requested channel of a CSMIP file is read; other numbers of channels are refused.
+/// GOAL: the requested channel of a CSMIP file is read; other numbers of channels are errors.
 #[test]
 fn csmip_files_have_channels() {
     let format = CosmosFormat::default();
@@ -159,32 +159,32 @@ fn csmip_files_have_channels() {
         &[0.5 * STANDARD_GRAVITY, -0.5 * STANDARD_GRAVITY],
     );
     for needed in [0, 3] {
-        let error = refusal(CSMIP_TEXT, &CosmosFormat { channel: needed, ..format });
+        let error = error_in(CSMIP_TEXT, &CosmosFormat { channel: needed, ..format });
         assert_eq!(error.fault, value("requested channel", &needed.to_string(), "from 1 to 2"));
     }
     let counts = CSMIP_TEXT.replace("in g.", "in counts.");
-    let error = refusal(&counts, &second);
+    let error = error_in(&counts, &second);
     assert!(error.line == 8 && is_unprocessed(&error.fault), "{error}");
     let short = &CSMIP_TEXT[..CSMIP_TEXT.len() - 5];
-    assert_eq!(refusal(short, &second), error_at(9, wrong_count(1, 2)));
+    assert_eq!(error_in(short, &second), error_at(9, wrong_count(1, 2)));
 }
 
-/// GOAL: a count that is too small is refused and does not cut the record.
+/// GOAL: a count that is too small is an error and does not cut the record.
 #[test]
-fn numbers_beyond_the_announced_count_are_refused() {
+fn numbers_beyond_the_announced_count_are_errors() {
     let format = CosmosFormat::default();
     let long = CSMIP_TEXT.replace("3 points of accel", "2 points of accel");
-    assert_eq!(refusal(&long, &format), error_at(3, wrong_count(3, 2)));
+    assert_eq!(error_in(&long, &format), error_at(3, wrong_count(3, 2)));
     let more = CSMIP_TEXT.replace("12345.678     3.000\n", "12345.678     3.000\n     4.000\n");
-    assert_eq!(refusal(&more, &format), error_at(4, wrong_count(4, 3)));
+    assert_eq!(error_in(&more, &format), error_at(4, wrong_count(4, 3)));
     let blank = CSMIP_TEXT.replace("12345.678     3.000\n", "12345.678     3.000\n\n     4.000\n");
-    assert_eq!(refusal(&blank, &format), error_at(5, wrong_count(4, 3)));
+    assert_eq!(error_in(&blank, &format), error_at(5, wrong_count(4, 3)));
     let second = CosmosFormat { channel: 2, ..format };
-    assert_eq!(refusal(&format!("{CSMIP_TEXT} .25\n"), &second), error_at(10, wrong_count(3, 2)));
+    assert_eq!(error_in(&format!("{CSMIP_TEXT} .25\n"), &second), error_at(10, wrong_count(3, 2)));
     let cosmos = cosmos_text(5.0).replace("10 acceleration pts", "9 acceleration pts");
-    assert_eq!(refusal(&cosmos, &format), error_at(23, wrong_count(10, 9)));
+    assert_eq!(error_in(&cosmos, &format), error_at(23, wrong_count(10, 9)));
     let cosmos = cosmos_text(5.0).replace("End-of-data", " 1.25\nEnd-of-data");
-    assert_eq!(refusal(&cosmos, &format), error_at(24, wrong_count(11, 10)));
+    assert_eq!(error_in(&cosmos, &format), error_at(24, wrong_count(11, 10)));
 }
 
 /// Ten samples with the interval of the data (ms), −999 for unknown; the recorder's interval is 20 ms.
@@ -216,17 +216,17 @@ fn the_interval_of_cosmos_files_is_in_the_real_header() {
     // The recorder's interval alone.
     let recorder = cosmos_text(-999.0);
     assert_record(&read(&recorder, &format).unwrap(), 0.02, &expected);
-    let error = refusal(&recorder.replace("     0.020000", "  -999.000000"), &format);
+    let error = error_in(&recorder.replace("     0.020000", "  -999.000000"), &format);
     let interval = "there is no sampling interval in the header, or none that makes sense";
     assert!(is_missing(&error.fault) && error.fault.to_string() == interval, "{error}");
     let counts = text.replace("cm/s^2 (4)", "counts (50)");
-    assert!(is_unprocessed(&refusal(&counts, &format).fault));
+    assert!(is_unprocessed(&error_in(&counts, &format).fault));
     let contradicted = text.replace("cm/s^2 (4)", "cm/s^2 (2)");
-    assert!(is_no_acceleration(&refusal(&contradicted, &format).fault));
+    assert!(is_no_acceleration(&error_in(&contradicted, &format).fault));
     // The title's duration.
     for seconds in [3, 50, 1000] {
         let text = text.replace("approx  0 secs", &format!("approx  {seconds} secs"));
-        let error = refusal(&text, &format);
+        let error = error_in(&text, &format);
         assert!(error.line == 22 && is_contradiction(&error.fault), "{error}");
     }
 }
@@ -260,7 +260,7 @@ fn full_columns_may_touch() {
         // Without the format the ends of the numbers are unknown.
         ("", "9.1234510.1234511.1234512.34500"),
     ] {
-        let error = refusal(&csmip_in_columns(format, body), &CosmosFormat::default());
+        let error = error_in(&csmip_in_columns(format, body), &CosmosFormat::default());
         assert!(error.line == 2 && is_no_number(&error.fault), "{error}");
     }
 }
@@ -278,7 +278,7 @@ fn units_of_cosmos_files_are_words() {
     let with_unit = CosmosFormat { unit: Some(SI_UNIT), ..CosmosFormat::default() };
     for units in ["in mgal. (8f10.3)", "units=mgal", "in cm/sec. (8f10.3)", "units=mg (11)"] {
         for format in [&without_unit, &with_unit] {
-            let error = refusal(&csmip_with_units(units), format);
+            let error = error_in(&csmip_with_units(units), format);
             assert!(error.line == 2 && is_no_acceleration(&error.fault), "{units}");
         }
     }
@@ -293,7 +293,7 @@ fn units_of_cosmos_files_are_words() {
     }
     // Old files name no unit.
     let old = csmip_with_units("");
-    let error = refusal(&old, &without_unit);
+    let error = error_in(&old, &without_unit);
     assert!(error.line == 2 && is_no_acceleration(&error.fault), "{error}");
     assert_record(&read(&old, &with_unit).unwrap(), 0.02, &values);
 }

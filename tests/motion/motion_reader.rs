@@ -1,4 +1,4 @@
-//! GOAL: records in columns are read in every usual layout, or refused with line and reason.
+//! GOAL: records in columns are read in every usual layout, or cause an error with line and reason.
 //! SCENE: layouts, units, printed time steps, bad lines, arbitrary bytes.
 //! REFERENCE: the samples that were printed.
 
@@ -8,7 +8,7 @@ use basemat::{Error, FileError, FileFault};
 use basemat_problems::faults::{count, is_value, not_a_number, value};
 use proptest::prelude::*;
 
-use super::{SI_UNIT, error_at, read, refusal};
+use super::{SI_UNIT, error_at, error_in, read};
 
 /// Columns of time and acceleration in m/s².
 fn metric() -> ColumnFormat {
@@ -82,9 +82,9 @@ fn units_are_converted() {
     }
 }
 
-/// GOAL: lines that are no samples are refused with their number and the reason.
+/// GOAL: lines that are no samples are errors with their number and the reason.
 #[test]
-fn reader_refuses_with_line_and_reason() {
+fn errors_of_the_reader_have_line_and_reason() {
     let format = metric();
     let cases: [(&[u8], usize, FileFault); 20] = [
         (b"", 0, count("samples", 0, "at least 2")),
@@ -111,22 +111,22 @@ fn reader_refuses_with_line_and_reason() {
     ];
     for (text, line, fault) in cases {
         let name = String::from_utf8_lossy(text);
-        assert_eq!(refusal(text, &format), error_at(line, fault), "{name:?}");
+        assert_eq!(error_in(text, &format), error_at(line, fault), "{name:?}");
     }
 }
 
-/// GOAL: requested columns that do not exist and wrong numbers of samples are refused.
+/// GOAL: requested columns that do not exist and wrong numbers of samples are errors.
 #[test]
-fn reader_refuses_wrong_columns_and_counts() {
+fn reader_returns_an_error_for_wrong_columns_and_counts() {
     let text = b"0 1\n1 1\n";
-    let error = refusal(text, &columns(1, 3));
+    let error = error_in(text, &columns(1, 3));
     assert_eq!(error, error_at(1, value("requested column", "3", "from 1 to 2")));
-    let error = refusal(text, &columns(0, 1));
+    let error = error_in(text, &columns(0, 1));
     assert_eq!(error, error_at(1, value("requested column", "0", "from 1 to 2")));
-    let error = refusal(text, &ColumnFormat { samples: Some(3), ..metric() });
+    let error = error_in(text, &ColumnFormat { samples: Some(3), ..metric() });
     assert_eq!(error, error_at(2, count("samples", 2, "3")));
     // The acceleration taken for the time.
-    let error = refusal(b"0 1\n1 3\n2 9\n", &columns(2, 1));
+    let error = error_in(b"0 1\n1 3\n2 9\n", &columns(2, 1));
     assert_eq!(error, error_at(3, value("time step", "6 s", "2 s, as before")));
 }
 
@@ -134,18 +134,18 @@ fn reader_refuses_wrong_columns_and_counts() {
 #[test]
 fn a_single_column_is_single() {
     let single_column = ColumnFormat::equally_spaced(SI_UNIT, 0.02);
-    let error = refusal(b"1\n2 3\n", &single_column);
+    let error = error_in(b"1\n2 3\n", &single_column);
     assert_eq!(error, error_at(2, count("columns", 2, NEEDED_COLUMNS)));
-    let error = refusal(b"0.00,1\n0.02,2\n", &single_column);
+    let error = error_in(b"0.00,1\n0.02,2\n", &single_column);
     assert_eq!(error, error_at(1, count("columns", 2, NEEDED_COLUMNS)));
-    let error = refusal(b"1\n2\n3\n", &ColumnFormat { samples: Some(2), ..single_column });
+    let error = error_in(b"1\n2\n3\n", &ColumnFormat { samples: Some(2), ..single_column });
     assert_eq!(error, error_at(3, count("samples", 3, "2")));
     let second = ColumnFormat { acceleration_column: Some(2), ..single_column };
-    let error = refusal(b"1\n2\n", &second);
+    let error = error_in(b"1\n2\n", &second);
     assert_eq!(error, error_at(1, value("requested column", "2", "from 1 to 1")));
     for time_step in [0.0, -0.02, f64::NAN, f64::INFINITY] {
         let format = ColumnFormat::equally_spaced(SI_UNIT, time_step);
-        let error = refusal(b"1\n2\n", &format);
+        let error = error_in(b"1\n2\n", &format);
         assert!(error.line == 0 && matches!(error.fault, FileFault::Unusable(_)), "{error}");
     }
     // The same text with a column of times.
@@ -153,25 +153,25 @@ fn a_single_column_is_single() {
     assert_eq!((record.time_step(), record.accelerations()), (1.0, &[5.0, 6.0][..]));
 }
 
-/// GOAL: finite numbers whose record overflows are refused with the file's name.
+/// GOAL: finite numbers whose record overflows are errors with the file's name.
 #[test]
 fn errors_of_invalid_records_name_the_file() {
-    let error = refusal(b"0 1e200\n1e200 1e200\n", &metric());
+    let error = error_in(b"0 1e200\n1e200 1e200\n", &metric());
     assert_eq!(error.line, 0);
     let FileFault::Unusable(error) = error.fault else { panic!("{error}") };
     assert!(matches!(*error, Error::Input { quantity: "velocity of the record", .. }), "{error}");
 }
 
-/// GOAL: time steps that drift, and lines without an end, are refused.
+/// GOAL: time steps that drift, and lines without an end, are errors.
 #[test]
-fn reader_refuses_drifting_steps_and_endless_lines() {
+fn reader_returns_an_error_for_drifting_steps_and_endless_lines() {
     let mut time = 0.0;
     let mut lines = Vec::new();
     for k in 0..100 {
         lines.push(format!("{time} 0"));
         time += 1.0 + 5e-5 * f64::from(k);
     }
-    let error = refusal(lines.join("\n").as_bytes(), &metric());
+    let error = error_in(lines.join("\n").as_bytes(), &metric());
     assert!(is_value(&error.fault, "time"), "{error}");
     let endless = std::io::Read::take(std::io::repeat(b'1'), 1 << 40);
     let error = Record::from_reader("zeros", endless, &metric()).unwrap_err();
@@ -179,24 +179,24 @@ fn reader_refuses_drifting_steps_and_endless_lines() {
     assert_eq!(error, Error::File(FileError { file: "zeros".into(), line: 1, fault }));
 }
 
-/// GOAL: a record cut anywhere in its last line is refused, except within the digits of its last number.
+/// GOAL: a record cut anywhere in its last line is an error, except within the digits of its last number.
 #[test]
-fn reader_refuses_a_truncated_record() {
+fn reader_returns_an_error_for_a_truncated_record() {
     let text = include_str!("../../crates/records/data/elcentro1940_NS_peknold_0319g.csv");
     let format = ColumnFormat {
         samples: Some(1560),
         ..ColumnFormat::new(AccelerationUnit::StandardGravity)
     };
-    let complete = text.trim_end();
-    assert_eq!(read(complete, &format).unwrap().len(), 1560);
-    let line_count = complete.lines().count();
-    let last_number = complete.len() - complete.rfind(',').unwrap() - 1;
-    let last_line = complete.lines().last().unwrap().len();
+    let complete_text = text.trim_end();
+    assert_eq!(read(complete_text, &format).unwrap().len(), 1560);
+    let line_count = complete_text.lines().count();
+    let last_number = complete_text.len() - complete_text.rfind(',').unwrap() - 1;
+    let last_line = complete_text.lines().last().unwrap().len();
     for cut in 1..=last_line {
-        let truncated = &complete[..complete.len() - cut];
+        let truncated_text = &complete_text[..complete_text.len() - cut];
         // A number cut within its digits is still a number.
         if cut >= last_number {
-            let error = refusal(truncated, &format);
+            let error = error_in(truncated_text, &format);
             assert!(error.line + 1 >= line_count, "{error}");
         }
     }

@@ -1,11 +1,11 @@
-//! GOAL: columns of numbers in unusual forms are read, or refused with their line.
+//! GOAL: columns of numbers in unusual forms are read, or cause an error with their line.
 //! SCENE: decimal commas, words, Fortran's exponents, control characters, empty fields, header lines, times of day.
 //! REFERENCE: the samples of the text; the typed error.
 
 use basemat::motion::ColumnFormat;
 use basemat_problems::faults::{count, is_no_number, is_value, not_a_number, value};
 
-use super::{SI_UNIT, error_at, read, refusal};
+use super::{SI_UNIT, error_at, error_in, read};
 
 /// Columns of time and acceleration.
 fn pairs() -> ColumnFormat {
@@ -23,9 +23,9 @@ fn assert_samples(text: &str, format: &ColumnFormat, expected: &[f64]) {
     assert_eq!((record.time_step(), record.accelerations()), (0.02, expected), "{text:?}");
 }
 
-/// GOAL: decimal commas are refused, beside any separator.
+/// GOAL: decimal commas are errors, beside any separator.
 #[test]
-fn decimal_commas_are_refused() {
+fn decimal_commas_are_errors() {
     for (text, field) in [
         ("0,00 1,5\n0,02 2,5\n", "0,00"),
         ("0,00\t1,5\n0,02\t2,5\n", "0,00"),
@@ -41,7 +41,7 @@ fn decimal_commas_are_refused() {
         ("0;1 000.5\n1;2\n", "1 000.5"),
     ] {
         let line = if text.starts_with('t') { 2 } else { 1 };
-        assert_eq!(refusal(text, &pairs()), error_at(line, not_a_number(field)), "{text:?}");
+        assert_eq!(error_in(text, &pairs()), error_at(line, not_a_number(field)), "{text:?}");
     }
     let first = ColumnFormat { acceleration_column: Some(1), ..single_column() };
     for (text, line, field) in [
@@ -50,10 +50,10 @@ fn decimal_commas_are_refused() {
         ("0,05 7\n0,15 8\n", 1, "0,05"),
         ("1,5\t7\n2,5\t8\n", 1, "1,5"),
     ] {
-        assert_eq!(refusal(text, &first), error_at(line, not_a_number(field)), "{text:?}");
+        assert_eq!(error_in(text, &first), error_at(line, not_a_number(field)), "{text:?}");
     }
     // Commas that group thousands change the number of columns.
-    let error = refusal("0,999.5\n1,1,000.5\n", &pairs());
+    let error = error_in("0,999.5\n1,1,000.5\n", &pairs());
     assert_eq!(error, error_at(2, count("columns", 3, "2, as before")));
     // Similar text without decimal commas.
     assert_samples("0,1\n0.02,15\n", &pairs(), &[1.0, 15.0]);
@@ -62,7 +62,7 @@ fn decimal_commas_are_refused() {
     assert_samples("0 ,1\n0.02 ,2\n", &pairs(), &[1.0, 2.0]);
 }
 
-/// GOAL: a first sample that is not a number is refused, as it would shift the record; a header is made of words.
+/// GOAL: a first sample that is not a number is an error, as it would shift the record; a header is made of words.
 #[test]
 fn an_invalid_first_sample_is_no_header() {
     for sample in [
@@ -107,15 +107,15 @@ fn an_invalid_first_sample_is_no_header() {
     ] {
         for before in ["", "# m/s2\n\n"] {
             let line = before.lines().count() + 1;
-            let error = refusal(&format!("{before}{sample}\n1\n2\n"), &single_column());
+            let error = error_in(&format!("{before}{sample}\n1\n2\n"), &single_column());
             assert_eq!(error.line, line, "{sample}: {error}");
-            let error = refusal(&format!("{before}{sample} {sample}\n0 1\n0.02 2\n"), &pairs());
+            let error = error_in(&format!("{before}{sample} {sample}\n0 1\n0.02 2\n"), &pairs());
             assert_eq!(error.line, line, "{sample}: {error}");
         }
     }
     // Errors of spreadsheets between the samples.
     for sample in ["#N/A", "#REF!", "#NAME?", "#NULL!"] {
-        let error = refusal(&format!("1\n{sample}\n2\n"), &single_column());
+        let error = error_in(&format!("1\n{sample}\n2\n"), &single_column());
         assert_eq!(error, error_at(2, not_a_number(sample)));
     }
     for header in [
@@ -148,17 +148,17 @@ fn double_precision_is_read() {
 fn control_characters_do_not_separate_numbers() {
     for text in ["0 0\r0.02 1\n0.04 2\n0.08 2\n", "0 0\u{b}0.02 1\n0.04 2\n", "0 0\u{c}1\n0.02 1\n"]
     {
-        let error = refusal(text, &pairs());
+        let error = error_in(text, &pairs());
         assert!(error.line == 1 && is_no_number(&error.fault), "{text:?}");
     }
 }
 
-/// GOAL: an empty field between two tabs, which would shift the columns, is refused.
+/// GOAL: an empty field between two tabs, which would shift the columns, is an error.
 #[test]
 fn an_empty_field_between_tabs_is_not_skipped() {
     let text = "0.00\t1.5\t7\n0.02\t\t7\n0.04\t3.5\t7\n";
     let unequal = count("columns", 2, "3, as before");
-    assert_eq!(refusal(text, &pairs()), error_at(2, unequal));
+    assert_eq!(error_in(text, &pairs()), error_at(2, unequal));
     // Tabs that align.
     assert_samples("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
 }
@@ -183,12 +183,12 @@ fn lines_of_header_are_skipped() {
     let without_times = "Station 7\nPGA 0.3\n9 1\n9 2\n";
     let needed =
         "a finite number: with more than one line of header, give their number (`header_lines`)";
-    let error = refusal(without_times, &second);
+    let error = error_in(without_times, &second);
     assert_eq!(error, error_at(1, value("field", "'Station'", needed)));
     assert_samples(without_times, &ColumnFormat { header_lines: 2, ..second }, &[1.0, 2.0]);
-    let error = refusal(text, &pairs_after(9));
+    let error = error_in(text, &pairs_after(9));
     assert_eq!(error.fault, count("samples", 0, "at least 2"));
-    let error = refusal("one\nt (ms),a\n0,1\n0.02,2\n", &pairs_after(2));
+    let error = error_in("one\nt (ms),a\n0,1\n0.02,2\n", &pairs_after(2));
     assert!(is_value(&error.fault, "title"), "{error}");
 }
 
@@ -200,7 +200,7 @@ fn times_of_day_are_read() {
     assert_samples("2000-01-01T12:00:15.00,1\n2000-01-01T12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
     assert_samples("2000/01/01 12:00:15.00,1\n2000/01/01 12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
     for text in ["12:00:15.00,1\n12:0x:15.02,2\n", "12:00:15.00,1\n12:00,2\n"] {
-        let error = refusal(text, &pairs());
+        let error = error_in(text, &pairs());
         assert!(error.line == 2 && is_no_number(&error.fault), "{error}");
     }
 }

@@ -1,4 +1,4 @@
-//! GOAL: the files of the agencies are read however they were copied, or refused with a clear error.
+//! GOAL: the files of the agencies are read however they were copied, or cause a clear error.
 //! SCENE: other line ends, marks, blank lines, cases of letters, exponents, commas, bytes that are not UTF-8.
 //! REFERENCE: the record in the original file.
 
@@ -10,7 +10,7 @@ use basemat::motion::{
 use basemat_problems::faults::{count, is_no_number, value};
 
 use super::agency_files::bytes;
-use super::{error_at, read, refusal};
+use super::{error_at, error_in, read};
 
 fn agencies() -> [(&'static str, Box<dyn RecordFormat>); 11] {
     [
@@ -112,13 +112,13 @@ fn bytes_that_are_not_utf_8_do_no_harm_in_comments() {
     }
 }
 
-/// GOAL: decimal commas in any format are refused, and the error shows the number.
+/// GOAL: decimal commas in any format are errors, and the error shows the number.
 #[test]
 fn decimal_commas_are_named() {
     for (name, format) in agencies() {
         // The counts of K-NET have no decimals.
         if name != "k_net.ns" {
-            let error = refusal(&replaced_in_numbers(&text_of(name), '.', ","), format.as_ref());
+            let error = error_in(&replaced_in_numbers(&text_of(name), '.', ","), format.as_ref());
             let names_number = match &error.fault {
                 FileFault::Value { quantity, .. } if quantity == "number of columns" => {
                     name == "k_net.csv"
@@ -144,11 +144,11 @@ fn empty_cells_at_the_end_of_lines_are_no_columns() {
         assert_eq!(format.parse_all("", &mut padded.as_bytes()).unwrap(), expected);
     }
     let missing = text.replacen(",18.357", ",", 1);
-    let error = refusal(&missing, &format);
+    let error = error_in(&missing, &format);
     assert_eq!(error, error_at(16, count("columns", 3, "4, as before")));
 }
 
-/// GOAL: files of velocity or displacement alone are refused with their title, in either layout of CESMD.
+/// GOAL: files of velocity or displacement alone are errors with their title, in either layout of CESMD.
 #[test]
 fn files_without_acceleration_are_named() {
     let numbers = "    1.000     2.000     3.000\n";
@@ -162,7 +162,7 @@ fn files_without_acceleration_are_named() {
             "Corrected data\n{title}\n{numbers}3 points of displ data equally spaced at .01 sec\n"
         );
         for channel in [1, 2] {
-            let error = refusal(&text, &CosmosFormat { channel, ..CosmosFormat::default() });
+            let error = error_in(&text, &CosmosFormat { channel, ..CosmosFormat::default() });
             let found = title.chars().take(60).collect();
             let needed = "an acceleration in a known unit".to_owned();
             assert_eq!(error, error_at(2, FileFault::Format { found, needed }));
@@ -175,6 +175,6 @@ fn files_without_acceleration_are_named() {
     }
     // A channel that does not exist, in a file with two.
     let text = String::from_utf8(bytes("cosmos.v2c")).unwrap();
-    let error = refusal(&text, &CosmosFormat { channel: 3, ..CosmosFormat::default() });
+    let error = error_in(&text, &CosmosFormat { channel: 3, ..CosmosFormat::default() });
     assert_eq!(error.fault, value("requested channel", "3", "from 1 to 2"));
 }

@@ -1,4 +1,4 @@
-//! GOAL: every number and unit in the header of a record file is read completely, or refused with its line.
+//! GOAL: every number and unit in the header of a record file is read completely, or is an error with its line.
 //! SCENE: time steps, units and formats of PEER, CSMIP, COSMOS and K-NET files in usual and unclear spellings.
 //! REFERENCE: the quantity that was printed; the typed error.
 
@@ -8,7 +8,7 @@ use basemat_problems::faults::{
     CLEAR_QUANTITY, is_missing, is_no_acceleration, is_no_number, is_off_columns, is_unclear, value,
 };
 
-use super::{SI_UNIT, STANDARD_GRAVITY, assert_record, error_at, read, refusal};
+use super::{SI_UNIT, STANDARD_GRAVITY, assert_record, error_at, error_in, read};
 
 /// Spellings of time steps, and their values in s.
 const CLEAR_TIME_STEPS: [(&str, f64); 16] = [
@@ -30,7 +30,7 @@ const CLEAR_TIME_STEPS: [(&str, f64); 16] = [
     ("1E1MS", 0.01),
 ];
 
-/// Spellings of time steps that are refused.
+/// Spellings of time steps that are errors.
 const UNCLEAR_TIME_STEPS: [&str; 17] = [
     "1,5",
     "1,5 SEC",
@@ -63,7 +63,7 @@ fn csmip(title: &str) -> String {
     )
 }
 
-/// GOAL: time steps of PEER files are read with their unit, or refused.
+/// GOAL: time steps of PEER files are read with their unit, or are errors.
 #[test]
 fn time_steps_of_peer_files_are_whole_quantities() {
     let expected = [0.1, -0.2, 0.3, 0.4].map(|a| a * STANDARD_GRAVITY);
@@ -81,7 +81,7 @@ fn time_steps_of_peer_files_are_whole_quantities() {
     }
     for text in UNCLEAR_TIME_STEPS {
         for header in [format!("NPTS= 4, DT= {text}"), format!("4  {text}  NPTS, DT")] {
-            let error = refusal(&peer(&header), &PeerFormat);
+            let error = error_in(&peer(&header), &PeerFormat);
             assert_eq!(error.line, 3, "{header}: {error}");
             assert!(
                 is_unclear(&error.fault)
@@ -96,7 +96,7 @@ fn time_steps_of_peer_files_are_whole_quantities() {
 /// GOAL: the error of an unclear time step or number of points shows the whole of it.
 #[test]
 fn unclear_quantities_of_peer_files_are_shown() {
-    let error = refusal(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
+    let error = error_in(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
     assert_eq!(error, error_at(3, value("time step", "'1,5 SEC'", CLEAR_QUANTITY)));
     let text = "time step is '1,5 SEC', but must be clear: all of it a known number, unit or word";
     assert_eq!(error.fault.to_string(), text);
@@ -106,7 +106,7 @@ fn unclear_quantities_of_peer_files_are_shown() {
         ("NPTS= 4;5, DT= .01", "4;5"),
         ("NPTS= 0X4, DT= .01", "0X4"),
     ] {
-        let error = refusal(&peer(header), &PeerFormat);
+        let error = error_in(&peer(header), &PeerFormat);
         let fault = value("number of points", &format!("'{text}'"), CLEAR_QUANTITY);
         assert_eq!(error, error_at(3, fault), "{header}");
     }
@@ -139,15 +139,15 @@ fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
         "4 .02 NPTS, DT, SCALE",
         "4 .02 DT, NPTS",
     ] {
-        let error = refusal(&peer(header), &PeerFormat);
+        let error = error_in(&peer(header), &PeerFormat);
         let is_typed = is_missing(&error.fault) || is_unclear(&error.fault);
         assert!(error.line >= 3 && is_typed, "{header}: {error}");
     }
 }
 
-/// GOAL: a unit of g with any factor is refused.
+/// GOAL: a unit of g with any factor is an error.
 #[test]
-fn a_unit_of_g_with_a_factor_is_refused() {
+fn a_unit_of_g_with_a_factor_is_an_error() {
     for unit in [
         "ACCELERATION TIME SERIES IN UNITS OF G X 1000",
         "ACCELERATION TIME SERIES IN UNITS OF G*1000",
@@ -178,17 +178,17 @@ fn a_unit_of_g_with_a_factor_is_refused() {
         "UNITS OF G, GAIN: 1000",
     ] {
         let text = format!("TITLE\n{unit}\nNPTS= 2, DT= .01 SEC\n1 2\n");
-        let error = refusal(&text, &PeerFormat);
-        let is_unit_refused = is_no_acceleration(&error.fault) || is_missing(&error.fault);
-        assert!((error.line == 2 || error.line == 3) && is_unit_refused, "{unit}: {error}");
+        let error = error_in(&text, &PeerFormat);
+        let is_unit_error = is_no_acceleration(&error.fault) || is_missing(&error.fault);
+        assert!((error.line == 2 || error.line == 3) && is_unit_error, "{unit}: {error}");
     }
     // In any line of the header.
     for rest in ["UNITS= CM/S/S, NPTS= 2, DT= .01", "NPTS= 2, DT= .01 SEC, UNITS: MG"] {
-        let error = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
+        let error = error_in(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
         assert!(error.line == 2 && is_no_acceleration(&error.fault), "{error}");
     }
     for rest in ["NPTS= 2, DT= .01, SCALE FACTOR= 1000", "NPTS= 2, DT= .01 SEC, SCALE: 10"] {
-        let error = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
+        let error = error_in(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
         assert!(error.line == 2 && is_unclear(&error.fault), "{error}");
     }
     for unit in [
@@ -212,7 +212,7 @@ fn a_unit_of_g_with_a_factor_is_refused() {
     }
 }
 
-/// GOAL: time steps of CSMIP files are read with their unit, or refused.
+/// GOAL: time steps of CSMIP files are read with their unit, or are errors.
 #[test]
 fn time_steps_of_csmip_files_are_whole_quantities() {
     let format = CosmosFormat { unit: Some(AccelerationUnit::Gal), ..CosmosFormat::default() };
@@ -231,13 +231,13 @@ fn time_steps_of_csmip_files_are_whole_quantities() {
     }
     for text in UNCLEAR_TIME_STEPS {
         for rest in [", in cm/sec2. (8f10.3)", " in cm/sec2. (8f10.3)", " (8f10.3)", ""] {
-            let error = refusal(&csmip(&format!("{text}{rest}")), &format);
+            let error = error_in(&csmip(&format!("{text}{rest}")), &format);
             assert!(error.line == 2 && is_unclear(&error.fault), "{text}{rest}: {error}");
         }
     }
 }
 
-/// GOAL: units and Fortran formats of CSMIP and COSMOS files are read completely, or refused.
+/// GOAL: units and Fortran formats of CSMIP and COSMOS files are read completely, or are errors.
 #[test]
 fn units_and_formats_of_csmip_and_cosmos_are_whole() {
     let format = CosmosFormat { unit: Some(SI_UNIT), ..CosmosFormat::default() };
@@ -261,7 +261,7 @@ fn units_and_formats_of_csmip_and_cosmos_are_whole() {
         ".01 sec, in g (2(4f10.3))",
         ".01 sec (8f10,3)",
     ] {
-        let error = refusal(&csmip(title), &format);
+        let error = error_in(&csmip(title), &format);
         let is_typed = is_no_acceleration(&error.fault) || is_unclear(&error.fault);
         assert!(error.line == 2 && is_typed, "{title}: {error}");
     }
@@ -320,16 +320,16 @@ fn fields_without_a_point_have_the_decimals_of_their_format() {
     assert_record(&read(&cosmos, &format).unwrap(), 0.005, &expected);
 }
 
-/// GOAL: whole numbers in and out of their columns, which would differ by a factor, are refused.
+/// GOAL: whole numbers in and out of their columns, which would differ by a factor, are errors.
 #[test]
-fn fields_without_a_point_out_of_their_columns_are_refused() {
+fn fields_without_a_point_out_of_their_columns_are_errors() {
     let format = CosmosFormat::default();
     for body in ["     12345     -2345\n3000 1", "3000 1\n     12345     -2345", "12 13\n14\n15"] {
-        let error = refusal(&in_columns("2f10.3", body), &format);
+        let error = error_in(&in_columns("2f10.3", body), &format);
         assert!(error.line == 3 && is_off_columns(&error.fault), "{body}: {error}");
     }
     // A scale factor applies to fields of the format alone; these numbers are out of their fields.
-    let error = refusal(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
+    let error = error_in(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
     assert!(error.line == 2 && is_off_columns(&error.fault), "{error}");
     // A column that ends within a number.
     assert_record(
@@ -349,7 +349,7 @@ fn double_precision_is_read_everywhere() {
         ["1,0", "1D", "D1", "1D2D3", "1E2D3", "0x1", "1_0", "1e", "\u{2212}1", "١", "1 000,5"]
     {
         let text = format!("UNITS OF G\nNPTS= 2, DT= .01\n{sample}\n2\n");
-        let error = refusal(&text, &PeerFormat);
+        let error = error_in(&text, &PeerFormat);
         assert!(error.line == 3 && is_no_number(&error.fault), "{sample}: {error}");
     }
 }
@@ -362,7 +362,7 @@ fn k_net(frequency: &str, duration: &str, scale: &str) -> String {
     )
 }
 
-/// GOAL: frequency, duration and scale factor of K-NET files are read completely, or refused.
+/// GOAL: frequency, duration and scale factor of K-NET files are read completely, or are errors.
 #[test]
 fn quantities_of_k_net_are_whole() {
     let expected = [0.01, 0.02, 0.03, 0.04];
@@ -388,7 +388,7 @@ fn quantities_of_k_net_are_whole() {
         (2, "2Hz\nSampling Freq(Hz) 4Hz", "2", "1(gal)/1"),
         (3, "2Hz", "2", "1(gal)/1/2"),
     ] {
-        let error = refusal(&k_net(frequency, duration, scale), &KNetFormat);
+        let error = error_in(&k_net(frequency, duration, scale), &KNetFormat);
         assert!(
             error.line == line && is_unclear(&error.fault),
             "{frequency} {duration} {scale}: {error}"

@@ -6,7 +6,7 @@ use basemat::motion::{AccelerationUnit, ColumnFormat, RecordFormat};
 
 use basemat_problems::faults::is_value;
 
-use super::{GRAVITY_UNIT, SI_UNIT, read, refusal};
+use super::{GRAVITY_UNIT, SI_UNIT, error_in, read};
 
 /// Columns of time and acceleration in m/s².
 fn si_columns() -> ColumnFormat {
@@ -200,7 +200,7 @@ fn titles_of_a_single_column_are_whole_lines() {
     }
 }
 
-/// GOAL: a title with another unit than the format's is refused; titles of other columns and lines are not checked.
+/// GOAL: a title with another unit than the format's is an error; titles of other columns and lines are not checked.
 #[test]
 fn titles_are_compared_with_the_format() {
     for text in [
@@ -213,7 +213,7 @@ fn titles_are_compared_with_the_format() {
         "time_s,acceleration_g\n0,1\n0.02,2\n",
         "a (m/s2),t (s)\n0,1\n0.02,2\n",
     ] {
-        let error = refusal(text, &si_columns());
+        let error = error_in(text, &si_columns());
         assert!(error.line == 2 && is_value(&error.fault, "title"), "{text:?}: {error}");
     }
     for text in [

@@ -50,9 +50,9 @@ fn significant_part(record: &Record, from: f64, to: f64) -> Result<Record> {
     record.trimmed(times[0], times[1])
 }
 
-/// GOAL: parts outside a record, and empty ones, are refused; the significant part is cut.
+/// GOAL: parts outside a record, and empty ones, are errors; the significant part is cut.
 #[test]
-fn parts_outside_are_refused() {
+fn parts_outside_are_errors() {
     let record = el_centro_1940();
     let end = record.duration();
     let nan = f64::NAN;
@@ -71,8 +71,8 @@ fn parts_outside_are_refused() {
             panic!("{start} {stop}");
         };
         assert!(quantity.starts_with(name));
-        let refused = if name == "start" { start } else { stop };
-        assert_eq!(value.to_bits(), refused.to_bits());
+        let result = if name == "start" { start } else { stop };
+        assert_eq!(value.to_bits(), result.to_bits());
     }
     assert!(significant_part(&record, 0.5, 0.5).is_err());
     assert!(significant_part(&record, 0.95, 0.05).is_err());

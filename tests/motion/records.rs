@@ -10,9 +10,9 @@ use proptest::prelude::*;
 use basemat_problems::dense::largest;
 use basemat_problems::{assert_close, table};
 
-/// GOAL: samples, time steps and factors out of range are refused.
+/// GOAL: samples, time steps and factors out of range are errors.
 #[test]
-fn invalid_samples_and_steps_are_refused() {
+fn invalid_samples_and_steps_are_errors() {
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(Record::new(step, vec![0.0; 3]), Err(Error::Input { .. })), "{step}");
         assert!(matches!(el_centro_1940().resampled(step), Err(Error::Input { .. })), "{step}");

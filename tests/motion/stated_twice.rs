@@ -8,7 +8,7 @@ use basemat::motion::{
 };
 
 use super::agency_files::bytes;
-use super::{read, refusal};
+use super::{error_in, read};
 
 /// Changes of a file, and the beginning and end of the error's text.
 type FileChange = (&'static [(&'static str, &'static str)], &'static str);
@@ -19,9 +19,9 @@ const OTHER_DURATION: &str =
 const OTHER_UNIT: &str = "title is …, in which the column is read";
 const NOT_ACCELERATION: &str = "'… instead of an acceleration in a known unit";
 
-/// Asserts that each change is refused with its error.
+/// Asserts the error of each change.
 #[track_caller]
-fn assert_refused(name: &str, format: &dyn RecordFormat, changes: &[FileChange]) {
+fn assert_errors(name: &str, format: &dyn RecordFormat, changes: &[FileChange]) {
     let text = String::from_utf8(bytes(name)).unwrap();
     assert!(read(&text, format).is_ok());
     for (replacements, expected) in changes {
@@ -30,7 +30,7 @@ fn assert_refused(name: &str, format: &dyn RecordFormat, changes: &[FileChange])
             assert!(changed.contains(from), "{name}: {from}");
             changed = changed.replacen(from, to, 1);
         }
-        let error = refusal(&changed, format);
+        let error = error_in(&changed, format);
         let fault = error.fault.to_string();
         let (start, end) = expected.split_once('…').unwrap_or((expected, expected));
         assert!(
@@ -42,9 +42,9 @@ fn assert_refused(name: &str, format: &dyn RecordFormat, changes: &[FileChange])
 
 /// GOAL: the time step, number of points and peak of a CSMIP file agree.
 #[test]
-fn contradictions_in_csmip_files_are_refused() {
+fn contradictions_in_csmip_files_are_errors() {
     let step = "time step of the title (s) is …, as the file states elsewhere";
-    assert_refused(
+    assert_errors(
         "csmip.v2",
         &CosmosFormat::default(),
         &[
@@ -63,8 +63,8 @@ fn contradictions_in_csmip_files_are_refused() {
 
 /// GOAL: interval, duration, unit and peak of a COSMOS file agree.
 #[test]
-fn contradictions_in_cosmos_files_are_refused() {
-    assert_refused(
+fn contradictions_in_cosmos_files_are_errors() {
+    assert_errors(
         "cosmos.v2c",
         &CosmosFormat::default(),
         &[
@@ -87,8 +87,8 @@ fn contradictions_in_cosmos_files_are_refused() {
 
 /// GOAL: frequency, duration, unit and peak of K-NET files agree; duration and frequency give the number of samples.
 #[test]
-fn contradictions_in_k_net_files_are_refused() {
-    assert_refused(
+fn contradictions_in_k_net_files_are_errors() {
+    assert_errors(
         "k_net.ns",
         &KNetFormat,
         &[
@@ -102,7 +102,7 @@ fn contradictions_in_k_net_files_are_refused() {
             (&[("Max. Acc. (gal)", "Max. Acc. (m/s2)")], OTHER_UNIT),
         ],
     );
-    assert_refused(
+    assert_errors(
         "k_net.csv",
         &KNetCsvFormat::default(),
         &[
@@ -119,8 +119,8 @@ fn contradictions_in_k_net_files_are_refused() {
 
 /// GOAL: interval, duration, number of samples, unit and peak of an ESM file agree.
 #[test]
-fn contradictions_in_esm_files_are_refused() {
-    assert_refused(
+fn contradictions_in_esm_files_are_errors() {
+    assert_errors(
         "esm_hne.asc",
         &EsmFormat,
         &[
@@ -137,8 +137,8 @@ fn contradictions_in_esm_files_are_refused() {
 
 /// GOAL: number of samples, peaks, columns and units of an AFAD file agree; the unit may be in either title.
 #[test]
-fn contradictions_in_afad_files_are_refused() {
-    assert_refused(
+fn contradictions_in_afad_files_are_errors() {
+    assert_errors(
         "afad_three.txt",
         &AfadFormat::default(),
         &[
@@ -175,7 +175,7 @@ fn contradictions_in_afad_files_are_refused() {
         assert_eq!(read(&text, &AfadFormat::default()).unwrap(), expected, "{to}");
     }
     let text = text.replacen("       N-S ", "  N-S (gal) ", 1).replace("(N-S) 108.", "(N-S) 10.8");
-    let error = refusal(&text, &AfadFormat::default());
+    let error = error_in(&text, &AfadFormat::default());
     assert_eq!(
         error.fault.to_string(),
         "peak acceleration (m/s²) is 1.0858049, but must be 0.10858049, as the file states elsewhere"
@@ -184,8 +184,8 @@ fn contradictions_in_afad_files_are_refused() {
 
 /// GOAL: peaks, their time and the kind of data of an SMC file agree.
 #[test]
-fn contradictions_in_smc_files_are_refused() {
-    assert_refused(
+fn contradictions_in_smc_files_are_errors() {
+    assert_errors(
         "smc.smc",
         &SmcFormat,
         &[
@@ -206,8 +206,8 @@ fn contradictions_in_smc_files_are_refused() {
 
 /// GOAL: time step, number of points, duration, peak and unit of a GeoNet file agree.
 #[test]
-fn contradictions_in_geonet_files_are_refused() {
-    assert_refused(
+fn contradictions_in_geonet_files_are_errors() {
+    assert_errors(
         "geonet.v2a",
         &GeoNetFormat::default(),
         &[

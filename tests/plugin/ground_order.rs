@@ -132,13 +132,13 @@ fn springs_of_a_user_move_as_the_spring_ground() {
     let normal = SPRING_STIFFNESS[0];
     let tangential = SPRING_STIFFNESS[1];
     let springs = SpringGround::new(-2.0..2.0, 4, normal, tangential).unwrap();
-    let damped = springs.clone().with_dashpots(1e-2 * normal, 1e-2 * tangential).unwrap();
+    let damped_bed = springs.clone().with_dashpots(1e-2 * normal, 1e-2 * tangential).unwrap();
     let expected = sliding_block(springs);
     assert!(expected.run.whole.largest_slip.magnitude() > 1e-3, "{}", expected.run);
     let computed = sliding_block(CompliantSprings::new(2.0));
     let expected_displacement = expected.simulation.state().displacement();
     assert_eq!(computed.simulation.state().displacement(), expected_displacement);
-    let expected = sliding_block(damped).simulation;
+    let expected = sliding_block(damped_bed).simulation;
     let computed = sliding_block(MinimalGround(damped_springs(1e-2))).simulation;
     assert_eq!(computed.state().displacement(), expected.state().displacement());
 }
@@ -149,8 +149,8 @@ fn displacement_error(multiple: f64, steps: usize) -> f64 {
     let mut simulation = oscillator(CompliantSprings::new(multiple), end / steps as f64);
     simulation.run(steps, |_| {}).unwrap();
     let amplitude = INITIAL_VELOCITY / circular_frequency();
-    let exact = amplitude * (circular_frequency() * end).sin();
-    (simulation.state().displacement()[1] - exact).abs() / amplitude
+    let expected = amplitude * (circular_frequency() * end).sin();
+    (simulation.state().displacement()[1] - expected).abs() / amplitude
 }
 
 #[test]
@@ -166,8 +166,8 @@ fn the_mid_step_form_converges_at_second_order() {
 /// Range of the energy of the soil in the last period, over the initial kinetic energy.
 #[derive(Debug)]
 struct EnergyRange {
-    lowest: f64,
-    highest: f64,
+    min_energy: f64,
+    max_energy: f64,
 }
 
 fn soil_energy_in_last_period(multiple: f64) -> EnergyRange {
@@ -184,8 +184,8 @@ fn soil_energy_in_last_period(multiple: f64) -> EnergyRange {
     let period_steps = (std::f64::consts::TAU / circular_frequency() / TIME_STEP).ceil() as usize;
     let last_period = &soil[soil.len() - period_steps..];
     EnergyRange {
-        lowest: last_period.iter().copied().fold(f64::INFINITY, f64::min),
-        highest: last_period.iter().copied().fold(0.0, f64::max),
+        min_energy: last_period.iter().copied().fold(f64::INFINITY, f64::min),
+        max_energy: last_period.iter().copied().fold(0.0, f64::max),
     }
 }
 
@@ -193,10 +193,10 @@ fn soil_energy_in_last_period(multiple: f64) -> EnergyRange {
 fn the_energy_of_springs_returns_in_the_mid_step_form_only() {
     let mid_step = soil_energy_in_last_period(2.0);
     println!("mid-step form: {mid_step:.4?} of the energy in the soil");
-    assert!(mid_step.lowest < 0.02 && (mid_step.highest - 1.0).abs() < 0.01, "{mid_step:?}");
+    assert!(mid_step.min_energy < 0.02 && (mid_step.max_energy - 1.0).abs() < 0.01, "{mid_step:?}");
     let first_order = soil_energy_in_last_period(1.0);
     println!("s = C τ: {first_order:.4?} of the energy in the soil");
-    assert!(first_order.lowest > 0.95, "{first_order:?}");
+    assert!(first_order.min_energy > 0.95, "{first_order:?}");
 }
 
 /// Whether a run warns that its ground is of first order.

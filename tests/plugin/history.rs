@@ -105,20 +105,20 @@ fn histories_agree_with_the_direct_sum() {
     let elements = Strip::uniform(0.0..3.0, 3).unwrap().elements();
     let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(soil(), elements, 2e-3).unwrap());
-    let mut plain = PlainSum::new(Arc::clone(&kernel));
-    let mut direct = DirectHistory::new(kernel);
+    let mut plain_history = PlainSum::new(Arc::clone(&kernel));
+    let mut direct_history = DirectHistory::new(kernel);
     let mut expected = [f64::NAN; 6];
     let mut computed = [f64::NAN; 6];
     for step in 0..40 {
-        plain.evaluate(&mut expected).unwrap();
-        direct.evaluate(&mut computed).unwrap();
-        let largest = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        plain_history.evaluate(&mut expected).unwrap();
+        direct_history.evaluate(&mut computed).unwrap();
+        let max_magnitude = expected.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
         for (a, b) in expected.iter().zip(&computed) {
-            assert!((a - b).abs() <= 1e-12 * largest, "{expected:?} {computed:?}");
+            assert!((a - b).abs() <= 1e-12 * max_magnitude, "{expected:?} {computed:?}");
         }
         let traction: [f64; 6] = std::array::from_fn(|i| (1.7 * (i + 7 * step) as f64).sin());
-        plain.push(&traction);
-        direct.push(&traction);
-        assert_eq!(plain.steps(), direct.steps());
+        plain_history.push(&traction);
+        direct_history.push(&traction);
+        assert_eq!(plain_history.steps(), direct_history.steps());
     }
 }

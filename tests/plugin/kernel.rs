@@ -31,10 +31,11 @@ impl FadingWeights {
         let [source, receiver] = self.classes.representative(class).unwrap();
         let distance = receiver.center()[0] - source.center()[0];
         let weight = source.length() * receiver.length() / (1.0 + distance * distance);
-        let decayed = [0.004, 0.01, 0.003].map(|rate: f64| weight * (-rate * lag as f64).exp());
+        let decayed_weights =
+            [0.004, 0.01, 0.003].map(|rate: f64| weight * (-rate * lag as f64).exp());
         let is_uncoupled = self.last_coupling_lag.is_some_and(|last| lag > last);
-        let coupling = if is_uncoupled { 0.0 } else { distance * decayed[2] };
-        [decayed[0], 0.7 * decayed[1], coupling]
+        let coupling = if is_uncoupled { 0.0 } else { distance * decayed_weights[2] };
+        [decayed_weights[0], 0.7 * decayed_weights[1], coupling]
     }
 }
 
@@ -123,7 +124,7 @@ fn displacements(
     steps: usize,
     preparations: &[(usize, usize)],
 ) -> Vec<f64> {
-    let mut all = Vec::new();
+    let mut displacements = Vec::new();
     let mut displacement = vec![f64::NAN; 20];
     for step in 0..steps {
         for (_, lags) in
@@ -133,10 +134,10 @@ fn displacements(
         }
         displacement.fill(f64::NAN);
         history.evaluate(&mut displacement).unwrap();
-        all.extend_from_slice(&displacement);
+        displacements.extend_from_slice(&displacement);
         history.push(&traction(step, 20));
     }
-    all
+    displacements
 }
 
 pub(super) fn ten_elements(grading: Grading) -> Vec<ContactElement> {
@@ -166,18 +167,17 @@ fn exact_histories_of_a_user_s_weights_agree() {
             let label = format!("{grading:?} {last_coupling_lag:?}");
             let weights = FadingWeights::new(ten_elements(grading), last_coupling_lag);
             let direct_sum = by_direct_sum(Arc::new(weights.clone()));
-            let largest =
-                direct_sum.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+            let max_magnitude = direct_sum.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
             let transforms = by_transforms(Arc::new(weights.clone()), &[]);
             for (a, b) in transforms.iter().zip(&direct_sum) {
-                assert!((a - b).abs() < 1e-13 * largest, "{label}: {a} {b}");
+                assert!((a - b).abs() < 1e-13 * max_magnitude, "{label}: {a} {b}");
             }
             // Neither hints nor shared spectra nor the computation of the weights changes a bit.
             let spectra = Some(SharedSpectra::default());
             let with_spectra = Arc::new(FadingWeights { spectra, ..weights.clone() });
             for preparations in [&[(0, STEP_COUNT)][..], &[(0, 33), (50, 340)], &[(64, 1000)]] {
-                let repeated = by_transforms(with_spectra.clone(), preparations);
-                assert_eq!(repeated, transforms, "{label} {preparations:?}");
+                let repeated_displacements = by_transforms(with_spectra.clone(), preparations);
+                assert_eq!(repeated_displacements, transforms, "{label} {preparations:?}");
             }
             if last_coupling_lag.is_none() {
                 let blockwise = Arc::new(BlockwiseWeights::new(weights));
@@ -193,9 +193,11 @@ fn exact_histories_of_a_user_s_weights_agree() {
 fn spectra_of_other_elements_are_not_used() {
     let spectra = Some(SharedSpectra::default());
     let other_elements = Strip::uniform(0.0..1.0, 3).unwrap().elements();
-    let other = FadingWeights::new(other_elements, None);
-    let other = FadingWeights { spectra: spectra.clone(), ..other };
-    RelaxedFftHistory::new(Arc::new(other)).prepare(200, &mut unobserved).unwrap();
+    let other_weights = FadingWeights::new(other_elements, None);
+    let other_weights = FadingWeights { spectra: spectra.clone(), ..other_weights };
+    RelaxedFftHistory::new(Arc::new(other_weights))
+        .prepare(200, &mut unobserved)
+        .unwrap();
     for grading in [Grading::Uniform, Grading::Cosine] {
         let weights = FadingWeights::new(ten_elements(grading), Some(90));
         let with_spectra = FadingWeights { spectra: spectra.clone(), ..weights.clone() };

@@ -85,12 +85,12 @@ fn assert_limits_are_enough(law: impl InterfaceLaw + Copy + 'static, tolerance: 
     let expected = run_with_law(6, law);
     let computed = run_with_law(6, OnlyLimits(law)).simulation;
     let expected_contact = &expected.simulation.state().contact;
-    let largest = expected_contact
+    let max_pressure = expected_contact
         .iter()
-        .fold(0.0, |largest: f64, contact| contact.pressure.abs().max(largest));
+        .fold(0.0, |max_pressure: f64, contact| contact.pressure.abs().max(max_pressure));
     for (a, b) in expected_contact.iter().zip(&computed.state().contact) {
-        assert!((a.pressure - b.pressure).abs() <= tolerance * largest, "{a:?} {b:?}");
-        assert!((a.shear - b.shear).abs() <= tolerance * largest, "{a:?} {b:?}");
+        assert!((a.pressure - b.pressure).abs() <= tolerance * max_pressure, "{a:?} {b:?}");
+        assert!((a.shear - b.shear).abs() <= tolerance * max_pressure, "{a:?} {b:?}");
     }
     assert_same_motion(&expected.simulation, &computed, tolerance);
     expected.run
@@ -130,8 +130,8 @@ impl InterfaceLaw for NegativeFriction {
 
 /// Error of a block with this law, with all its causes.
 fn error_with_law(law: impl InterfaceLaw + 'static) -> String {
-    let built = shaken().structure(block()).ground(bed(6)).interface(law).build();
-    let error = built.and_then(|mut simulation| simulation.run(1, |_| {})).err();
+    let result = shaken().structure(block()).ground(bed(6)).interface(law).build();
+    let error = result.and_then(|mut simulation| simulation.run(1, |_| {})).err();
     let error = error.expect("no law without limits");
     let causes =
         std::iter::successors(Some(&error as &dyn std::error::Error), |cause| cause.source());

@@ -40,9 +40,9 @@ pub(crate) fn complete_run(builder: SimulationBuilder) -> CompletedRun {
 pub(crate) fn assert_same_motion(a: &Simulation, b: &Simulation, tolerance: f64) {
     let a = a.state().absolute_displacement();
     let b = b.state().absolute_displacement();
-    let largest = a.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    assert!(largest > 0.0);
+    let max_magnitude = a.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+    assert!(max_magnitude > 0.0);
     for (x, y) in a.iter().zip(b) {
-        assert!((x - y).abs() <= tolerance * largest, "{a:?} {b:?}");
+        assert!((x - y).abs() <= tolerance * max_magnitude, "{a:?} {b:?}");
     }
 }

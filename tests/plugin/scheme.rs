@@ -35,8 +35,11 @@ impl TimeScheme for AverageAcceleration {
 
 /// Motion of a bonded linear structure by this scheme.
 fn run_with(scheme: impl TimeScheme + 'static) -> Simulation {
-    let linear = HardeningOscillator { cubic_stiffness: 0.0, commits: Arc::default() };
-    let builder = shaken().structure(MinimalStructure(linear)).ground(bed(4)).interface(Bonded);
+    let linear_oscillator = HardeningOscillator { cubic_stiffness: 0.0, commits: Arc::default() };
+    let builder = shaken()
+        .structure(MinimalStructure(linear_oscillator))
+        .ground(bed(4))
+        .interface(Bonded);
     complete_run(builder.scheme(scheme)).simulation
 }
 
@@ -47,6 +50,6 @@ fn a_scheme_of_a_user_moves_as_the_midpoint_rule() {
     let theta = run_with(Theta::new(0.52).unwrap());
     assert!(theta.state().energy_balance.algorithmic > 0.0);
     assert_eq!(midpoint.state().energy_balance.algorithmic, 0.0);
-    // Two different rules of second order.
+    // The two rules are of second order, but different.
     assert_same_motion(&midpoint, &newmark, 0.05);
 }

@@ -14,25 +14,25 @@ use basemat::{Error, Result, unobserved};
 
 use super::scene::soil;
 
-/// A source that has the store make the kernels of `others`.
+/// A source for which the store makes the kernels of `required_sources` first.
 #[derive(Clone)]
 struct DependentSource {
     number: f64,
-    others: Vec<DependentSource>,
+    required_sources: Vec<DependentSource>,
     kernels: SharedKernels,
     /// Number of kernels that this source has made.
-    made: Arc<AtomicUsize>,
+    kernel_count: Arc<AtomicUsize>,
 }
 
 impl DependentSource {
     fn new(kernels: &SharedKernels, number: f64) -> Self {
-        let made = Arc::default();
-        Self { number, others: vec![], kernels: kernels.clone(), made }
+        let kernel_count = Arc::default();
+        Self { number, required_sources: vec![], kernels: kernels.clone(), kernel_count }
     }
 
     /// A source that depends on another of this number.
     fn depending_on(kernels: &SharedKernels, number: f64, other: f64) -> Self {
-        Self { others: vec![Self::new(kernels, other)], ..Self::new(kernels, number) }
+        Self { required_sources: vec![Self::new(kernels, other)], ..Self::new(kernels, number) }
     }
 
     fn prepare(&self) -> Result<()> {
@@ -48,8 +48,8 @@ impl WeightsSource for DependentSource {
         elements: &[ContactElement],
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
-        self.made.fetch_add(1, Ordering::Relaxed);
-        self.others.iter().try_for_each(DependentSource::prepare)?;
+        self.kernel_count.fetch_add(1, Ordering::Relaxed);
+        self.required_sources.iter().try_for_each(DependentSource::prepare)?;
         Ok(Arc::new(PatchKernel::new(soil(), elements.to_vec(), time_step)?))
     }
 
@@ -79,7 +79,7 @@ fn results_in_time<T: Send + 'static>(tasks: Vec<Box<dyn FnOnce() -> T + Send>>)
 }
 
 #[track_caller]
-fn assert_refused(result: &Result<()>) {
+fn assert_errors(result: &Result<()>) {
     let Err(Error::Scene { quantity: "kernel source", needed }) = result else {
         panic!("{result:?}")
     };
@@ -90,21 +90,22 @@ fn assert_refused(result: &Result<()>) {
 fn a_source_may_request_others_from_its_store() {
     let kernels = SharedKernels::default();
     let mut source = DependentSource::new(&kernels, 1.0);
-    source.others = vec![DependentSource::new(&kernels, 2.0), DependentSource::new(&kernels, 3.0)];
+    source.required_sources =
+        vec![DependentSource::new(&kernels, 2.0), DependentSource::new(&kernels, 3.0)];
     let results = results_in_time(vec![Box::new(move || (source.prepare(), source.prepare()))]);
     assert_eq!(results, [(Ok(()), Ok(()))]);
     assert_eq!(kernels.count(), 3);
 }
 
 #[test]
-fn a_source_that_requests_itself_is_refused() {
+fn a_source_that_requests_itself_is_an_error() {
     let kernels = SharedKernels::default();
     let first = DependentSource::new(&kernels, 1.0);
-    let direct = DependentSource::depending_on(&kernels, 1.0, 1.0);
-    let intermediate = DependentSource::depending_on(&kernels, 2.0, 1.0);
-    let indirect = DependentSource { others: vec![intermediate], ..first.clone() };
-    for source in [direct, indirect] {
-        assert_refused(&results_in_time(vec![Box::new(move || source.prepare())])[0]);
+    let first_source = DependentSource::depending_on(&kernels, 1.0, 1.0);
+    let second_source = DependentSource::depending_on(&kernels, 2.0, 1.0);
+    let indirect = DependentSource { required_sources: vec![second_source], ..first.clone() };
+    for source in [first_source, indirect] {
+        assert_errors(&results_in_time(vec![Box::new(move || source.prepare())])[0]);
         assert_eq!(kernels.count(), 0);
     }
     // The store still makes the kernel afterwards.
@@ -121,7 +122,7 @@ fn a_kernel_that_another_thread_computes_is_shared() {
         tasks.push(Box::new(move || source.prepare()));
     }
     assert!(results_in_time(tasks).iter().all(Result::is_ok));
-    assert_eq!(source.made.load(Ordering::Relaxed), 1);
+    assert_eq!(source.kernel_count.load(Ordering::Relaxed), 1);
     assert_eq!(kernels.count(), 1);
 }
 

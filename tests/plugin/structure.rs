@@ -93,15 +93,15 @@ fn structures_of_a_user_are_linear_or_nonlinear() {
     let commits = Arc::new(AtomicUsize::new(0));
     let oscillator =
         |cubic_stiffness| HardeningOscillator { cubic_stiffness, commits: Arc::clone(&commits) };
-    let linear = run_on_springs(MinimalStructure(oscillator(0.0))).simulation;
+    let linear_simulation = run_on_springs(MinimalStructure(oscillator(0.0))).simulation;
     assert_eq!(commits.load(Ordering::Relaxed), 0, "a wrapper without `commit`");
-    let soft = run_on_springs(oscillator(0.0)).simulation;
+    let soft_simulation = run_on_springs(oscillator(0.0)).simulation;
     let count = commits.load(Ordering::Relaxed);
     assert_eq!(count, 601, "for the static state, and once per accepted step");
-    assert_same_motion(&linear, &soft, 1e-7);
-    let hard = run_on_springs(oscillator(1.0e4 * SPRING_STIFFNESS));
-    let difference = drift(&hard.simulation) - drift(&soft);
-    assert!(difference.abs() > 1e-5, "the cubic term acts: {}", hard.run);
+    assert_same_motion(&linear_simulation, &soft_simulation, 1e-7);
+    let hard_run = run_on_springs(oscillator(1.0e4 * SPRING_STIFFNESS));
+    let difference = drift(&hard_run.simulation) - drift(&soft_simulation);
+    assert!(difference.abs() > 1e-5, "the cubic term acts: {}", hard_run.run);
 }
 
 /// Motion of a structure on four springs with little friction.

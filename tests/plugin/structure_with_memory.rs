@@ -179,22 +179,22 @@ fn drifts_by_central_differences(record: &Record, count: usize) -> Vec<f64> {
 
 #[test]
 fn an_isolator_of_a_user_follows_its_differential_equation() {
-    // For 8 s.
-    let exact = drifts_by_central_differences(&el_centro_1940(), 400);
-    let largest = exact.iter().fold(0.0_f64, |largest, drift| largest.max(drift.abs()));
-    assert!(largest > 5.0 * YIELD_DRIFT, "it yields: {largest}");
+    // The run lasts 8 s.
+    let expected = drifts_by_central_differences(&el_centro_1940(), 400);
+    let max_magnitude = expected.iter().fold(0.0_f64, |max, drift| max.max(drift.abs()));
+    assert!(max_magnitude > 5.0 * YIELD_DRIFT, "it yields: {max_magnitude}");
     let errors = [2, 4, 8, 16, 32].map(|steps| {
         let mut simulation = isolator_on_rock(1.0, 0.02 / steps as f64);
         let mut error = 0.0_f64;
         let run = simulation.run(400 * steps, |state| {
             if state.step % steps == 0 {
-                error = error.max((state.probes[0] - exact[state.step / steps - 1]).abs());
+                error = error.max((state.probes[0] - expected[state.step / steps - 1]).abs());
             }
         });
         assert!(run.unwrap().energy_error < 1e-9);
-        error / largest
+        error / max_magnitude
     });
-    println!("peak drift {largest:.4} m, errors {errors:?}");
+    println!("peak drift {max_magnitude:.4} m, errors {errors:?}");
     assert!(errors[4] < 1e-5, "{errors:?}");
     // The mean order over four halvings: a single one depends on where in a step the motion reverses.
     let order = (errors[0] / errors[4]).log2() / 4.0;
@@ -203,21 +203,21 @@ fn an_isolator_of_a_user_follows_its_differential_equation() {
 
 #[test]
 fn an_isolator_of_a_user_resumes_to_the_last_bit() {
-    let mut uninterrupted = isolator_on_rock(1.0, 0.005);
-    uninterrupted.run(500, |_| {}).unwrap();
-    let checkpoint = uninterrupted.checkpoint().unwrap();
-    let saved_isolator = isolator(&uninterrupted);
+    let mut uninterrupted_simulation = isolator_on_rock(1.0, 0.005);
+    uninterrupted_simulation.run(500, |_| {}).unwrap();
+    let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
+    let saved_isolator = isolator(&uninterrupted_simulation);
     assert!(saved_isolator.z != 0.0);
-    uninterrupted.run(500, |_| {}).unwrap();
-    let mut resumed = isolator_on_rock(1.0, 0.005);
-    resumed.resume(&checkpoint).unwrap();
-    assert_eq!(isolator(&resumed), saved_isolator);
-    resumed.run(500, |_| {}).unwrap();
-    assert_eq!(resumed.state(), uninterrupted.state());
-    assert_eq!(isolator(&resumed), isolator(&uninterrupted));
+    uninterrupted_simulation.run(500, |_| {}).unwrap();
+    let mut resumed_simulation = isolator_on_rock(1.0, 0.005);
+    resumed_simulation.resume(&checkpoint).unwrap();
+    assert_eq!(isolator(&resumed_simulation), saved_isolator);
+    resumed_simulation.run(500, |_| {}).unwrap();
+    assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
+    assert_eq!(isolator(&resumed_simulation), isolator(&uninterrupted_simulation));
 }
 
-/// A refused step changes nothing: on a larger plate the run continues to the same bits.
+/// A step that returns an error changes nothing: on a larger plate the run continues to the same bits.
 #[test]
 fn an_isolator_off_its_plate_ends_the_step_with_its_reason() {
     let mut on_small_plate = isolator_on_rock(0.03, 0.005);
@@ -234,10 +234,10 @@ fn an_isolator_off_its_plate_ends_the_step_with_its_reason() {
     assert_eq!(on_small_plate.state(), on_large_plate.state());
     let moved_isolator = BoucWenIsolator { plate_reach: 1.0, ..isolator(&on_small_plate) };
     assert_eq!(moved_isolator, isolator(&on_large_plate));
-    let mut resumed = isolator_on_rock(1.0, 0.005);
-    resumed.resume(&on_small_plate.checkpoint().unwrap()).unwrap();
-    for simulation in [&mut resumed, &mut on_large_plate] {
+    let mut resumed_simulation = isolator_on_rock(1.0, 0.005);
+    resumed_simulation.resume(&on_small_plate.checkpoint().unwrap()).unwrap();
+    for simulation in [&mut resumed_simulation, &mut on_large_plate] {
         simulation.run(500, |_| {}).unwrap();
     }
-    assert_eq!(resumed.state(), on_large_plate.state());
+    assert_eq!(resumed_simulation.state(), on_large_plate.state());
 }

@@ -39,7 +39,7 @@ fn half_plane() -> ElasticGround {
 fn all_parts_can_be_printed() {
     let words = ["time_step: 0.002", "structure: true", "ground: false", "gravity: 9.81"];
     assert_text(&bonded_block(), &words);
-    // The error of a refused scene can be unwrapped.
+    // The error of a scene that cannot be built can be unwrapped.
     let error = bonded_block().build().unwrap_err();
     assert!(matches!(error, Error::Scene { quantity: "ground", .. }));
     let mut simulation = bonded_block().ground(bed(4)).build().unwrap();

@@ -276,7 +276,7 @@ impl ConvolutionWeights for UnknownCoupling {
 }
 
 #[track_caller]
-fn assert_exponentials_are_refused(error: Option<&Error>) {
+fn assert_exponentials_are_errors(error: Option<&Error>) {
     assert!(
         matches!(error, Some(Error::Scene { quantity: "history by exponentials", .. })),
         "{error:?}"
@@ -284,12 +284,12 @@ fn assert_exponentials_are_refused(error: Option<&Error>) {
 }
 
 #[test]
-fn without_late_weights_exponentials_are_refused() {
+fn without_late_weights_exponentials_are_errors() {
     let springs = VoigtSprings { has_late_weights: false, ..VOIGT_SPRINGS };
     let ground = WeightsGround::new(springs, ten_elements(Grading::Uniform)).unwrap();
     let mut exponentials = ground.with_history(HistoryMethod::Exponentials).unwrap();
-    let prepared = exponentials.prepare(1e-3, None, &mut unobserved);
-    assert_exponentials_are_refused(prepared.as_ref().err());
+    let preparation = exponentials.prepare(1e-3, None, &mut unobserved);
+    assert_exponentials_are_errors(preparation.as_ref().err());
     // Auto chooses transforms.
     let coarse = HistoryOptions { tolerance: Some(1e-6), ..HistoryOptions::default() };
     let ground = WeightsGround::new(springs, ten_elements(Grading::Uniform)).unwrap();
@@ -301,7 +301,7 @@ fn without_late_weights_exponentials_are_refused() {
     let weights = VoigtWeights::new(VOIGT_SPRINGS, &ten_elements(Grading::Uniform), 1e-4);
     let kernel = Arc::new(UnknownCoupling(weights));
     let history = ExponentialHistory::with_horizon(kernel, 1e-6, 3000);
-    assert_exponentials_are_refused(history.as_ref().err());
+    assert_exponentials_are_errors(history.as_ref().err());
 }
 
 /// A product of these functions with these weights.
@@ -315,27 +315,30 @@ fn one_rate_sum(rate: f64, functions: &[Vec<f64>], product: TailProduct) -> Resu
 }
 
 #[test]
-fn exponentials_of_wrong_sizes_are_refused() {
-    let ones = [vec![1.0; 10]];
-    let valid = tail_product([0, 0], &[1.0], &[1.0]);
-    assert!(one_rate_sum(0.1, &ones, valid.clone()).is_ok());
+fn exponentials_of_wrong_sizes_are_errors() {
+    let unit_functions = [vec![1.0; 10]];
+    let valid_product = tail_product([0, 0], &[1.0], &[1.0]);
+    assert!(one_rate_sum(0.1, &unit_functions, valid_product.clone()).is_ok());
     for rate in [-0.1, f64::NAN] {
-        let result = one_rate_sum(rate, &ones, valid.clone());
+        let result = one_rate_sum(rate, &unit_functions, valid_product.clone());
         assert!(matches!(result, Err(Error::Input { .. })));
     }
-    let unequal = [vec![1.0; 10], vec![1.0; 9]];
-    assert!(matches!(one_rate_sum(0.1, &unequal, valid), Err(Error::Size { .. })));
-    let unknown_function = one_rate_sum(0.1, &ones, tail_product([0, 1], &[], &[]));
+    let functions_of_unequal_length = [vec![1.0; 10], vec![1.0; 9]];
+    assert!(matches!(
+        one_rate_sum(0.1, &functions_of_unequal_length, valid_product),
+        Err(Error::Size { .. })
+    ));
+    let unknown_function = one_rate_sum(0.1, &unit_functions, tail_product([0, 1], &[], &[]));
     assert!(matches!(unknown_function, Err(Error::Index { .. })));
     for (normal, tangential) in [(&[1.0][..], &[][..]), (&[1.0; 2], &[1.0; 2])] {
-        let result = one_rate_sum(0.1, &ones, tail_product([0, 0], normal, tangential));
+        let result = one_rate_sum(0.1, &unit_functions, tail_product([0, 0], normal, tangential));
         assert!(matches!(result, Err(Error::Size { .. })));
     }
-    let not_finite = one_rate_sum(0.1, &ones, tail_product([0, 0], &[f64::NAN], &[1.0]));
+    let not_finite = one_rate_sum(0.1, &unit_functions, tail_product([0, 0], &[f64::NAN], &[1.0]));
     assert!(matches!(not_finite, Err(Error::Input { .. })));
 }
 
-/// The history is the same for every number of steps; its description says whether the end is known.
+/// The history is the same for every number of steps; its description has whether the end is known.
 #[test]
 fn the_history_does_not_depend_on_the_length_of_a_run() {
     for steps in [2_000_000, 500, usize::MAX] {

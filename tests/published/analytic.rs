@@ -68,7 +68,7 @@ fn punch_error_limits(grading: Grading, eccentricity: f64) -> [f64; 3] {
 }
 
 /// GOAL: static contact with partial uplift: tilt, contact length, and the tilt's order.
-/// SCENE: frictionless rigid strip under a load at eccentricity e, through the preload.
+/// SCENE: frictionless rigid strip under a load at eccentricity e, by the static state.
 /// REFERENCE: inclined punch (Muskhelishvili 1953): contact over 4(b − e), M/(Pb) = 1 − θ_u/(2θ).
 #[test]
 fn a_tilted_punch_has_the_contact_of_muskhelishvili_1953() {
@@ -76,17 +76,17 @@ fn a_tilted_punch_has_the_contact_of_muskhelishvili_1953() {
         let strip = NoTensionStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0, 0.0).unwrap();
         let lift_off = (1.0 - poisson) / PI;
         for e in [0.3, 0.6, 0.75, 0.9] {
-            let exact = strip.contact(1.0, e).unwrap();
+            let expected = strip.contact(1.0, e).unwrap();
             for grading in [Grading::Uniform, Grading::Cosine] {
                 let errors = [10, 20, 40].map(|elements| {
                     let TiltedStrip { tilt, contact_length } = punch(poisson, e, elements, grading);
-                    let longest = match grading {
+                    let max_element = match grading {
                         Grading::Uniform => 2.0 / elements as f64,
                         _ => PI / elements as f64,
                     };
                     // The edge of contact is one of the nodes next to the exact place.
-                    let edge_error = (contact_length - exact.length()).abs();
-                    assert!(edge_error <= longest, "contact over {contact_length}");
+                    let edge_error = (contact_length - expected.length()).abs();
+                    assert!(edge_error <= max_element, "contact over {contact_length}");
                     let theta = -tilt;
                     let moment = if theta > lift_off {
                         1.0 - lift_off / (2.0 * theta)
@@ -94,7 +94,7 @@ fn a_tilted_punch_has_the_contact_of_muskhelishvili_1953() {
                         theta / (2.0 * lift_off)
                     };
                     // d(moment)/dθ: the error of the moment is at most half that of the tilt.
-                    let error = (tilt / exact.tilt - 1.0).abs();
+                    let error = (tilt / expected.tilt - 1.0).abs();
                     assert!((moment - e).abs() <= 0.5 * error, "M/(Pb) {moment}, e {e}");
                     error
                 });
@@ -127,7 +127,7 @@ struct BlockSlide {
 fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) -> BlockSlide {
     let soil = Soil::from_wave_speeds(shear_wave_speed, 2.0 * shear_wave_speed, 2000.0).unwrap();
     let record = el_centro_1940();
-    let exact = SlidingBlock::new(friction, STANDARD_GRAVITY).unwrap().slide(&record);
+    let expected = SlidingBlock::new(friction, STANDARD_GRAVITY).unwrap().slide(&record);
     let block = RigidBlock::new(4.0, 0.4, 2000.0).unwrap();
     let weight = block.total_mass() * STANDARD_GRAVITY;
     let mut simulation = Simulation::builder(time_step)
@@ -141,11 +141,11 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
     let at_rest = simulation.state().normal_force;
     assert!((at_rest / weight - 1.0).abs() < 1e-9, "normal force {at_rest}, weight {weight}");
     let mut error = RelativeError::default();
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let run = simulation
         .run(nearest_integer(duration / time_step), |state| {
-            error.add(state.mean_slip, exact.slip(state.time));
-            largest = largest.max(state.mean_slip.abs());
+            error.add(state.mean_slip, expected.slip(state.time));
+            max_magnitude = max_magnitude.max(state.mean_slip.abs());
         })
         .unwrap();
     assert_eq!(run.whole.uplifted_fraction.largest().value, 0.0);
@@ -153,7 +153,7 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
     assert!(run.energy_balance.contact > 0.0, "friction dissipates energy");
     BlockSlide {
         series_error: error.relative(),
-        largest_slip: largest,
+        largest_slip: max_magnitude,
         residual_slip: run.whole.residual_slip,
     }
 }
@@ -184,9 +184,11 @@ fn a_block_on_stiff_soil_slides_as_newmarks_1965() {
             rows.next().filter(|row| *record == "peknold" && row[0] == friction)
         });
         let expected = row.unwrap();
-        let found = sliding(1600.0, friction, 0.0025, 31.18);
-        let errors =
-            [(found.largest_slip - expected[1]).abs(), (found.residual_slip - expected[2]).abs()];
+        let computed = sliding(1600.0, friction, 0.0025, 31.18);
+        let errors = [
+            (computed.largest_slip - expected[1]).abs(),
+            (computed.residual_slip - expected[2]).abs(),
+        ];
         let scene = format!("sliding, friction {friction}, table");
         assert_within(&scene, &["largest (m)", "residual (m)"], &errors, &tolerance);
     }
@@ -242,19 +244,20 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
     let before = tilts[peak - 1];
     let tilt = tilts[peak];
     let after = tilts[peak + 1];
-    let turned = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
-    let upright = (peak..tilts.len() - 1).find(|&k| tilts[k + 1] < 0.0).unwrap();
-    let crossed = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
+    let peak_sample = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
+    let last_sample_before = (peak..tilts.len() - 1).find(|&k| tilts[k + 1] < 0.0).unwrap();
+    let upright_sample = last_sample_before as f64
+        + tilts[last_sample_before] / (tilts[last_sample_before] - tilts[last_sample_before + 1]);
     // Pressure on the last element acts at its middle: the block rotates about that point.
     let slenderness = (b - 0.5 * edge) / h;
     let rate = (weight * h / inertia).sqrt();
     let housner = (1.0 / (1.0 - tilt * h / b)).acosh() / rate;
     let lift_off = (1.0 - poisson) * weight / (PI * soil.shear_modulus() * b);
-    let yielding = quarter_period(tilt, lift_off, slenderness, rate);
+    let quarter_on_soil = quarter_period(tilt, lift_off, slenderness, rate);
     QuarterPeriods {
-        computed: (crossed - turned) * time_step,
+        computed: (upright_sample - peak_sample) * time_step,
         rigid_base: housner,
-        deformable_soil: yielding,
+        deformable_soil: quarter_on_soil,
     }
 }
 

@@ -44,8 +44,11 @@ fn pulses_overturn_from_the_duration_of_housner() {
         assert!(!overturns(&block, acceleration, 0.9999 * duration), "{factor}");
     }
     let smallest_acceleration = 9.81 * block.slenderness_angle();
-    for bad in [smallest_acceleration, 0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(block.overturning_pulse(bad), Err(Error::Input { .. })), "{bad}");
+    for invalid_number in [smallest_acceleration, 0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            matches!(block.overturning_pulse(invalid_number), Err(Error::Input { .. })),
+            "{invalid_number}"
+        );
     }
 }
 
@@ -81,29 +84,29 @@ fn overturned_by_two(block: &RockingBlock, size: f64, velocity: f64, delay: f64)
         first = rocking_step(first, angle, p, step);
         fall += step;
     }
-    let pushed = 2.0 * fall * delay;
+    let pulse_time = 2.0 * fall * delay;
     let mut state = [0.0, jump];
     let mut time = 0.0;
     let mut has_jumped_back = false;
     let mut side = 1.0;
     loop {
-        if !has_jumped_back && time >= pushed {
+        if !has_jumped_back && time >= pulse_time {
             state[1] -= side * jump;
             has_jumped_back = true;
         }
-        let mut next = rocking_step(state, angle, p, step);
-        if next[0] < 0.0 {
+        let mut next_state = rocking_step(state, angle, p, step);
+        if next_state[0] < 0.0 {
             // An impact: the block rotates about the other corner at the reduced rate.
             side = -side;
-            next = [0.0, -next[1] * block.restitution()];
-            if has_jumped_back && next[1] < 1e-3 * p {
+            next_state = [0.0, -next_state[1] * block.restitution()];
+            if has_jumped_back && next_state[1] < 1e-3 * p {
                 return false;
             }
         }
-        if next[0] > angle {
+        if next_state[0] > angle {
             return true;
         }
-        state = next;
+        state = next_state;
         time += step;
         if time > 40.0 / p {
             return false;
@@ -125,6 +128,6 @@ fn double_impulses_overturn_from_the_velocity_of_the_closed_form() {
         }
     }
     // sin² α = 0.8: the block stops at its first impact.
-    let low = RockingBlock::new(2.0, 1.0, 9.81).unwrap();
-    assert!(matches!(low.overturning_double_impulse(), Err(Error::Input { .. })));
+    let low_block = RockingBlock::new(2.0, 1.0, 9.81).unwrap();
+    assert!(matches!(low_block.overturning_double_impulse(), Err(Error::Input { .. })));
 }

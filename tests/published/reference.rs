@@ -1,5 +1,5 @@
-//! GOAL: closed forms of blocks and strips are in equilibrium, symmetric and exact in their limits, and refuse
-//! invalid input.
+//! GOAL: closed forms of blocks and strips are in equilibrium, symmetric and exact in their limits, and return errors
+//! for invalid input.
 //! SCENE: rocking and sliding blocks, tilted strips.
 //! REFERENCE: statics, differential equations, integration in small steps.
 
@@ -22,59 +22,59 @@ pub(super) fn soil() -> Soil {
 
 #[track_caller]
 #[expect(clippy::needless_pass_by_value, reason = "accepts results by value")]
-pub(super) fn refused<T: std::fmt::Debug>(outcome: Result<T, Error>) {
+pub(super) fn assert_is_error<T: std::fmt::Debug>(outcome: Result<T, Error>) {
     assert!(matches!(outcome, Err(Error::Input { .. })), "{outcome:?}");
 }
 
 #[test]
-fn invalid_inputs_are_refused() {
+fn invalid_inputs_are_errors() {
     let strip = NoTensionStrip::new(soil(), 2.0, 0.3).unwrap();
     let springs = WinklerStrip::new(1.0, 1.0).unwrap();
-    for bad in INVALID_NUMBERS {
-        refused(UpliftLaw::new(bad));
-        refused(RockingBlock::new(bad, 1.0, 9.81));
-        refused(RockingBlock::new(1.0, bad, 9.81));
-        refused(RockingBlock::new(1.0, 2.0, bad));
-        refused(SlidingBlock::new(bad, 9.81));
-        refused(SlidingBlock::new(0.3, bad));
-        refused(NoTensionStrip::new(soil(), bad, 0.0));
-        refused(strip.contact(bad, 0.1));
-        refused(strip.pressure(bad, 0.1, 0.0));
-        refused(strip.moment(bad, 0.1));
-        refused(WinklerStrip::new(bad, 1.0));
-        refused(WinklerStrip::new(1.0, bad));
-        refused(springs.uplift_tilt(bad));
-        refused(springs.moment(bad, 0.1));
-        refused(springs.contact_length(bad, 0.1));
-        refused(RigidStrip::new(soil(), bad));
+    for invalid_value in INVALID_NUMBERS {
+        assert_is_error(UpliftLaw::new(invalid_value));
+        assert_is_error(RockingBlock::new(invalid_value, 1.0, 9.81));
+        assert_is_error(RockingBlock::new(1.0, invalid_value, 9.81));
+        assert_is_error(RockingBlock::new(1.0, 2.0, invalid_value));
+        assert_is_error(SlidingBlock::new(invalid_value, 9.81));
+        assert_is_error(SlidingBlock::new(0.3, invalid_value));
+        assert_is_error(NoTensionStrip::new(soil(), invalid_value, 0.0));
+        assert_is_error(strip.contact(invalid_value, 0.1));
+        assert_is_error(strip.pressure(invalid_value, 0.1, 0.0));
+        assert_is_error(strip.moment(invalid_value, 0.1));
+        assert_is_error(WinklerStrip::new(invalid_value, 1.0));
+        assert_is_error(WinklerStrip::new(1.0, invalid_value));
+        assert_is_error(springs.uplift_tilt(invalid_value));
+        assert_is_error(springs.moment(invalid_value, 0.1));
+        assert_is_error(springs.contact_length(invalid_value, 0.1));
+        assert_is_error(RigidStrip::new(soil(), invalid_value));
     }
-    refused(SlidingBlock::new(1e-200, 1e-200));
-    for bad in &INVALID_NUMBERS[2..] {
-        refused(NoTensionStrip::new(soil(), 1.0, *bad));
-        refused(strip.contact(1.0, *bad));
-        refused(strip.pressure(1.0, 0.0, *bad));
-        refused(strip.moment(1.0, *bad));
-        refused(springs.moment(1.0, *bad));
-        refused(springs.contact_length(1.0, *bad));
+    assert_is_error(SlidingBlock::new(1e-200, 1e-200));
+    for invalid_value in &INVALID_NUMBERS[2..] {
+        assert_is_error(NoTensionStrip::new(soil(), 1.0, *invalid_value));
+        assert_is_error(strip.contact(1.0, *invalid_value));
+        assert_is_error(strip.pressure(1.0, 0.0, *invalid_value));
+        assert_is_error(strip.moment(1.0, *invalid_value));
+        assert_is_error(springs.moment(1.0, *invalid_value));
+        assert_is_error(springs.contact_length(1.0, *invalid_value));
     }
     for eccentricity in [2.0, -2.0, 5.0] {
-        refused(strip.contact(1.0, eccentricity));
+        assert_is_error(strip.contact(1.0, eccentricity));
     }
 }
 
 #[test]
-fn rocking_amplitudes_out_of_range_are_refused() {
+fn rocking_amplitudes_out_of_range_are_errors() {
     let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
-    for bad in INVALID_NUMBERS.into_iter().chain([block.slenderness_angle(), 1.0]) {
-        refused(block.period(bad));
-        refused(block.period_slender(bad));
-        refused(block.next_peak(bad));
-        refused(block.next_peak_slender(bad));
-        refused(block.impact_rate(bad));
-        refused(block.impact_times(bad, 3));
+    for invalid_value in INVALID_NUMBERS.into_iter().chain([block.slenderness_angle(), 1.0]) {
+        assert_is_error(block.period(invalid_value));
+        assert_is_error(block.period_slender(invalid_value));
+        assert_is_error(block.next_peak(invalid_value));
+        assert_is_error(block.next_peak_slender(invalid_value));
+        assert_is_error(block.impact_rate(invalid_value));
+        assert_is_error(block.impact_times(invalid_value, 3));
     }
     // sin² α = 0.8: the block stops at its first impact
-    refused(RockingBlock::new(2.0, 1.0, 9.81).unwrap().impact_times(0.1, 3));
+    assert_is_error(RockingBlock::new(2.0, 1.0, 9.81).unwrap().impact_times(0.1, 3));
 }
 
 /// The exact forms tend to Housner's for slender blocks and small tilts, without loss of digits.
@@ -83,12 +83,12 @@ fn slender_blocks_have_the_periods_and_peaks_of_housner() {
     let block = RockingBlock::new(1e-3, 1.0, 9.81).unwrap();
     for ratio in [1e-12, 1e-6, 0.1, 0.5, 0.9, 0.999] {
         let amplitude = ratio * block.slenderness_angle();
-        let exact = block.period(amplitude).unwrap();
-        let slender = block.period_slender(amplitude).unwrap();
-        assert_close("period", exact, slender, 0.0, 1e-6);
-        let exact = block.next_peak(amplitude).unwrap();
-        let slender = block.next_peak_slender(amplitude).unwrap();
-        assert_close("peak", exact, slender, 0.0, 1e-5);
+        let expected = block.period(amplitude).unwrap();
+        let slender_period = block.period_slender(amplitude).unwrap();
+        assert_close("period", expected, slender_period, 0.0, 1e-6);
+        let expected = block.next_peak(amplitude).unwrap();
+        let slender_period = block.next_peak_slender(amplitude).unwrap();
+        assert_close("peak", expected, slender_period, 0.0, 1e-5);
         // p θ₀-pendulum: rate at impact p √(α² − (α − θ₀)²)
         let alpha = block.slenderness_angle();
         let p = block.frequency_parameter();
@@ -127,12 +127,12 @@ fn uplift_laws_are_exact_on_springs_and_on_the_half_plane() {
         let length = strip.contact(load, -moment / load).unwrap().length();
         assert_close("contact", length / 4.0, on_soil.contact_ratio(rotation).unwrap(), 1e-14, 0.0);
     }
-    for bad in [2.0, 1.9] {
-        refused(UpliftLaw::new(bad));
+    for invalid_value in [2.0, 1.9] {
+        assert_is_error(UpliftLaw::new(invalid_value));
     }
-    for bad in [-0.1, f64::NAN, f64::INFINITY] {
-        refused(on_soil.moment_ratio(bad));
-        refused(on_soil.contact_ratio(bad));
+    for invalid_value in [-0.1, f64::NAN, f64::INFINITY] {
+        assert_is_error(on_soil.moment_ratio(invalid_value));
+        assert_is_error(on_soil.contact_ratio(invalid_value));
     }
 }
 
@@ -168,24 +168,24 @@ fn slip_of_a_spectrum_is_that_of_a_velocity_pulse() {
     let slip = estimate.slip(&power_spectrum(1, velocity)).unwrap().unwrap();
     assert_close("velocity", slip, -block_slip, 0.0, 1e-4);
     // The longest of several periods is decisive.
-    let mut twice = power_spectrum(2, 0.4);
-    twice[1].pseudo_acceleration = 0.1;
-    assert_close("last", estimate.slip(&twice).unwrap().unwrap(), 0.4, 1e-14, 0.0);
+    let mut spectrum = power_spectrum(2, 0.4);
+    spectrum[1].pseudo_acceleration = 0.1;
+    assert_close("last", estimate.slip(&spectrum).unwrap().unwrap(), 0.4, 1e-14, 0.0);
     assert_eq!(estimate.slip(&power_spectrum(0, 1.0)).unwrap(), None);
 
-    refused(estimate.slip(&power_spectrum(0, 6.0)));
-    for bad in INVALID_NUMBERS {
-        refused(SlidingEstimate::new(bad, 0.0, 9.81));
-        refused(SlidingEstimate::new(0.3, 0.0, bad));
+    assert_is_error(estimate.slip(&power_spectrum(0, 6.0)));
+    for invalid_value in INVALID_NUMBERS {
+        assert_is_error(SlidingEstimate::new(invalid_value, 0.0, 9.81));
+        assert_is_error(SlidingEstimate::new(0.3, 0.0, invalid_value));
         let mut list = power_spectrum(2, 0.4);
-        list[7].pseudo_acceleration = bad;
-        refused(estimate.slip(&list));
+        list[7].pseudo_acceleration = invalid_value;
+        assert_is_error(estimate.slip(&list));
         list = power_spectrum(2, 0.4);
-        list[7].period = bad;
-        refused(estimate.slip(&list));
+        list[7].period = invalid_value;
+        assert_is_error(estimate.slip(&list));
     }
-    for bad in [-0.1, 25.0, f64::NAN, f64::INFINITY] {
-        refused(SlidingEstimate::new(0.3, bad, 10.0));
+    for invalid_value in [-0.1, 25.0, f64::NAN, f64::INFINITY] {
+        assert_is_error(SlidingEstimate::new(0.3, invalid_value, 10.0));
     }
     assert!(estimate.slip(&power_spectrum(2, 0.4)[..1]).is_err());
 }
@@ -242,9 +242,15 @@ fn mirrored_strips_tilt_the_other_way() {
         assert_close("left", a.left, -b.right, 1e-14, 0.0);
     }
     // at small tilts the frictionless strip has the stiffness of the static limit
-    let smooth = NoTensionStrip::new(soil(), 2.0, 0.0).unwrap();
+    let frictionless_strip = NoTensionStrip::new(soil(), 2.0, 0.0).unwrap();
     let stiffness = RigidStrip::new(soil(), 2.0).unwrap().smooth_rocking_stiffness();
-    assert_close("stiffness", smooth.moment(1.0, 1e-3).unwrap(), 1e-3 * stiffness, 0.0, 1e-13);
+    assert_close(
+        "stiffness",
+        frictionless_strip.moment(1.0, 1e-3).unwrap(),
+        1e-3 * stiffness,
+        0.0,
+        1e-13,
+    );
 }
 
 /// Slip by small explicit steps.
@@ -257,9 +263,9 @@ fn slip_by_steps(record: &Record, yield_acceleration: f64, substeps: u32) -> f64
         let ground = record.at(time + step / 2.0).acceleration;
         let push = velocity - ground * step;
         // friction stops the block within the step if it can
-        let next = push - push.signum() * push.abs().min(yield_acceleration * step);
-        slip += step * f64::midpoint(velocity, next);
-        velocity = next;
+        let next_velocity = push - push.signum() * push.abs().min(yield_acceleration * step);
+        slip += step * f64::midpoint(velocity, next_velocity);
+        velocity = next_velocity;
         time += step;
     }
     slip
@@ -270,8 +276,8 @@ fn slip_agrees_with_integration_in_small_steps() {
     let record = el_centro_1940();
     for friction in [0.02, 0.13] {
         let slide = SlidingBlock::new(friction, 9.81).unwrap().slide(&record);
-        let found = slip_by_steps(&record, friction * 9.81, 400);
-        assert_close("residual", slide.residual(), found, 2e-5, 0.0);
+        let computed = slip_by_steps(&record, friction * 9.81, 400);
+        assert_close("residual", slide.residual(), computed, 2e-5, 0.0);
     }
 }
 
@@ -286,10 +292,10 @@ proptest! {
         let mirror = SlidingBlock::new(0.1, 10.0).unwrap().slide(&record.scaled(-1.0).unwrap());
         prop_assert!((slide.residual() + mirror.residual()).abs() < 1e-10);
         prop_assert!((slide.maximum() + mirror.minimum()).abs() < 1e-10);
-        let larger =
+        let larger_slip =
             SlidingBlock::new(0.1, 10.0 * factor).unwrap().slide(&record.scaled(factor).unwrap());
         let scale = slide.maximum().max(-slide.minimum()).max(1.0);
-        let error = larger.residual() - factor * slide.residual();
+        let error = larger_slip.residual() - factor * slide.residual();
         prop_assert!(error.abs() < 1e-9 * scale * factor, "{}", error);
         prop_assert_eq!(slide.slip_velocity(1e4), 0.0);
         prop_assert_eq!(slide.slip(1e4), slide.residual());

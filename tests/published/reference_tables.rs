@@ -102,12 +102,12 @@ fn slip_of_newmarks_block_under_sines_is_the_tabulated_one() {
         for (word, event) in words.iter().zip(slide.events()) {
             let (time, kind) = word.split_once(':').unwrap();
             // in the table every zero of the slip velocity is a stop
-            let found = match (*event, kind) {
+            let computed = match (*event, kind) {
                 (SlidingEvent::Slip { time }, "slip")
                 | (SlidingEvent::Stop { time } | SlidingEvent::Reversal { time }, "stop") => time,
                 other => panic!("{file}: {other:?} at {time}"),
             };
-            assert_close(file, found, time.parse().unwrap(), 1e-6, 0.0);
+            assert_close(file, computed, time.parse().unwrap(), 1e-6, 0.0);
         }
     }
 }
@@ -128,8 +128,8 @@ fn slip_of_newmarks_block_under_el_centro_is_the_tabulated_one() {
         assert_close("maximum", slide.maximum(), *maximum, 2.5e-6, 0.0);
         assert_close("minimum", slide.minimum(), *minimum, 2.5e-6, 0.0);
         assert_close("residual", slide.residual(), *residual, 2.5e-6, 0.0);
-        let found = slide.maximum().max(-slide.minimum());
-        assert_close("largest", found, *largest, 2.5e-6, 0.0);
+        let computed = slide.maximum().max(-slide.minimum());
+        assert_close("largest", computed, *largest, 2.5e-6, 0.0);
         count += 1;
     }
     assert_eq!(count, 8);
@@ -174,10 +174,10 @@ fn strips_without_tension_on_springs_have_the_tabulated_moments() {
     for [ratio, moment, contact] in rows {
         for side in [1.0, -1.0] {
             let tilt = side * ratio * uplift;
-            let found = strip.moment(load, tilt).unwrap() / (load * half_width);
-            assert_close("moment", found, side * moment, 0.0, 1e-11);
-            let found = strip.contact_length(load, tilt).unwrap() / (2.0 * half_width);
-            assert_close("contact", found, contact, 0.0, 1e-11);
+            let computed = strip.moment(load, tilt).unwrap() / (load * half_width);
+            assert_close("moment", computed, side * moment, 0.0, 1e-11);
+            let computed = strip.contact_length(load, tilt).unwrap() / (2.0 * half_width);
+            assert_close("contact", computed, contact, 0.0, 1e-11);
         }
     }
 }
@@ -187,19 +187,22 @@ fn strips_without_tension_on_springs_have_the_tabulated_moments() {
 fn limits_of_rigid_strips_are_those_of_the_impedance_tables() {
     for (name, poisson) in [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)] {
         let strip = RigidStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0).unwrap();
-        let relaxed = table(&format!("strip_relaxed_nu{name}_xi00.csv"));
+        let relaxed_table = table(&format!("strip_relaxed_nu{name}_xi00.csv"));
         let bonded = table(&format!("strip_bonded_nu{name}_xi00.csv"));
         for (table, rocking) in [
-            (&relaxed, strip.smooth_rocking_stiffness()),
+            (&relaxed_table, strip.smooth_rocking_stiffness()),
             (&bonded, strip.bonded_rocking_stiffness()),
         ] {
             // the difference is in proportion to a₀² ln a₀: below 4e-4 at a₀ = 0.01, and far
             // larger at 0.05
             let compliance = table.column("re_crr");
             assert_close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
-            let near = compliance[0] * rocking - 1.0;
-            let far = compliance[1] * rocking - 1.0;
-            assert!(near.abs() < far.abs() / 12.0, "{near:e} {far:e}");
+            let error_at_low_frequency = compliance[0] * rocking - 1.0;
+            let error_at_high_frequency = compliance[1] * rocking - 1.0;
+            assert!(
+                error_at_low_frequency.abs() < error_at_high_frequency.abs() / 12.0,
+                "{error_at_low_frequency:e} {error_at_high_frequency:e}"
+            );
             let quadrature = strip.quadrature_compliance();
             assert_close("Im c_hh", table.column("im_chh")[0], quadrature, 0.0, 2e-3);
             assert_close("Im c_vv", table.column("im_cvv")[0], quadrature, 0.0, 5e-3);
@@ -209,14 +212,20 @@ fn limits_of_rigid_strips_are_those_of_the_impedance_tables() {
                 let slope = (values[0] - values[1]) / 5.0_f64.ln();
                 assert_close("log slope", slope, strip.logarithmic_compliance(), 0.0, 0.01);
             }
-            let last = table.len() - 1;
-            let frequency = table.column("a0")[last];
+            let last_index = table.len() - 1;
+            let frequency = table.column("a0")[last_index];
             for (column, dashpot) in [
                 ("im_khh", strip.horizontal_dashpot()),
                 ("im_kvv", strip.vertical_dashpot()),
                 ("im_krr", strip.rocking_dashpot()),
             ] {
-                assert_close(column, table.column(column)[last] / frequency, dashpot, 0.0, 0.03);
+                assert_close(
+                    column,
+                    table.column(column)[last_index] / frequency,
+                    dashpot,
+                    0.0,
+                    0.03,
+                );
             }
         }
         // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which changes the sign

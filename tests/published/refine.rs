@@ -22,7 +22,7 @@ fn estimates<S: Structure + 'static>(
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let reference = TabledSeries::new(&table(&format!("td_{file}.csv")), "V");
     let steps = nearest_integer((reference.duration() / COARSE_TIME_STEP).floor());
-    let found = refine(4, COARSE_TIME_STEP, |elements, time_step| {
+    let computed = refine(4, COARSE_TIME_STEP, |elements, time_step| {
         let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, elements)?)?;
         let mut simulation = under_pulse(structure(), ground, time_step);
         // Means over the coarsest step, of forces that are constant over each of these.
@@ -48,13 +48,17 @@ fn estimates<S: Structure + 'static>(
         })
         .collect();
     let mut ratios = Vec::new();
-    for setting in &found.settings {
+    for setting in &computed.settings {
         let mut error = RelativeError::default();
-        setting.results.iter().zip(&expected).for_each(|(found, x)| error.add(*found, *x));
+        setting
+            .results
+            .iter()
+            .zip(&expected)
+            .for_each(|(computed, x)| error.add(*computed, *x));
         ratios.push(setting.error / error.relative());
     }
-    println!("{file}\n{found}\nestimated over true: {ratios:.2?}");
-    (found, ratios)
+    println!("{file}\n{computed}\nestimated over true: {ratios:.2?}");
+    (computed, ratios)
 }
 
 #[track_caller]

@@ -1,4 +1,5 @@
-//! GOAL: a file of cases that a program runs itself keeps its rows when the process ends, grows columns, and has warnings.
+//! GOAL: a file of cases that a program runs itself keeps its rows when the process ends, accepts new columns, and has
+//! warnings.
 //! SCENE: six cases by formula, one of which fails, in files that are closed, cut and opened again.
 //! REFERENCE: the cells that were appended; the table of the same cases in one process.
 
@@ -69,10 +70,10 @@ fn interrupted_tables_continue_with_rows_in_any_order() {
         let text = std::fs::read_to_string(part_file(&path)).unwrap();
         std::fs::write(part_file(&path), format!("{text}4,0.3,\"a,")).unwrap();
         let mut file = sweep().open(&path).unwrap();
-        let missing: Vec<_> = (0..6).filter(|case| !first.contains(case)).collect();
-        assert_eq!(file.missing(), missing);
+        let missing_cases: Vec<_> = (0..6).filter(|case| !first.contains(case)).collect();
+        assert_eq!(file.missing(), missing_cases);
         assert_eq!(file.table().rows().len(), first.len());
-        for case in missing {
+        for case in missing_cases {
             append(&mut file, case);
         }
         let table = file.finish().unwrap();
@@ -87,38 +88,48 @@ fn interrupted_tables_continue_with_rows_in_any_order() {
             }
         }
         assert_eq!(table, sweep().merge([&path]).unwrap());
-        let again = sweep().open(&path).unwrap();
-        assert_eq!((again.missing(), again.finish().unwrap()), (vec![], table));
+        let file_opened_again = sweep().open(&path).unwrap();
+        assert_eq!(
+            (file_opened_again.missing(), file_opened_again.finish().unwrap()),
+            (vec![], table)
+        );
     }
-    let warned: Vec<_> = expected.rows().filter(|row| !row.warnings.is_empty()).collect();
-    assert_eq!((warned[0].index, warned[0].warnings, warned.len()), (5, "slips, and\nwarns", 1));
+    let rows_with_warnings: Vec<_> =
+        expected.rows().filter(|row| !row.warnings.is_empty()).collect();
+    assert_eq!(
+        (rows_with_warnings[0].index, rows_with_warnings[0].warnings, rows_with_warnings.len()),
+        (5, "slips, and\nwarns", 1)
+    );
     let text = expected.csv();
     assert!(text.contains("\ncase,friction,record,slip_m,gap_m,warnings,error\n"), "{text}");
     assert!(expected.to_string().contains("case 5 warns: slips, and"), "{expected}");
 }
 
 #[test]
-fn a_case_twice_and_a_table_with_holes_are_refused() {
+fn a_case_twice_and_a_table_with_holes_are_errors() {
     let path = path("refused");
     let mut file = sweep().shard(1, 2).unwrap().open(&path).unwrap();
     append(&mut file, 3);
     for case in [3, 2, 6] {
-        let again = file.append(case, &["slip_m"], Ok(vec![0.0]), "");
-        assert!(matches!(again, Err(Error::Scene { quantity: "case", .. })), "{again:?}");
+        let error_of_a_second_row = file.append(case, &["slip_m"], Ok(vec![0.0]), "");
+        assert!(
+            matches!(error_of_a_second_row, Err(Error::Scene { quantity: "case", .. })),
+            "{error_of_a_second_row:?}"
+        );
     }
     let size = file.append(1, &["slip_m"], Ok(vec![]), "");
     assert!(matches!(size, Err(Error::Size { found: 0, needed: 1, .. })), "{size:?}");
     for name in ["friction", "case", "warnings", "error"] {
-        let named = file.append(1, &[name], Ok(vec![0.0]), "");
-        assert!(matches!(named, Err(Error::DuplicateName { .. })), "{named:?}");
+        let error_of_a_name = file.append(1, &[name], Ok(vec![0.0]), "");
+        assert!(matches!(error_of_a_name, Err(Error::DuplicateName { .. })), "{error_of_a_name:?}");
     }
-    let missing = file.finish();
+    let error_of_missing_cases = file.finish();
     assert!(
-        matches!(&missing, Err(Error::Sweep(SweepError::Missing { cases, .. })) if *cases == [1, 5])
+        matches!(&error_of_missing_cases, Err(Error::Sweep(SweepError::Missing { cases, .. })) if *cases == [1, 5])
     );
     // A sweep of another grid cannot use the rows.
-    let other = Sweep::grid([Parameter::numbers("friction", [0.1, 0.2, 0.3])]).unwrap();
-    assert!(matches!(other.open(&path), Err(Error::File(_))));
+    let other_sweep = Sweep::grid([Parameter::numbers("friction", [0.1, 0.2, 0.3])]).unwrap();
+    assert!(matches!(other_sweep.open(&path), Err(Error::File(_))));
 }
 
 fn sweep_of_two() -> Sweep<'static> {
@@ -134,17 +145,17 @@ fn a_shard_whose_cases_all_failed_merges_and_one_without_results_does_not() {
         file.append(index, names, outcome, "").unwrap();
         file.finish().unwrap();
     }
-    let merged = sweep_of_two().merge([&paths[0], &paths[1]]).unwrap();
-    assert_eq!(merged, sweep_of_two().merge([&paths[1], &paths[0]]).unwrap());
+    let merged_table = sweep_of_two().merge([&paths[0], &paths[1]]).unwrap();
+    assert_eq!(merged_table, sweep_of_two().merge([&paths[1], &paths[0]]).unwrap());
     assert_eq!(
-        (merged.columns(), merged.rows().nth(1).unwrap().value("y")),
+        (merged_table.columns(), merged_table.rows().nth(1).unwrap().value("y")),
         (&["y".to_owned()][..], Ok(7.0))
     );
-    let bare = path("bare");
-    let mut file = sweep_of_two().shard(0, 2).unwrap().open(&bare).unwrap();
+    let bare_path = path("bare");
+    let mut file = sweep_of_two().shard(0, 2).unwrap().open(&bare_path).unwrap();
     file.append::<&str>(0, &[], Ok(vec![]), "").unwrap();
     file.finish().unwrap();
-    let Err(Error::File(error)) = sweep_of_two().merge([&bare, &paths[1]]) else {
+    let Err(Error::File(error)) = sweep_of_two().merge([&bare_path, &paths[1]]) else {
         panic!()
     };
     assert!(matches!(error.fault, FileFault::Value { .. }), "{error}");

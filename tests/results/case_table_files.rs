@@ -1,4 +1,4 @@
-//! GOAL: damaged files of sweeps are refused, a killed sweep continues, and every bit is read back.
+//! GOAL: damaged files of sweeps are errors, a killed sweep continues, and every bit is read back.
 //! SCENE: the cases by formula of `case_tables`; files that are cut, edited and deleted.
 //! REFERENCE: the whole table, to the last bit; the `csv` crate; the cells that were written.
 
@@ -13,7 +13,7 @@ use basemat_problems::faults::{count, is_unwritable, is_value, value};
 use proptest::prelude::*;
 
 use super::case_tables::{
-    RESULT_COLUMNS, compute, file_error, folder, refused, sweep, whole_table,
+    RESULT_COLUMNS, compute, file_error, folder, sweep, table_error, whole_table,
 };
 
 /// Requirement of a case's number.
@@ -24,7 +24,7 @@ fn fault(name: &str, text: &str) -> (usize, FileFault) {
     let path = folder(name).join("cases.csv");
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     std::fs::write(&path, text).unwrap();
-    match refused(sweep().merge([&path])) {
+    match table_error(sweep().merge([&path])) {
         Error::File(FileError { file, line, fault }) => {
             assert_eq!(file, path.display().to_string());
             (line, fault)
@@ -45,26 +45,27 @@ fn edited_fault(text: &str, from: &str, to: &str) -> (usize, FileFault) {
 }
 
 #[test]
-fn damaged_files_are_refused() {
+fn damaged_files_are_errors() {
     let text = whole_table().csv();
     // Cut anywhere: the check sum is that of all rows.
     let path = folder("cut").join("cases.csv");
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     for end in (0..text.len() - 1).filter(|&end| text.is_char_boundary(end)) {
         std::fs::write(&path, &text[..end]).unwrap();
-        assert!(matches!(refused(sweep().merge([&path])), Error::File(_)), "{end}");
+        assert!(matches!(table_error(sweep().merge([&path])), Error::File(_)), "{end}");
     }
     std::fs::write(&path, &text.as_bytes()[..=text.find('µ').unwrap()]).unwrap();
     assert!(matches!(
-        refused(sweep().merge([&path])),
+        table_error(sweep().merge([&path])),
         Error::File(FileError { fault: FileFault::Format { needed, .. }, .. }) if needed == "UTF-8"
     ));
     // A byte-order mark and line ends of Windows are accepted.
     std::fs::write(&path, format!("\u{feff}{text}")).unwrap();
     assert_eq!(sweep().merge([&path]).unwrap(), whole_table());
-    let doubled = sweep_of_two().table(["y"], |case| Result::Ok([2.0 * case.value("x")?])).unwrap();
-    std::fs::write(&path, doubled.csv().replace('\n', "\r\n")).unwrap();
-    assert_eq!(sweep_of_two().merge([&path]).unwrap(), doubled);
+    let table_of_doubles =
+        sweep_of_two().table(["y"], |case| Result::Ok([2.0 * case.value("x")?])).unwrap();
+    std::fs::write(&path, table_of_doubles.csv().replace('\n', "\r\n")).unwrap();
+    assert_eq!(sweep_of_two().merge([&path]).unwrap(), table_of_doubles);
 
     for (from, to, expected) in [
         ("\n1,0.1,", "\n24,0.1,", value("case", "'24'", NEEDED_CASE)),
@@ -85,10 +86,10 @@ fn damaged_files_are_refused() {
     assert_eq!(edited_fault(&text, "\n1,0.1,", "\n24,0.1,").0, 4);
     let word = edited_fault(&text, ",-inf,", ",minus,").1;
     assert_eq!(word.to_string(), "residual_slip_m is 'minus', but must be a number");
-    let short = "# basemat sweep 1 check sum\ncase\n";
-    assert_eq!(fault("short", short).1, value("heading of column 2", "''", "'friction'"));
-    let wrong = edited_fault(&text, "check sum ", "check sum x").1;
-    assert!(is_value(&wrong, "check sum"), "{wrong}");
+    let short_text = "# basemat sweep 1 check sum\ncase\n";
+    assert_eq!(fault("short", short_text).1, value("heading of column 2", "''", "'friction'"));
+    let fault_of_the_sum = edited_fault(&text, "check sum ", "check sum x").1;
+    assert!(is_value(&fault_of_the_sum, "check sum"), "{fault_of_the_sum}");
     // Another version, and files of something else.
     for (found, text) in [
         ("", String::new()),
@@ -101,7 +102,7 @@ fn damaged_files_are_refused() {
     }
 }
 
-/// A sweep whose rows are kept in a file, and how many of its cases were run.
+/// A sweep whose rows are kept in a file, with a count of the cases that were run.
 struct KeptSweep {
     path: PathBuf,
     /// The file of an unfinished sweep.
@@ -135,16 +136,16 @@ impl KeptSweep {
 
 #[test]
 fn a_killed_sweep_continues() {
-    let kept = KeptSweep::new(&folder("resumed"));
-    let KeptSweep { path, part, .. } = &kept;
-    // As a whole, and again.
-    assert_eq!(kept.table().unwrap(), whole_table());
-    assert_eq!((kept.runs(), part.exists()), (24, false));
+    let kept_sweep = KeptSweep::new(&folder("resumed"));
+    let KeptSweep { path, part, .. } = &kept_sweep;
+    // The table of all cases, and the same table from its file.
+    assert_eq!(kept_sweep.table().unwrap(), whole_table());
+    assert_eq!((kept_sweep.runs(), part.exists()), (24, false));
     assert_eq!(std::fs::read_to_string(path).unwrap(), *whole_table().csv());
-    assert_eq!(kept.table().unwrap(), whole_table());
-    assert_eq!(kept.runs(), 0);
+    assert_eq!(kept_sweep.table().unwrap(), whole_table());
+    assert_eq!(kept_sweep.runs(), 0);
 
-    // Killed at any byte of a row, or between a row and its check sum: the rows before are kept.
+    // The process was killed at any byte of a row, or between a row and its check sum; the earlier rows are kept.
     let text = whole_table().csv();
     std::fs::remove_file(path).unwrap();
     let states = Mutex::new(Vec::new());
@@ -161,77 +162,85 @@ fn a_killed_sweep_continues() {
         for end in (0..=row.len()).step_by(7).chain([row.len()]) {
             let _ = std::fs::remove_file(path);
             std::fs::write(part, [&pair[0], &row[..end]].concat()).unwrap();
-            assert_eq!(kept.table().unwrap(), whole_table(), "{count}, {end}");
+            assert_eq!(kept_sweep.table().unwrap(), whole_table(), "{count}, {end}");
             assert!(!part.exists() && std::fs::read_to_string(path).unwrap() == *text);
-            assert!(kept.runs() == 24 - count || cfg!(feature = "rayon"), "{count}, {end}");
+            assert!(kept_sweep.runs() == 24 - count || cfg!(feature = "rayon"), "{count}, {end}");
         }
     }
-    // Killed before the heading was written.
+    // The process was killed before the heading was written.
     for end in 0..=states[0].len() {
         let _ = std::fs::remove_file(path);
         std::fs::write(part, &states[0][..end]).unwrap();
-        assert_eq!((kept.table().unwrap(), kept.runs()), (whole_table(), 24), "{end}");
+        assert_eq!((kept_sweep.table().unwrap(), kept_sweep.runs()), (whole_table(), 24), "{end}");
     }
     // The process was killed between writing the table and removing the other file.
     std::fs::write(part, &text).unwrap();
-    assert_eq!(kept.table().unwrap(), whole_table());
-    assert_eq!((kept.runs(), part.exists()), (0, false));
+    assert_eq!(kept_sweep.table().unwrap(), whole_table());
+    assert_eq!((kept_sweep.runs(), part.exists()), (0, false));
 }
 
 /// A deleted row is run again; progress is reported for this row only.
 #[test]
 fn a_deleted_row_is_run_again() {
-    let kept = KeptSweep::new(&folder("deleted_row"));
-    let path = &kept.path;
-    let text = kept.table().unwrap().csv();
-    let begin = text.find("\n3,").unwrap() + 1;
+    let kept_sweep = KeptSweep::new(&folder("deleted_row"));
+    let path = &kept_sweep.path;
+    let text = kept_sweep.table().unwrap().csv();
+    let row_start = text.find("\n3,").unwrap() + 1;
     let end = text.find("\n4,").unwrap() + 1;
-    let failed = &text[begin..end];
+    let failed_row = &text[row_start..end];
     assert!(
-        failed.starts_with(
+        failed_row.starts_with(
             "3,0.1,\"the \"\"pulse\"\"\",1e300,,,\"no, \"\"not\"\" this,\r\none; µ\"\n"
         )
     );
-    std::fs::write(path, text.replace(failed, "")).unwrap();
-    let damaged = FileFault::Damaged { quantity: "the table".into() };
-    assert_eq!(refused(kept.table()), file_error(&path.display().to_string(), damaged));
-    let rows = text.replace(failed, "").split_once('\n').unwrap().1.to_owned();
+    std::fs::write(path, text.replace(failed_row, "")).unwrap();
+    let damaged_table = FileFault::Damaged { quantity: "the table".into() };
+    assert_eq!(
+        table_error(kept_sweep.table()),
+        file_error(&path.display().to_string(), damaged_table)
+    );
+    let rows = text.replace(failed_row, "").split_once('\n').unwrap().1.to_owned();
     std::fs::write(path, format!("# basemat sweep 1 check sum\n{rows}")).unwrap();
     let reports = AtomicUsize::new(0);
-    let again = sweep().on_progress(|_, _| {
+    let table_run_again = sweep().on_progress(|_, _| {
         reports.fetch_add(1, Ordering::Relaxed);
     });
-    let again = again.table_in(path, RESULT_COLUMNS, |case| {
+    let table_run_again = table_run_again.table_in(path, RESULT_COLUMNS, |case| {
         assert_eq!(case.index, 3);
         compute(case)
     });
-    assert_eq!((again.unwrap(), reports.load(Ordering::Relaxed)), (whole_table(), 1));
+    assert_eq!((table_run_again.unwrap(), reports.load(Ordering::Relaxed)), (whole_table(), 1));
 }
 
-/// Files of another sweep are neither used nor overwritten; a file that cannot be written is refused before a case runs.
+/// Files of another sweep are neither used nor overwritten; a file that cannot be written is an error before a case runs.
 #[test]
-fn files_that_a_sweep_cannot_use_are_refused() {
+fn files_that_a_sweep_cannot_use_are_errors() {
     let folder = folder("unusable");
-    let kept = KeptSweep::new(&folder);
-    let path = &kept.path;
-    let text = kept.table().unwrap().csv();
-    let other = sweep().shard(0, 2).unwrap().table_in(path, RESULT_COLUMNS, compute);
-    let Error::File(error) = refused(other) else { panic!("of another sweep") };
+    let kept_sweep = KeptSweep::new(&folder);
+    let path = &kept_sweep.path;
+    let text = kept_sweep.table().unwrap().csv();
+    let error_of_another_shard =
+        sweep().shard(0, 2).unwrap().table_in(path, RESULT_COLUMNS, compute);
+    let Error::File(error) = table_error(error_of_another_shard) else {
+        panic!("of another sweep")
+    };
     assert!(is_value(&error.fault, "case"), "{error}");
-    let other = sweep().table_in(path, ["a", "b"], compute);
-    let Error::File(error) = refused(other) else { panic!("of another sweep") };
+    let error_of_another_shard = sweep().table_in(path, ["a", "b"], compute);
+    let Error::File(error) = table_error(error_of_another_shard) else {
+        panic!("of another sweep")
+    };
     assert!(is_value(&error.fault, "heading of column 5"), "{error}");
     assert_eq!(std::fs::read_to_string(path).unwrap(), *text);
     std::fs::remove_file(path).unwrap();
-    std::fs::write(&kept.part, text.replace("\n2,0.1", "\n1,0.1")).unwrap();
-    assert!(refused(kept.table()).to_string().contains("line 5"));
+    std::fs::write(&kept_sweep.part, text.replace("\n2,0.1", "\n1,0.1")).unwrap();
+    assert!(table_error(kept_sweep.table()).to_string().contains("line 5"));
     let file = folder.join("a_file");
     std::fs::write(&file, "").unwrap();
-    let nowhere =
+    let impossible_path =
         sweep().table_in(file.join("cases.csv"), RESULT_COLUMNS, |_| -> Result<[f64; 2]> {
             unreachable!("the file cannot be written")
         });
-    assert!(is_unwritable(&nowhere), "{nowhere:?}");
+    assert!(is_unwritable(&impossible_path), "{impossible_path:?}");
     assert!(is_unwritable(&whole_table().csv().save(file.join("cases.csv"))));
 }
 
@@ -273,8 +282,8 @@ proptest! {
             match row.results {
                 Err(text) => prop_assert_eq!(&record[6], text),
                 Ok(results) => for (cell, expected) in record.iter().skip(3).zip(results) {
-                    let found = if cell.is_empty() { f64::NAN } else { cell.parse::<f64>().unwrap() };
-                    prop_assert_eq!(found.to_bits(), expected.to_bits());
+                    let computed = if cell.is_empty() { f64::NAN } else { cell.parse::<f64>().unwrap() };
+                    prop_assert_eq!(computed.to_bits(), expected.to_bits());
                 },
             }
         }

@@ -17,7 +17,7 @@ pub(super) fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// 0.1 + 0.2: sixteen digits and one more.
+/// The number 0.1 + 0.2, which needs seventeen digits.
 const SEVENTEEN_DIGITS: f64 = 0.300_000_000_000_000_04;
 const RECORD_NAMES: [&str; 3] = ["El Centro, 1940", "the \"pulse\"", "two\nlines"];
 pub(super) const RESULT_COLUMNS: [&str; 2] = ["ratio, -", "residual_slip_m"];
@@ -62,7 +62,7 @@ fn shard_files(folder: &Path, count: usize) -> Vec<PathBuf> {
     paths
 }
 
-pub(super) fn refused(result: Result<CaseTable>) -> Error {
+pub(super) fn table_error(result: Result<CaseTable>) -> Error {
     match result {
         Err(error @ (Error::Sweep(_) | Error::File(_))) => error,
         other => panic!("{other:?}"),
@@ -111,13 +111,13 @@ fn cases_are_numbered_by_their_place() {
         row.value("residual_slip_m"),
         Err(Error::Part { part, .. }) if part == "case 3 failed"
     ));
-    for wrong in [
+    for invalid_word in [
         row.value("record").err(),
         row.value("slip").err(),
         row.text("width_m").err(),
         row.place("ratio, -").err(),
     ] {
-        assert!(matches!(wrong, Some(Error::Name { .. })), "{wrong:?}");
+        assert!(matches!(invalid_word, Some(Error::Name { .. })), "{invalid_word:?}");
     }
     sweep().run(
         |case| {
@@ -132,38 +132,38 @@ fn cases_are_numbered_by_their_place() {
 
 #[test]
 fn merged_shards_are_the_whole() {
-    let whole = whole_table();
+    let complete_table = whole_table();
     let folder = folder("merged");
-    assert_eq!(whole, whole.clone());
+    assert_eq!(complete_table, complete_table.clone());
     for count in [1, 2, 3, 5, 7, 24, 30] {
         let mut paths = shard_files(&folder, count);
         paths.reverse();
-        let merged = sweep().merge(&paths).unwrap();
-        assert_eq!(merged, whole, "{count} shards");
-        assert_eq!(merged.csv(), whole.csv());
+        let merged_table = sweep().merge(&paths).unwrap();
+        assert_eq!(merged_table, complete_table, "{count} shards");
+        assert_eq!(merged_table.csv(), complete_table.csv());
     }
     // Shards of a shard, merged to that shard.
-    let half = sweep().shard(1, 2).unwrap();
-    assert!(half.shard(2, 3).unwrap().cases().eq((0..24).filter(|case| case % 6 == 5)));
+    let half_sweep = sweep().shard(1, 2).unwrap();
+    assert!(half_sweep.shard(2, 3).unwrap().cases().eq((0..24).filter(|case| case % 6 == 5)));
     let mut paths = Vec::new();
     for index in 0..3 {
         let path = folder.join(format!("half_{index}.csv"));
-        let half = sweep().shard(1, 2).unwrap();
-        let part = half.shard(index, 3).unwrap().table(RESULT_COLUMNS, compute).unwrap();
+        let half_sweep = sweep().shard(1, 2).unwrap();
+        let part = half_sweep.shard(index, 3).unwrap().table(RESULT_COLUMNS, compute).unwrap();
         part.csv().save(&path).unwrap();
         paths.push(path);
     }
-    let half = sweep().shard(1, 2).unwrap();
-    let merged = half.merge(&paths).unwrap();
-    let half = sweep().shard(1, 2).unwrap();
-    assert_eq!(merged, half.table(RESULT_COLUMNS, compute).unwrap());
+    let half_sweep = sweep().shard(1, 2).unwrap();
+    let merged_table = half_sweep.merge(&paths).unwrap();
+    let half_sweep = sweep().shard(1, 2).unwrap();
+    assert_eq!(merged_table, half_sweep.table(RESULT_COLUMNS, compute).unwrap());
     // A table that differs in one bit is not equal.
-    let other = sweep().table(RESULT_COLUMNS, |case| {
+    let changed_table = sweep().table(RESULT_COLUMNS, |case| {
         let results = compute(case)?;
         let slip = results[1];
         Ok::<_, String>([results[0], if case.index == 2 { slip.next_up() } else { slip }])
     });
-    assert_ne!(other.unwrap(), whole);
+    assert_ne!(changed_table.unwrap(), complete_table);
 }
 
 #[test]
@@ -172,16 +172,16 @@ fn shards_have_bounds() {
         let fault = sweep().shard(index, count).unwrap_err();
         assert_eq!(fault, Error::Index { quantity: "shard", index, bound: count });
     }
-    let last = sweep().shard(usize::MAX - 1, usize::MAX).unwrap();
-    assert_eq!(last.cases().len(), 0);
-    assert_eq!(last.shard(usize::MAX - 1, usize::MAX).unwrap().cases().len(), 0);
+    let last_shard = sweep().shard(usize::MAX - 1, usize::MAX).unwrap();
+    assert_eq!(last_shard.cases().len(), 0);
+    assert_eq!(last_shard.shard(usize::MAX - 1, usize::MAX).unwrap().cases().len(), 0);
     let first = sweep().shard(0, usize::MAX).unwrap().shard(0, 2).unwrap();
     assert!(first.cases().eq([0]));
 }
 
-/// Cases and shards that a merger of these files misses.
+/// Cases and shards that are missing from a merger of these files.
 fn missing_parts(paths: &[&PathBuf]) -> (Vec<usize>, Vec<[usize; 2]>) {
-    match refused(sweep().merge(paths)) {
+    match table_error(sweep().merge(paths)) {
         Error::Sweep(SweepError::Missing { cases, shards }) => (cases, shards),
         other => panic!("{other}"),
     }
@@ -199,46 +199,46 @@ fn other_sweep(friction: f64, width: &str) -> Sweep<'static> {
 
 /// Fault of a merger of three shards and the fourth of another sweep.
 fn fault_of_other_shard(shards: &[PathBuf], sweep: Sweep<'_>, columns: [&str; 2]) -> FileFault {
-    let other = shards[0].with_file_name("other.csv");
+    let other_path = shards[0].with_file_name("other.csv");
     let shard = sweep.shard(3, 4).unwrap();
     shard
         .table(columns, |_| Ok::<_, Error>([0.0; 2]))
         .unwrap()
         .csv()
-        .save(&other)
+        .save(&other_path)
         .unwrap();
-    match self::sweep().merge([&shards[0], &shards[1], &shards[2], &other]) {
+    match self::sweep().merge([&shards[0], &shards[1], &shards[2], &other_path]) {
         Err(Error::File(FileError { fault, file, .. })) => {
-            assert_eq!(file, other.display().to_string());
+            assert_eq!(file, other_path.display().to_string());
             fault
         }
-        other => panic!("{other:?}"),
+        other_path => panic!("{other_path:?}"),
     }
 }
 
 #[test]
-fn wrong_sets_of_shards_are_refused() {
+fn wrong_sets_of_shards_are_errors() {
     let folder = folder("sets");
     let paths = shard_files(&folder, 4);
     let third: Vec<usize> = (0..24).filter(|case| case % 4 == 2).collect();
     assert_eq!(missing_parts(&[&paths[0], &paths[1], &paths[3]]), (third, vec![[2, 4]]));
-    let missing = missing_parts(&[&paths[1], &paths[3]]);
-    assert_eq!((missing.0.len(), missing.1), (12, vec![[0, 4], [2, 4]]));
+    let missing_parts_of_two = missing_parts(&[&paths[1], &paths[3]]);
+    assert_eq!((missing_parts_of_two.0.len(), missing_parts_of_two.1), (12, vec![[0, 4], [2, 4]]));
     assert_eq!(missing_parts(&[]), ((0..24).collect(), vec![]));
     let text = sweep().merge([&paths[0], &paths[1], &paths[3]]).unwrap_err().to_string();
     assert_eq!(text, "6 of the sweep's cases missing: 2, 6, 10, 14, 18, 22; shard 2/4");
 
     let name = paths[0].display().to_string();
-    let found = format!("here and in {name}");
+    let computed = format!("here and in {name}");
     assert_eq!(
-        refused(sweep().merge([&paths[0], &paths[1], &paths[0]])),
-        file_error(&name, value("case 0", &found, "in one place"))
+        table_error(sweep().merge([&paths[0], &paths[1], &paths[0]])),
+        file_error(&name, value("case 0", &computed, "in one place"))
     );
-    let nowhere = folder.join("not_there.csv");
+    let missing_path = folder.join("not_there.csv");
     assert_eq!(
-        refused(sweep().merge([&nowhere])),
+        table_error(sweep().merge([&missing_path])),
         file_error(
-            &nowhere.display().to_string(),
+            &missing_path.display().to_string(),
             FileFault::Unreadable(std::io::ErrorKind::NotFound)
         )
     );
@@ -278,7 +278,7 @@ fn is_too_large(error: &Error) -> bool {
     matches!(error, Error::Memory(MemoryError { asked, .. }) if *asked > 1e8)
 }
 
-/// Refusal of a table with these columns, of which no case is computed.
+/// Error of a table with these columns, of which no case is computed.
 fn column_error(columns: [&str; 2]) -> Error {
     let table = sweep().table(columns, |_| -> Result<[f64; 2]> { unreachable!("columns") });
     table.unwrap_err()
@@ -286,35 +286,37 @@ fn column_error(columns: [&str; 2]) -> Error {
 
 #[test]
 fn parameters_and_columns_are_checked() {
-    let empty = Error::Size { quantity: "list of values", found: 0, needed: 1 };
-    assert_eq!(grid_error(vec![numbers(&[])]), parameter_error("x", empty));
+    let expected_error = Error::Size { quantity: "list of values", found: 0, needed: 1 };
+    assert_eq!(grid_error(vec![numbers(&[])]), parameter_error("x", expected_error));
     assert_eq!(
         grid_error(vec![numbers(&[1.0, f64::NAN])]).to_string(),
         "parameter 'x': list of values is not finite: entry 1 is NaN"
     );
     for (twice, value) in [([2.0, 2.0], "2"), ([0.0, -0.0], "-0")] {
-        let repeated = parameter_error("x", repeated_value(value));
-        assert_eq!(grid_error(vec![numbers(&twice)]), repeated);
+        let expected_repetition = parameter_error("x", repeated_value(value));
+        assert_eq!(grid_error(vec![numbers(&twice)]), expected_repetition);
     }
-    let repeated = parameter_error("r", repeated_value("a"));
-    assert_eq!(grid_error(vec![Parameter::texts("r", ["a", "a"])]), repeated);
-    let empty = Error::Scene { quantity: "value", needed: "it must not be an empty text" };
-    assert_eq!(grid_error(vec![Parameter::texts("r", [""])]), parameter_error("r", empty));
+    let expected_repetition = parameter_error("r", repeated_value("a"));
+    assert_eq!(grid_error(vec![Parameter::texts("r", ["a", "a"])]), expected_repetition);
+    let expected_error = Error::Scene { quantity: "value", needed: "it must not be an empty text" };
+    assert_eq!(grid_error(vec![Parameter::texts("r", [""])]), parameter_error("r", expected_error));
     assert_eq!(grid_error(vec![Parameter::numbers("", [1.0])]), unnamed_column());
     for name in ["case", "error", "x"] {
         let fault = grid_error(vec![numbers(&[1.0]), Parameter::numbers(name, [1.0])]);
         assert_eq!(fault, Error::DuplicateName { quantity: "column", name: name.to_owned() });
     }
-    let many = (0..16).map(|k| Parameter::numbers(format!("x{k}"), (0..16).map(f64::from)));
-    assert!(is_too_large(&grid_error(many.collect())));
-    // Countable, but not in memory.
-    let large = ["a", "b"].map(|name| Parameter::numbers(name, (0..15_000).map(f64::from)));
-    assert!(is_too_large(&grid_error(large.to_vec())));
+    let many_parameters =
+        (0..16).map(|k| Parameter::numbers(format!("x{k}"), (0..16).map(f64::from)));
+    assert!(is_too_large(&grid_error(many_parameters.collect())));
+    // The number of these cases can be counted, but they exceed the memory.
+    let large_parameters =
+        ["a", "b"].map(|name| Parameter::numbers(name, (0..15_000).map(f64::from)));
+    assert!(is_too_large(&grid_error(large_parameters.to_vec())));
     for columns in [["friction", "y"], ["y", "y"], ["y", "error"]] {
         assert!(matches!(column_error(columns), Error::DuplicateName { .. }), "{columns:?}");
     }
     assert_eq!(column_error(["y", ""]), unnamed_column());
-    // Without parameters, cases or results.
+    // Sweeps without parameters, cases or results have tables, too.
     assert_eq!(Sweep::grid([]).unwrap().cases().len(), 1);
     let table = Sweep::new(2).table([], |_| Ok::<_, Error>([])).unwrap();
     let lines: Vec<_> = table.csv().lines().map(str::to_owned).collect();
@@ -322,10 +324,10 @@ fn parameters_and_columns_are_checked() {
         lines[0].starts_with("# basemat sweep 1 check sum ")
             && lines[1..] == ["case,error", "0,", "1,"]
     );
-    let none = Sweep::new(0);
-    assert_eq!(none.merge([""; 0]).unwrap().csv().lines().nth(1), Some("case,error"));
+    let empty_sweep = Sweep::new(0);
+    assert_eq!(empty_sweep.merge([""; 0]).unwrap().csv().lines().nth(1), Some("case,error"));
     assert_eq!(
-        none.table(["y"], |_| Ok::<_, Error>([0.0])).unwrap().to_string(),
+        empty_sweep.table(["y"], |_| Ok::<_, Error>([0.0])).unwrap().to_string(),
         "case  y\n-------"
     );
 }
@@ -343,12 +345,12 @@ fn lines_stay_below_a_hundred_characters() {
 
     let names: Vec<String> = (0..12).map(|k| format!("peak_contact_shear_{k}_n_per_m")).collect();
     let columns: [&str; 12] = std::array::from_fn(|k| names[k].as_str());
-    let long = "a-record-with-a-name-that-goes-on-".repeat(6);
+    let long_name = "a-record-with-a-name-that-goes-on-".repeat(6);
     let grid =
-        [Parameter::texts("record", [long.as_str(), "short"]), Parameter::numbers("x", [1.5])];
+        [Parameter::texts("record", [long_name.as_str(), "short"]), Parameter::numbers("x", [1.5])];
     let table = Sweep::grid(grid).unwrap().table(columns, |case| match case.index {
         0 => Ok([1.25e7; 12]),
-        _ => Err(format!("{} {long}", "words ".repeat(50))),
+        _ => Err(format!("{} {long_name}", "words ".repeat(50))),
     });
     let text = table.unwrap().to_string();
     assert!((90..100).contains(&longest(&text)), "{text}");
@@ -358,7 +360,7 @@ fn lines_stay_below_a_hundred_characters() {
         assert_eq!(text.matches(name.as_str()).count(), 1, "{text}");
     }
 
-    // Runs side by side: twelve cases.
+    // Twelve cases run in parallel.
     let mut simulation = crate::results::simulation();
     let run = simulation.run(50, |_| {}).unwrap();
     let cases = (0..12).map(|k| (format!("a case with friction 0.{k}"), run.clone()));

@@ -1,5 +1,5 @@
-//! GOAL: rows of a file of cases are used only as they were written; none is lost without an error; a full disk ends a sweep
-//! with the rows that were computed.
+//! GOAL: rows of a file of cases are used only as they were written; no row is lost without an error; a full disk ends
+//! a sweep with the rows that were computed.
 //! SCENE: tables of a formula, with every bit of their files flipped or a quotation mark inserted anywhere; files that
 //! cannot grow.
 //! REFERENCE: the table as it was computed; the check sum computed from the cells.
@@ -76,11 +76,11 @@ fn the_check_sum_is_that_of_all_values() {
 }
 
 #[test]
-fn every_damaged_byte_is_refused() {
+fn every_damaged_byte_is_an_error() {
     let table = finished_table(3);
     let path = folder("bytes").join("cases.csv");
     let text = table.csv().as_bytes().to_vec();
-    let mut refused = 0;
+    let mut error_count = 0;
     for place in 0..text.len() {
         for bit in 0..8 {
             let mut damaged_text = text.clone();
@@ -88,42 +88,44 @@ fn every_damaged_byte_is_refused() {
             write(&path, &damaged_text);
             match sweep(3).merge([&path]) {
                 Ok(merged) => assert_eq!(merged, table, "byte {place}, bit {bit}"),
-                Err(Error::File(_) | Error::Sweep(_) | Error::DuplicateName { .. }) => refused += 1,
+                Err(Error::File(_) | Error::Sweep(_) | Error::DuplicateName { .. }) => {
+                    error_count += 1;
+                }
                 Err(error) => panic!("byte {place}, bit {bit}: {error}"),
             }
         }
     }
-    assert!(refused > 7 * text.len(), "{refused}");
+    assert!(error_count > 7 * text.len(), "{error_count}");
 }
 
 /// Changed digits are damage that a parser of numbers cannot detect.
 #[test]
-fn edited_digits_are_refused() {
+fn edited_digits_are_errors() {
     let table = finished_table(4);
     let path = folder("digits").join("cases.csv");
     let text = table.csv();
-    let mut damaged = 0;
+    let mut damaged_count = 0;
     for case in [0, 2, 6] {
         let line = text.lines().find(|line| line.starts_with(&format!("{case},"))).unwrap();
-        let begin = text.find(line).unwrap();
+        let line_start = text.find(line).unwrap();
         let results = line.find("El Centro").unwrap()..line.rfind(',').unwrap();
         let digits =
-            results.map(|at| begin + at).filter(|&at| text.as_bytes()[at].is_ascii_digit());
+            results.map(|at| line_start + at).filter(|&at| text.as_bytes()[at].is_ascii_digit());
         for at in digits {
-            let mut other = text.as_bytes().to_vec();
-            other[at] = b'0' + (other[at] - b'0' + 1) % 10;
-            write(&path, &other);
+            let mut changed_bytes = text.as_bytes().to_vec();
+            changed_bytes[at] = b'0' + (changed_bytes[at] - b'0' + 1) % 10;
+            write(&path, &changed_bytes);
             match sweep(4).merge([&path]) {
                 Err(Error::File(FileError { fault, .. })) => {
                     assert_eq!(fault, FileFault::Damaged { quantity: "the table".into() });
-                    damaged += 1;
+                    damaged_count += 1;
                 }
                 // Another seventeenth digit may give the same number.
                 merged => assert_eq!(merged.unwrap(), table, "byte {at} of case {case}"),
             }
         }
     }
-    assert!(damaged > 30, "{damaged}");
+    assert!(damaged_count > 30, "{damaged_count}");
 }
 
 fn plain_sweep() -> Sweep<'static> {
@@ -148,22 +150,22 @@ fn a_stray_quotation_mark_drops_no_rows() {
         let table = sweep().table(RESULT_COLUMNS, compute).unwrap();
         let text = table.csv();
         let runs = AtomicUsize::new(0);
-        let mut taken = 0;
-        let mut refused = 0;
+        let mut accepted_count = 0;
+        let mut error_count = 0;
         for at in (0..text.len()).filter(|&at| text.is_char_boundary(at)) {
             let damaged_text = format!("{}\"{}", &text[..at], &text[at..]);
             let _ = std::fs::remove_file(&path);
             write(&part, damaged_text.as_bytes());
             runs.store(0, Ordering::Relaxed);
-            let found = sweep().table_in(&path, RESULT_COLUMNS, |case| {
+            let computed = sweep().table_in(&path, RESULT_COLUMNS, |case| {
                 runs.fetch_add(1, Ordering::Relaxed);
                 compute(case)
             });
-            match found {
-                Ok(found) => {
-                    assert_eq!(found, table, "{name}, {at}");
+            match computed {
+                Ok(computed) => {
+                    assert_eq!(computed, table, "{name}, {at}");
                     assert_eq!(runs.load(Ordering::Relaxed), 0, "{name}, {at}");
-                    taken += 1;
+                    accepted_count += 1;
                 }
                 Err(Error::File(_)) => {
                     assert_eq!(
@@ -171,14 +173,14 @@ fn a_stray_quotation_mark_drops_no_rows() {
                         damaged_text,
                         "{name}, {at}"
                     );
-                    refused += 1;
+                    error_count += 1;
                 }
                 Err(other) => panic!("{name}, {at}: {other}"),
             }
         }
         assert!(
-            taken < 100 && refused > text.len() / 2,
-            "{name}: {taken} taken, {refused} refused"
+            accepted_count < 100 && error_count > text.len() / 2,
+            "{name}: {accepted_count} taken, {error_count} errors"
         );
     }
 }
@@ -194,7 +196,7 @@ fn index_results(case: &SweepCase<'_>) -> [f64; 2] {
 fn a_full_disk_ends_the_sweep_with_its_rows() {
     const FRICTION_COUNT: u32 = 200;
     const TEST_NAME: &str = "results::damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
-    let begin = "rows begin\n";
+    let heading = "rows begin\n";
     let end = "rows end\n";
     if let Some(path) = std::env::var_os("BASEMAT_FULL_DISK") {
         let runs = AtomicUsize::new(0);
@@ -210,7 +212,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
         // No case starts after the first row that could not be written.
         assert!(*computed < 150, "{error}");
         assert!(!error.to_string().contains("El Centro"), "{error}");
-        println!("{begin}{rows}{end}");
+        println!("{heading}{rows}{end}");
         return;
     }
     let folder = folder("full");
@@ -226,9 +228,10 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
         .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
-    let rows = text.split_once(begin).unwrap().1.split_once(end).unwrap().0;
-    let whole = sweep(FRICTION_COUNT);
-    let whole = whole.table(RESULT_COLUMNS, |case| Result::Ok(index_results(case))).unwrap();
+    let rows = text.split_once(heading).unwrap().1.split_once(end).unwrap().0;
+    let complete_table = sweep(FRICTION_COUNT);
+    let complete_table =
+        complete_table.table(RESULT_COLUMNS, |case| Result::Ok(index_results(case))).unwrap();
     // The sweep continues from the truncated file, and from the rows in the error.
     for saved_rows in [std::fs::read_to_string(&part).unwrap(), rows.to_owned()] {
         let _ = std::fs::remove_file(&path);
@@ -239,7 +242,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
             runs.fetch_add(1, Ordering::Relaxed);
             Result::Ok(index_results(case))
         });
-        assert_eq!(table.unwrap(), whole);
+        assert_eq!(table.unwrap(), complete_table);
         let runs = runs.load(Ordering::Relaxed);
         assert!(
             saved_count > 5 && runs <= 400 - 2 * saved_count + 2,
@@ -256,10 +259,13 @@ fn many_values_are_compared_quickly() {
     let texts = Parameter::texts("y", (0..count).map(|k| k.to_string()));
     assert_eq!(Sweep::grid([numbers]).unwrap().cases().len(), 300_000);
     assert!(Sweep::grid([texts]).is_ok());
-    let twice = Parameter::numbers("x", (0..count).map(f64::from).chain([7.0]));
-    let repeated = Error::DuplicateName { quantity: "value", name: "7".to_owned() };
+    let repeated_parameter = Parameter::numbers("x", (0..count).map(f64::from).chain([7.0]));
+    let expected_error = Error::DuplicateName { quantity: "value", name: "7".to_owned() };
     let item = "parameter 'x'".to_owned();
-    assert_eq!(Sweep::grid([twice]).unwrap_err(), Error::Item { item, source: Box::new(repeated) });
+    assert_eq!(
+        Sweep::grid([repeated_parameter]).unwrap_err(),
+        Error::Item { item, source: Box::new(expected_error) }
+    );
     // Comparing every pair of values would take 4.5e10 comparisons.
     assert!(clock.elapsed().as_secs_f64() < 3.0, "{:?}", clock.elapsed());
 }

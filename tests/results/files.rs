@@ -40,8 +40,11 @@ fn number(cell: &str) -> f64 {
 
 #[track_caller]
 fn assert_same_bits(cell: &str, value: f64) {
-    let found = number(cell);
-    assert!(found.to_bits() == value.to_bits() || (found.is_nan() && value.is_nan()), "{cell}");
+    let computed = number(cell);
+    assert!(
+        computed.to_bits() == value.to_bits() || (computed.is_nan() && value.is_nan()),
+        "{cell}"
+    );
 }
 
 #[test]
@@ -135,8 +138,8 @@ fn contact_has_a_row_for_every_frame_and_element() {
     }
     assert!(modes.len() > 2, "{modes:?}");
     // Without frames there is only the heading.
-    let empty = table(&recorded(Recorder::new()).time_series.contact_csv());
-    assert!(empty.rows.is_empty());
+    let table_without_frames = table(&recorded(Recorder::new()).time_series.contact_csv());
+    assert!(table_without_frames.rows.is_empty());
 }
 
 #[test]

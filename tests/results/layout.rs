@@ -28,7 +28,7 @@ pub(crate) fn assert_readable(svg: &str, name: &str) {
     }
 }
 
-/// Texts as the renderer of PNG files lays them out, in a font wider than the one of those files.
+/// Texts as the renderer of PNG files lays them out, in a font wider than that of PNG files.
 #[cfg(feature = "png")]
 fn sheet(svg: &str) -> PictureTexts {
     use resvg::usvg::{Group, Node, Options, TextChunk, TextSpan, Tree};
@@ -102,7 +102,7 @@ fn sheet(svg: &str) -> PictureTexts {
         let bottom = shift + 0.24 * em;
         let place = match attribute(tag, "transform") {
             None => [x + start, y + top, x + start + length, y + bottom],
-            // Turned to the left.
+            // The text is turned to the left.
             Some(turn) if turn.starts_with("rotate(270") => {
                 [x + top, y - start - length, x + bottom, y - start]
             }

@@ -47,8 +47,8 @@ fn coulomb() -> Coulomb {
 }
 
 /// The first number that `read` finds in a run's warnings.
-fn first_warning<T>(run: &Run, read: impl Fn(&Warning) -> Option<T>) -> Option<T> {
-    run.warnings.iter().find_map(read)
+fn first_warning<T>(run: &Run, read_number: impl Fn(&Warning) -> Option<T>) -> Option<T> {
+    run.warnings.iter().find_map(read_number)
 }
 
 /// Whether a run has a warning of this kind.
@@ -95,17 +95,17 @@ fn longer_steps_cause_no_fewer_warnings() {
             [0.01 * (time * 12.0).sin() * (0.1 * time).sin(), 0.0]
         });
         let closure = run(step, building(1.0), coulomb(), wave, 120.0);
-        let judged = step <= 0.1 || warns(&closure, is_of_step);
-        assert!(judged, "closure, {step} s: {:?}", closure.warnings);
+        let is_expected = step <= 0.1 || warns(&closure, is_of_step);
+        assert!(is_expected, "closure, {step} s: {:?}", closure.warnings);
     }
     let fine = run(0.01, building(1.0), coulomb(), el_centro_1940(), 32.0);
     assert!(!warns(&fine, is_of_step), "{:?}", fine.warnings);
-    // Few fine steps, and few long steps of a slow motion, are right.
-    let short = run(0.01, building(1.0), coulomb(), el_centro_1940(), 0.05);
-    assert!(!warns(&short, is_of_step), "{:?}", short.warnings);
+    // Few short steps, and few long steps of a slow motion, cause no warning.
+    let short_run = run(0.01, building(1.0), coulomb(), el_centro_1940(), 0.05);
+    assert!(!warns(&short_run, is_of_step), "{:?}", short_run.warnings);
     let creep = FreeFieldFn::new(|_, time| [1e-6 * time * time, 0.0]);
-    let slow = run(1.0, building(1.0), coulomb(), creep, 5.0);
-    assert!(!warns(&slow, is_of_step), "{:?}", slow.warnings);
+    let slow_run = run(1.0, building(1.0), coulomb(), creep, 5.0);
+    assert!(!warns(&slow_run, is_of_step), "{:?}", slow_run.warnings);
 }
 
 fn is_heavy(warning: &Warning) -> bool {
@@ -204,11 +204,11 @@ fn densities_of_no_material_cause_a_warning() {
     let group = group.with(raft(25.0, 1.0), 20.0).unwrap();
     assert_eq!(group.description().densities, Some([25.0, 2500.0]));
     // A raft one kilometre thick is recognised by its weight.
-    let thick = shaken_raft(raft(2500.0, 1000.0));
-    assert!(warns(&thick, is_heavy));
-    // A reduced model has the description of its model.
-    let reduced = CraigBampton::new(3).reduce(raft(25.0, 1.0)).unwrap();
-    assert_eq!(reduced.description().densities, Some([25.0; 2]));
+    let thick_raft = shaken_raft(raft(2500.0, 1000.0));
+    assert!(warns(&thick_raft, is_heavy));
+    // A reduced model has the description of its full model.
+    let reduced_structure = CraigBampton::new(3).reduce(raft(25.0, 1.0)).unwrap();
+    assert_eq!(reduced_structure.description().densities, Some([25.0; 2]));
 }
 
 /// Warnings of a ground motion.
@@ -234,8 +234,8 @@ fn motion_warnings(record: Record) -> MotionWarnings {
 #[test]
 fn motions_above_two_g_and_drifting_records_cause_warnings() {
     let record = el_centro_1940();
-    let usual = MotionWarnings { is_strong: false, drift_velocity: None };
-    assert_eq!(motion_warnings(record.clone()), usual);
+    let usual_warnings = MotionWarnings { is_strong: false, drift_velocity: None };
+    assert_eq!(motion_warnings(record.clone()), usual_warnings);
     // 0.318 g times 6.2 is below 2 g; times 9.75 it is 3.1 g.
     assert!(!motion_warnings(record.scaled(6.2).unwrap()).is_strong);
     assert!(motion_warnings(record.scaled(9.75).unwrap()).is_strong);
@@ -249,8 +249,8 @@ fn motions_above_two_g_and_drifting_records_cause_warnings() {
     let offset = Record::new(0.01, samples).unwrap();
     let velocity = motion_warnings(offset.clone()).drift_velocity.unwrap();
     assert!((velocity - 0.0783 * 9.99).abs() < 0.02, "{velocity}");
-    let corrected = offset.with_baseline(basemat::motion::Baseline::RemoveMean).unwrap();
-    assert_eq!(motion_warnings(corrected).drift_velocity, None);
+    let corrected_record = offset.with_baseline(basemat::motion::Baseline::RemoveMean).unwrap();
+    assert_eq!(motion_warnings(corrected_record).drift_velocity, None);
 }
 
 /// Strength and pressure of the warning of a weak bond.

@@ -62,8 +62,8 @@ impl NumpyArray {
     }
 
     fn words(&self) -> Vec<String> {
-        let longest: usize = self.kind.strip_prefix("<U").unwrap().parse().unwrap();
-        self.bytes.chunks(4 * longest).map(decoded).collect()
+        let letter_count: usize = self.kind.strip_prefix("<U").unwrap().parse().unwrap();
+        self.bytes.chunks(4 * letter_count).map(decoded).collect()
     }
 }
 
@@ -163,10 +163,11 @@ fn arrays_have_the_recorded_values() {
     let modes = &arrays["contact_mode"];
     let words = arrays["contact_mode_words"].words();
     assert_eq!((&modes.kind[..], &modes.shape[..]), ("|u1", &shape[..]));
-    let found: Vec<_> = modes.bytes.iter().map(|code| words[usize::from(*code)].clone()).collect();
+    let computed: Vec<_> =
+        modes.bytes.iter().map(|code| words[usize::from(*code)].clone()).collect();
     let expected: Vec<_> =
         frames.iter().flat_map(|s| s.modes.iter().map(ToString::to_string)).collect();
-    assert_eq!(found, expected);
+    assert_eq!(computed, expected);
 
     let frames: Vec<_> = states.iter().step_by(8).collect();
     let times: Vec<f64> = frames.iter().map(|s| s.time).collect();
@@ -211,11 +212,11 @@ fn names_of_arrays_differ_and_frames_may_be_left_out() {
         assert!(!arrays.contains_key(name));
     }
     // No name of a file is as long as this.
-    let long = unitless_probe(&"a".repeat(70_000));
+    let long_probe = unitless_probe(&"a".repeat(70_000));
     let builder = scene(SI_UNITS, 0.6)
         .structure(block(SI_UNITS))
         .interface(friction(FRICTION_COEFFICIENT));
-    let time_series = Recorder::new().start(&builder.probe(long).build().unwrap()).unwrap();
+    let time_series = Recorder::new().start(&builder.probe(long_probe).build().unwrap()).unwrap();
     assert!(time_series.write_npz(&mut Vec::new()).is_err());
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz_refused/long.npz");
     assert!(is_unwritable(&time_series.save_npz(&path)));

@@ -42,19 +42,19 @@ fn probes_have_their_unit() {
     for (name, unit, factor) in labels {
         let peak = run.probe(name).unwrap().largest();
         let series = time_series.probe(name).unwrap().iter();
-        let largest = series.fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        assert_eq!(peak.value.abs(), largest);
+        let max_magnitude = series.fold(0.0, |max: f64, value| max.max(value.abs()));
+        assert_eq!(peak.value.abs(), max_magnitude);
         assert!(peak.value != 0.0);
         let expected = factor * peak.value;
         for text in [&page, &table_page] {
             let line = text.lines().find(|line| line.trim().starts_with(name)).unwrap();
             let words: Vec<&str> = line.split_whitespace().collect();
             assert!(words.contains(&unit), "{line}");
-            let shown = words.iter().any(|word| {
+            let is_shown = words.iter().any(|word| {
                 let value: f64 = word.parse().unwrap_or(f64::NAN);
                 (value - expected).abs() < 1e-3 * factor * peak.value.abs()
             });
-            assert!(shown, "{line}, not {expected}");
+            assert!(is_shown, "{line}, not {expected}");
         }
     }
     let text = time_series.csv();
@@ -63,13 +63,14 @@ fn probes_have_their_unit() {
     let csv = table.csv();
     let expected = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare";
     assert!(csv.lines().next().unwrap().ends_with(expected));
-    let last: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
+    let last_row: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
     let turn = run.probe("turn").unwrap().largest().value;
-    assert_eq!(last[last.len() - 4].parse(), Ok(turn));
+    assert_eq!(last_row[last_row.len() - 4].parse(), Ok(turn));
 
-    let known = ["slide", "turn", "rate", "shake", "bare"].map(str::to_owned).into();
-    let nobody = Error::Name { quantity: "probe", name: "nobody".to_owned(), known };
-    assert_eq!(run.probe("nobody"), Err(nobody));
+    let known_names = ["slide", "turn", "rate", "shake", "bare"].map(str::to_owned).into();
+    let expected_error =
+        Error::Name { quantity: "probe", name: "nobody".to_owned(), known: known_names };
+    assert_eq!(run.probe("nobody"), Err(expected_error));
 }
 
 fn run_with(probe: Probe) -> Run {
@@ -85,13 +86,19 @@ fn tilt_probe() -> Probe {
 
 #[test]
 fn cases_with_other_probes_or_units_have_no_common_rows() {
-    let same: Comparison =
+    let comparison_in_one_unit: Comparison =
         ["a", "b"].map(|name| (name, run_with(tilt_probe()))).into_iter().collect();
-    assert_eq!((same.cases.len(), same.csv().lines().count()), (2, 3));
-    assert!(same.to_string().contains("tilt"));
-    let mixed = [("a", run_with(tilt_probe())), ("b", run_with(tilt_probe().in_unit("rad")))];
-    let mixed: Comparison = mixed.into_iter().collect();
-    assert!(!mixed.to_string().contains("tilt") && !mixed.csv().contains("tilt"));
+    assert_eq!(
+        (comparison_in_one_unit.cases.len(), comparison_in_one_unit.csv().lines().count()),
+        (2, 3)
+    );
+    assert!(comparison_in_one_unit.to_string().contains("tilt"));
+    let mixed_comparison =
+        [("a", run_with(tilt_probe())), ("b", run_with(tilt_probe().in_unit("rad")))];
+    let mixed_comparison: Comparison = mixed_comparison.into_iter().collect();
+    assert!(
+        !mixed_comparison.to_string().contains("tilt") && !mixed_comparison.csv().contains("tilt")
+    );
 }
 
 #[test]
@@ -137,20 +144,20 @@ fn pages_and_tables_have_all_values() {
     assert_eq!(text.lines().count(), STEP_COUNT + 2);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().all(|line| line.split(',').count() == columns));
-    let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
-    assert_eq!(last[1].parse(), Ok(time_series.series(Quantity::BaseShear)[STEP_COUNT]));
+    let last_row: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+    assert_eq!(last_row[1].parse(), Ok(time_series.series(Quantity::BaseShear)[STEP_COUNT]));
 }
 
 #[test]
 fn a_page_warns_if_most_of_the_base_opens() {
-    let mut opened = Vec::new();
+    let mut opened_elements = Vec::new();
     let bonded = scene(SI_UNITS, 2.5).structure(block(SI_UNITS)).interface(Bonded);
     let rubbing = scene(SI_UNITS, 2.5).structure(block(SI_UNITS)).interface(friction(0.8));
     for builder in [bonded, rubbing] {
         let run = builder.build().unwrap().run(STEP_COUNT, |_| {}).unwrap();
         let is_open = run.whole.uplifted_fraction.highest.value > 0.5;
         assert_eq!(run.to_string().contains("most of the base opens"), is_open, "{run}");
-        opened.push(is_open);
+        opened_elements.push(is_open);
     }
-    assert_eq!(opened, [false, true]);
+    assert_eq!(opened_elements, [false, true]);
 }

@@ -1,4 +1,4 @@
-//! GOAL: pictures are well-formed and legible, show what they must, and refuse what cannot be
+//! GOAL: pictures are well-formed and legible, show what they must, and return errors for what cannot be
 //! shown.
 //! SCENE: every picture, with usual and odd values.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
@@ -20,7 +20,7 @@ use basemat_problems::faults::is_unwritable;
 use crate::results::layout::assert_readable;
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
-/// A run, and what its pictures need.
+/// A run, and the data for its pictures.
 pub(super) struct PlottedRun {
     pub(super) time_series: TimeSeries,
     pub(super) shape: DeformedShape,
@@ -42,19 +42,19 @@ pub(super) fn words(svg: &Svg) -> String {
     assert_readable(text, "picture");
     assert!(text.starts_with("<svg") && text.trim_end().ends_with("</svg>"), "{text}");
     assert!(!text.contains("NaN") && !text.contains("inf"));
-    let mut open = Vec::new();
+    let mut open_tags = Vec::new();
     let mut words = String::new();
     for piece in text.split('<').skip(1) {
         let (tag, rest) = piece.split_once('>').unwrap();
         if let Some(closed) = tag.strip_prefix('/') {
-            assert_eq!(open.pop(), Some(closed));
+            assert_eq!(open_tags.pop(), Some(closed));
         } else if !tag.ends_with('/') {
-            open.push(tag.split_whitespace().next().unwrap());
+            open_tags.push(tag.split_whitespace().next().unwrap());
         }
         words += rest.trim();
         words.push(' ');
     }
-    assert!(open.is_empty());
+    assert!(open_tags.is_empty());
     words
 }
 
@@ -81,7 +81,7 @@ fn every_picture_has_title_labels_units_and_legend() {
     }
     let svg = plot::time_series("Title", &runs, Quantity::SlidingSafety).unwrap();
     shows(&svg, &["1 / factor of safety against sliding", "1: sliding"]);
-    // Without a friction coefficient there is no demand to be drawn, however large.
+    // Without a friction coefficient the picture has no friction demand.
     let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(Bonded);
     let mut simulation = builder.build().unwrap();
     let mut bonded = Recorder::new().start(&simulation).unwrap();
@@ -137,10 +137,10 @@ fn sites_show_speeds_strains_and_spectra() {
     let curves = [StrainCurves::Epri { depth: 2.0 }, StrainCurves::Epri { depth: 6.5 }];
     let record = el_centro_1940();
     let spectrum = record.response_spectrum(&[0.1, 0.5, 2.0], 0.05, &mut unobserved).unwrap();
-    // Strains of some tenths of a per cent, of 1e-12, none.
+    // Strains of some tenths of a per cent, of 1e-12, and zero.
     for factor in [1.0, 1e-9, 0.0] {
         let motion = record.scaled(factor).unwrap();
-        let found = column
+        let computed = column
             .equivalent_linear(
                 &motion,
                 &curves,
@@ -148,10 +148,10 @@ fn sites_show_speeds_strains_and_spectra() {
                 &mut unobserved,
             )
             .unwrap();
-        let svg = plot::site_response("Site", &found, &[("El Centro", &spectrum)]).unwrap();
+        let svg = plot::site_response("Site", &computed, &[("El Centro", &spectrum)]).unwrap();
         shows(&svg, &["Site", "c_S, m/s", "strain, %", "y, m", "period, s"]);
         shows(&svg, &["speed at small strain", "strain-compatible speed", "effective strain"]);
-        assert!(matches!(plot::site_response("S", &found, &[]), Err(Error::Size { .. })));
+        assert!(matches!(plot::site_response("S", &computed, &[]), Err(Error::Size { .. })));
     }
 }
 
@@ -183,7 +183,7 @@ fn odd_values_are_pictures_or_errors() {
     ] {
         words(&curve_picture(&points).unwrap());
     }
-    // Too large to be drawn: left out.
+    // Values too large for a picture are left out.
     words(&curve_picture(&[(0.0, -f64::MAX), (1.0, f64::MAX), (2.0, 1.0)]).unwrap());
 
     assert!(matches!(plot::spectra("T", &[]), Err(Error::Size { .. })));
@@ -216,8 +216,8 @@ fn invalid_requests_are_errors() {
     let fault = plot::probe_time_series("T", &runs, "nobody");
     assert!(matches!(fault, Err(Error::Name { .. })));
     // A folder cannot be made beneath a file.
-    let nowhere = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/picture.svg");
-    let fault = plot::time_series("T", &runs, Quantity::BaseShear).unwrap().save(nowhere);
+    let impossible_path = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/picture.svg");
+    let fault = plot::time_series("T", &runs, Quantity::BaseShear).unwrap().save(impossible_path);
     assert!(is_unwritable(&fault));
     let turn = Probe::displacement("turn", RigidBlock::ROTATION_DOF);
     let length = recorded_probe(turn.clone());
@@ -276,11 +276,11 @@ fn building_on(soil: Soil) -> Result<SimulationBuilder> {
 #[test]
 fn a_page_has_motion_model_peaks_and_pictures() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    let found = interaction(3.0, || building_on(soil)).unwrap();
+    let computed = interaction(3.0, || building_on(soil)).unwrap();
     let mut simulation = building_on(soil).unwrap().build().unwrap();
     let mut series = Recorder::new().start(&simulation).unwrap();
     simulation.run(300, |state| series.record(state)).unwrap();
-    let text = format!("{}\n{}\n{found}", SoilProfile::on_half_plane(soil), found.on_ground);
+    let text = format!("{}\n{}\n{computed}", SoilProfile::on_half_plane(soil), computed.on_ground);
     let runs = [("on the ground", &series)];
     let pictures = [Quantity::BaseShear, Quantity::BaseMoment]
         .map(|quantity| plot::time_series("Run 7", &runs, quantity).unwrap());
@@ -288,17 +288,17 @@ fn a_page_has_motion_model_peaks_and_pictures() {
 
     assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
     assert!(page.contains("<title>Run 7 &amp; its"), "{page}");
-    let shown = page.split_once("<pre>").unwrap().1.split_once("</pre>").unwrap().0;
+    let page_text = page.split_once("<pre>").unwrap().1.split_once("</pre>").unwrap().0;
     for line in text.lines().filter(|line| !line.contains(['<', '>', '&', '"', '\''])) {
-        assert!(shown.contains(line), "{line}");
+        assert!(page_text.contains(line), "{line}");
     }
-    // Motion, model, fixed base.
-    let peak = format!("Ground motion: peak {:.3}", found.on_ground.ground_motion.peak);
+    // The page has the motion, the model and the fixed base.
+    let peak = format!("Ground motion: peak {:.3}", computed.on_ground.ground_motion.peak);
     for words in [&peak, "Weight on the base: 980", "fixed base", "T̃/T = ", "drift &lt;1&gt;"] {
-        assert!(shown.contains(words), "{words} in {shown}");
+        assert!(page_text.contains(words), "{words} in {page_text}");
     }
     // The last table has each peak on the ground, on the fixed base, and their ratio.
-    let table = shown.split_once("fixed base").unwrap().1;
+    let table = page_text.split_once("fixed base").unwrap().1;
     for (name, quantity) in
         [("base shear", Quantity::BaseShear), ("base moment", Quantity::BaseMoment)]
     {
@@ -308,10 +308,10 @@ fn a_page_has_motion_model_peaks_and_pictures() {
         let ratio = numbers[0];
         let fixed = numbers[1];
         let ground = numbers[2];
-        let expected = 1e-3 * found.on_fixed_base.whole.extremes(quantity).magnitude();
+        let expected = 1e-3 * computed.on_fixed_base.whole.extremes(quantity).magnitude();
         assert!((fixed / expected - 1.0).abs() < 2e-3, "{line}");
-        assert!((ground / fixed / found.ratio(quantity) - 1.0).abs() < 4e-3, "{line}");
-        assert!((ratio - found.ratio(quantity)).abs() < 1e-3, "{line}");
+        assert!((ground / fixed / computed.ratio(quantity) - 1.0).abs() < 4e-3, "{line}");
+        assert!((ratio - computed.ratio(quantity)).abs() < 1e-3, "{line}");
     }
     // Pictures are complete in the page, and nothing is loaded from elsewhere.
     for picture in &pictures {

@@ -1,4 +1,4 @@
-//! GOAL: every text of a picture can be read, however long, and no sheet stays blank.
+//! GOAL: every text of a picture can be read, however long, and no sheet is blank.
 //! SCENE: long words, many curves, odd ranges, distant foundations, control characters.
 //! REFERENCE: the texts of the SVG, laid out here.
 
@@ -59,7 +59,7 @@ fn every_text_can_be_read_whatever_is_drawn() {
     // More curves than colours: curves of one colour have different signs.
     let svg = plot::curves("T", "x", "y", &many_curves(15, 0.0, 1.0)).unwrap();
     let polygons = ["#1F77B4", "#D62728", "#17BECF"].map(|color| count_polygons(&svg, color));
-    // Nine on the curve and one in the key; a straight line of two points has two.
+    // Nine marks are on the curve and one is in the key; a straight line of two points has two.
     assert_eq!(polygons, [3 + 3, 3, 3]);
 
     for (from, to) in [(0.05, 2.0), (1e-6, 1e6), (0.3, 0.3), (1.0, 1.001), (0.02, 10.0)] {
@@ -86,21 +86,23 @@ fn raised_row(row: &DofCombination, offset: usize) -> DofCombination {
 fn distant_blocks(distances: &[f64]) -> PlottedRun {
     let mut group = StructureGroup::new().with(block(SI_UNITS), 0.0).unwrap();
     let mut strips = vec![Strip::uniform(-2.0..2.0, 4).unwrap()];
-    let single = DeformedShape::of_block(&block(SI_UNITS), 6.0).unwrap();
-    let mut points = single.points().to_vec();
-    let mut cells = single.cells().to_vec();
+    let single_shape = DeformedShape::of_block(&block(SI_UNITS), 6.0).unwrap();
+    let mut points = single_shape.points().to_vec();
+    let mut cells = single_shape.cells().to_vec();
     for (k, distance) in distances.iter().enumerate() {
         group = group.with(block(SI_UNITS), *distance).unwrap();
         strips.push(Strip::uniform(distance - 2.0..distance + 2.0, 4).unwrap());
         let first = points.len();
-        let moved = single.points().iter().map(|point| ShapePoint {
+        let moved_points = single_shape.points().iter().map(|point| ShapePoint {
             position: [point.position[0] + distance, point.position[1]],
             horizontal: raised_row(&point.horizontal, 3 * (k + 1)),
             vertical: raised_row(&point.vertical, 3 * (k + 1)),
             ..ShapePoint::default()
         });
-        points.extend(moved);
-        cells.extend(single.cells().iter().map(|cell| cell.iter().map(|k| k + first).collect()));
+        points.extend(moved_points);
+        cells.extend(
+            single_shape.cells().iter().map(|cell| cell.iter().map(|k| k + first).collect()),
+        );
     }
     let ground = ElasticGround::new(scenes::soil(SI_UNITS), &strips).unwrap();
     let scene = scene(SI_UNITS, 0.6).structure(group).ground(ground).interface(friction(0.35));
@@ -136,8 +138,8 @@ fn foundations_far_apart_leave_no_sheet_blank() {
             assert_readable(svg.as_str(), quantity.name());
         }
     }
-    let far = distant_blocks(&[40.0]);
-    let svg = plot::mode_map("Far", &far.time_series).unwrap();
+    let distant_run = distant_blocks(&[40.0]);
+    let svg = plot::mode_map("Far", &distant_run.time_series).unwrap();
     shows(&svg, &["gap 36 m", "-2", "38", "42"]);
     // Elements are 1 m high of 8.8 m between the axes.
     let heights = svg.as_str().split("<rect").filter(|tag| tag.contains("#D6DEE4")).map(|tag| {

@@ -35,27 +35,27 @@ fn invalid_requests_are_errors() {
     }
     let mut time_series = Recorder::new().start(&simulation).unwrap();
     let mut run = simulation.begin_run();
-    let known = ["top", "top acceleration"].map(str::to_owned).into();
+    let known_names = ["top", "top acceleration"].map(str::to_owned).into();
     assert_eq!(
         time_series.probe("nobody"),
-        Err(Error::Name { quantity: "probe", name: "nobody".to_owned(), known })
+        Err(Error::Name { quantity: "probe", name: "nobody".to_owned(), known: known_names })
     );
     assert!(time_series.floor_spectrum("nobody", &[1.0], 0.05).is_err());
     assert!(time_series.floor_spectrum("top", &[1.0], 0.05).is_err());
-    // Nothing recorded yet: one sample is not a record.
+    // Only the initial state is recorded: one sample is not a record.
     assert!(time_series.floor_spectrum("top acceleration", &[1.0], 0.05).is_err());
-    for bad in [[0.0, 1.0], [1.0, f64::NAN], [f64::INFINITY, 1.0]] {
-        assert!(log_spaced(bad[0], bad[1], 5).is_err());
+    for invalid_value in [[0.0, 1.0], [1.0, f64::NAN], [f64::INFINITY, 1.0]] {
+        assert!(log_spaced(invalid_value[0], invalid_value[1], 5).is_err());
     }
     assert!(log_spaced(1.0, 2.0, 1).is_err() && log_spaced(1.0, 2.0, usize::MAX).is_err());
     // The same state twice, and one of another scene.
     let state = simulation.step().unwrap().clone();
     record(&state, &mut time_series, &mut run);
     record(&state, &mut time_series, &mut run);
-    let mut other = state.clone();
-    other.time += 1.0;
-    other.contact.pop();
-    record(&other, &mut time_series, &mut run);
+    let mut wrong_state = state.clone();
+    wrong_state.time += 1.0;
+    wrong_state.contact.pop();
+    record(&wrong_state, &mut time_series, &mut run);
     // States that a caller has damaged.
     let damage: [&dyn Fn(&mut State); 3] = [
         &|state| state.foundations[0].elements = 0..100,
@@ -63,10 +63,10 @@ fn invalid_requests_are_errors() {
         &|state| state.modes.truncate(1),
     ];
     for damage in damage {
-        let mut other = state.clone();
-        other.time += 1.0;
-        damage(&mut other);
-        record(&other, &mut time_series, &mut run);
+        let mut wrong_state = state.clone();
+        wrong_state.time += 1.0;
+        damage(&mut wrong_state);
+        record(&wrong_state, &mut time_series, &mut run);
     }
     assert_eq!(time_series.times().len(), 2);
     assert_eq!((run.steps, run.end), (1, state.time));
@@ -79,9 +79,9 @@ fn states_of_another_simulation_are_ignored() {
     let mut second = simulation();
     let mut time_series = Recorder::new().start(&first).unwrap();
     let mut run = first.begin_run();
-    let foreign = second.step().unwrap();
-    time_series.record(foreign).unwrap();
-    run.record(foreign);
+    let foreign_state = second.step().unwrap();
+    time_series.record(foreign_state).unwrap();
+    run.record(foreign_state);
     assert_eq!((time_series.times(), run.steps), (&[0.0][..], 0));
     let state = first.step().unwrap();
     time_series.record(state).unwrap();
@@ -110,6 +110,7 @@ fn time_series_beyond_the_limit_of_memory_are_an_error() {
         assert!(error.to_string().starts_with("steps with time series and snapshots: "), "{error}");
     }
     // Frames that are seldom kept fit where all steps do not.
-    let seldom = Recorder::new().every(1_000_000).motion(1_000_000).start(&simulation);
-    seldom.unwrap().reserve(1_000_000_000).unwrap();
+    let time_series_of_few_frames =
+        Recorder::new().every(1_000_000).motion(1_000_000).start(&simulation);
+    time_series_of_few_frames.unwrap().reserve(1_000_000_000).unwrap();
 }

@@ -78,10 +78,11 @@ fn steps_that_do_not_resolve_the_record_cause_a_warning() {
         };
         assert!((frequency / EL_CENTRO_FREQUENCY - 1.0).abs() < 0.05, "{frequency}");
         assert_eq!(stated_step, time_step);
-        let resolved = shaken_storeys(12, needed);
-        let error = (resolved.whole.base_shear.magnitude() / THREE_STOREY_BASE_SHEAR - 1.0).abs();
+        let resolved_run = shaken_storeys(12, needed);
+        let error =
+            (resolved_run.whole.base_shear.magnitude() / THREE_STOREY_BASE_SHEAR - 1.0).abs();
         assert!(error < 0.06, "Δt = {needed}: {error}");
-        assert_eq!(resolved.warnings, []);
+        assert_eq!(resolved_run.warnings, []);
     }
 }
 
@@ -91,7 +92,7 @@ fn pushed_slender_block(time_step: f64) -> Run {
     bonded_run(block, ricker(1.0), soil(200.0), 12, time_step)
 }
 
-/// A pulse of 1 Hz is resolved by ten steps a second, the rocking that follows it is not.
+/// A pulse of 1 Hz is resolved by ten steps a second, but the rocking that follows is not.
 #[test]
 fn steps_that_do_not_resolve_the_structure_cause_a_warning() {
     let fine = pushed_slender_block(2.5e-3);
@@ -103,10 +104,10 @@ fn steps_that_do_not_resolve_the_structure_cause_a_warning() {
         panic!("{:?}", coarse.warnings)
     };
     assert!((period / ROCKING_PERIOD - 1.0).abs() < 0.2, "{period}");
-    let resolved = pushed_slender_block(needed);
-    let error = resolved.whole.base_shear.magnitude() / fine.whole.base_shear.magnitude() - 1.0;
+    let resolved_run = pushed_slender_block(needed);
+    let error = resolved_run.whole.base_shear.magnitude() / fine.whole.base_shear.magnitude() - 1.0;
     assert!(error.abs() < 0.1, "{error}");
-    assert_eq!(resolved.warnings, []);
+    assert_eq!(resolved_run.warnings, []);
 }
 
 /// After its motion the ground moves with a constant velocity at most: changes of this velocity are rounding and cause no
@@ -157,12 +158,12 @@ fn large_errors_of_the_time_step_cause_a_warning() {
     ];
     for (structure, motion, speed) in cases {
         let shake = |step| bonded_run(structure(), motion(), soil(speed), 8, step);
-        let finer = shake(6.25e-3).whole.base_shear.magnitude();
-        let finest = shake(3.125e-3).whole.base_shear.magnitude();
-        let exact = finest + (finest - finer) / 3.0;
+        let finer_shear = shake(6.25e-3).whole.base_shear.magnitude();
+        let finest_shear = shake(3.125e-3).whole.base_shear.magnitude();
+        let expected = finest_shear + (finest_shear - finer_shear) / 3.0;
         for time_step in [0.05, 0.025] {
             let run = shake(time_step);
-            let error = (run.whole.base_shear.magnitude() / exact - 1.0).abs();
+            let error = (run.whole.base_shear.magnitude() / expected - 1.0).abs();
             let is_warned = run.warnings.iter().any(|warning| {
                 matches!(
                     warning,
@@ -246,22 +247,22 @@ fn lowest_pressure(element: &ElementEnvelope) -> f64 {
 #[test]
 fn bonded_bases_that_are_pulled_up_cause_a_warning() {
     let run = shaken_slender_block(Box::new(Bonded), 1.0, 9.81);
-    let pulled = run
+    let pulled_element = run
         .envelope
         .iter()
         .min_by(|a, b| lowest_pressure(a).total_cmp(&lowest_pressure(b)))
         .unwrap();
-    let middle = pulled.element.center()[0];
-    let expected = [-lowest_pressure(pulled), middle, pulled.pressure.lowest.time];
+    let middle = pulled_element.element.center()[0];
+    let expected = [-lowest_pressure(pulled_element), middle, pulled_element.pressure.lowest.time];
     assert_eq!(tension_warning(&run), Some(expected));
-    assert!(lowest_pressure(pulled) < -1e4);
+    assert!(lowest_pressure(pulled_element) < -1e4);
     // Neither a weak motion, nor a base that opens, nor one without weight.
-    let weak = shaken_slender_block(Box::new(Bonded), 0.01, 9.81);
-    assert_eq!(tension_warning(&weak), None);
+    let weak_motion_run = shaken_slender_block(Box::new(Bonded), 0.01, 9.81);
+    assert_eq!(tension_warning(&weak_motion_run), None);
     let opening = shaken_slender_block(Box::new(Coulomb::new(0.5).unwrap()), 1.0, 9.81);
     assert_eq!(tension_warning(&opening), None);
-    let weightless = shaken_slender_block(Box::new(Bonded), 1.0, 0.0);
-    assert_eq!(tension_warning(&weightless), None);
+    let weightless_run = shaken_slender_block(Box::new(Bonded), 1.0, 0.0);
+    assert_eq!(tension_warning(&weightless_run), None);
 }
 
 /// The warning of a base beyond the elements, of three storeys on a strip of this half width.
@@ -293,7 +294,7 @@ fn a_base_beyond_the_elements_causes_a_warning() {
     assert_eq!(uncovered_base(half), None);
 }
 
-/// One element does not resist rocking, and two resist it too little.
+/// One element does not resist rocking, and two do not resist it enough.
 #[test]
 fn too_few_elements_cause_a_warning() {
     let fine = shaken_storeys(12, 5e-3).whole.base_shear.magnitude();
@@ -305,9 +306,9 @@ fn too_few_elements_cause_a_warning() {
         );
     }
     assert!(shaken_storeys(1, 5e-3).whole.base_shear.magnitude() < 0.5 * fine);
-    let enough = shaken_storeys(4, 5e-3);
-    assert!((enough.whole.base_shear.magnitude() / fine - 1.0).abs() < 0.05);
-    assert_eq!(enough.warnings, []);
+    let resolved_run = shaken_storeys(4, 5e-3);
+    assert!((resolved_run.whole.base_shear.magnitude() / fine - 1.0).abs() < 0.05);
+    assert_eq!(resolved_run.warnings, []);
 }
 
 /// A pulse of 8 Hz that runs along a raft of 40 m.

@@ -52,8 +52,8 @@ fn settlement_is_the_added_force_over_the_stiffness() {
     let force = 3.0e5;
     let ramp = move |time: f64| -force * (time / 4.0).min(1.0);
     let load = Load::new(DofCombination::from(1), ramp);
-    let damped = springs().with_dashpots(4e6, 4e6).unwrap();
-    let mut simulation = on_springs(Bonded).ground(damped).load(load).build().unwrap();
+    let damped_bed = springs().with_dashpots(4e6, 4e6).unwrap();
+    let mut simulation = on_springs(Bonded).ground(damped_bed).load(load).build().unwrap();
     let RecordedRun { time_series, run, .. } = recorded(&mut simulation, 1000);
     let settlement = time_series.series(Quantity::Settlement);
     assert_eq!(settlement[0], 0.0);
@@ -65,7 +65,7 @@ fn settlement_is_the_added_force_over_the_stiffness() {
     assert!(page.contains("Settlement\n  up to 1.87"), "{page}");
 }
 
-/// Linear springs return all the work.
+/// Linear springs return the whole work.
 #[test]
 fn springs_store_half_the_stiffness_times_the_square_of_the_rotation() {
     let moment = |time: f64| 2.0e5 * (TAU * time / 20.0).sin();
@@ -114,9 +114,9 @@ fn soil_that_yields_dissipates_the_rocking_work() {
         let balance_work =
             energy_balance.soil + energy_balance.contact + energy_balance.static_contact;
         let work = time_series.series(Quantity::RockingWork)[1200];
-        let found = work + work_beside_rocking(&states);
+        let computed = work + work_beside_rocking(&states);
         let largest = run.whole.rocking_work.magnitude();
-        assert!((found - balance_work).abs() < 1e-9 * largest, "{found} {balance_work}");
+        assert!((computed - balance_work).abs() < 1e-9 * largest, "{computed} {balance_work}");
         // Soil that does not yield returns the work.
         assert!((work > 0.5 * largest) == yields, "{work} {largest}");
         assert!((energy_balance.contact > work) == yields, "{energy_balance}");
@@ -181,9 +181,11 @@ fn rocking_in_space_equals_rocking_in_the_plane() {
                 assert!(error.abs() < 1e-6 * factor.abs() * scale, "{found} {expected}");
             }
         }
-        let other = if is_across { series.rocking(0) } else { series.rocking_across(0) }.unwrap();
-        let largest = other.work.iter().fold(0.0_f64, |largest, work| largest.max(work.abs()));
-        assert!(largest < 1e-6 * run.whole.extremes(Quantity::Settlement).magnitude());
+        let other_rocking =
+            if is_across { series.rocking(0) } else { series.rocking_across(0) }.unwrap();
+        let max_magnitude =
+            other_rocking.work.iter().fold(0.0_f64, |max, work| max.max(work.abs()));
+        assert!(max_magnitude < 1e-6 * run.whole.extremes(Quantity::Settlement).magnitude());
         let residual = [run.whole.residual_rotation, run.whole.residual_rotation_across];
         assert_eq!(residual[usize::from(is_across)], rocking.rotation[200]);
     }
@@ -220,58 +222,58 @@ fn springs_and_dashpots_have_the_damping_of_their_ratio() {
     let period = 8.0;
     // Angle by which the moment leads: tan φ = ω c/k.
     let angle = f64::atan(TAU / period * 0.2);
-    let damped = springs().with_dashpots(0.2 * BEDDING_MODULUS, 0.2 * BEDDING_MODULUS).unwrap();
+    let damped_bed = springs().with_dashpots(0.2 * BEDDING_MODULUS, 0.2 * BEDDING_MODULUS).unwrap();
     let moment = move |time: f64| 1.5e5 * (TAU * time / period).sin();
-    for every in [1, 10] {
+    for interval in [1, 10] {
         let mut simulation = on_springs(Bonded)
-            .ground(damped.clone())
+            .ground(damped_bed.clone())
             .load(Load::new(DofCombination::from(ROTATION_DOF), moment))
             .build()
             .unwrap();
-        let mut time_series = Recorder::new().every(every).start(&simulation).unwrap();
+        let mut time_series = Recorder::new().every(interval).start(&simulation).unwrap();
         simulation.run(3200, |state| time_series.record(state)).unwrap();
         let cycle = time_series.rocking(0).unwrap().between(2.0 * period..3.0 * period).unwrap();
-        assert_eq!(cycle.times.len(), 800 / every + 1);
+        assert_eq!(cycle.times.len(), 800 / interval + 1);
         let damping = cycle.equivalent_damping().unwrap();
         assert!((damping / (0.5 * angle.sin()) - 1.0).abs() < 2e-3, "{damping} {angle}");
     }
 }
 
 #[test]
-fn series_that_are_no_cycle_are_refused() {
+fn series_that_are_no_cycle_are_errors() {
     let MomentLoop { rotation, moment } = ellipse(400, 0.3);
-    let refused =
+    let cycle_error =
         |rotation: &[f64], moment: &[f64]| equivalent_damping(rotation, moment).unwrap_err();
-    assert!(matches!(refused(&rotation[..2], &moment[..2]), Error::Size { found: 2, .. }));
+    assert!(matches!(cycle_error(&rotation[..2], &moment[..2]), Error::Size { found: 2, .. }));
     assert!(matches!(
-        refused(&rotation, &moment[1..]),
+        cycle_error(&rotation, &moment[1..]),
         Error::Size { found: 400, needed: 401, .. }
     ));
     for end in [120, 200, 340] {
-        let error = refused(&rotation[100..end], &moment[100..end]);
+        let error = cycle_error(&rotation[100..end], &moment[100..end]);
         assert!(matches!(error, Error::Input { .. }), "{end}: {error}");
     }
-    let twice = |values: &[f64]| [values, values].concat();
-    let error = refused(&twice(&rotation), &twice(&moment));
+    let repeated = |values: &[f64]| [values, values].concat();
+    let error = cycle_error(&repeated(&rotation), &repeated(&moment));
     assert!(error.to_string().contains("number of cycles of the rotation is 2"), "{error}");
-    let error = refused(&[1.0; 5], &[0.0, 1.0, 2.0, 1.0, 0.0]);
+    let error = cycle_error(&[1.0; 5], &[0.0, 1.0, 2.0, 1.0, 0.0]);
     assert!(error.to_string().contains("is 0, but must be above zero"), "{error}");
-    let mut broken = moment.clone();
-    broken[7] = f64::NAN;
+    let mut moment_with_nan = moment.clone();
+    moment_with_nan[7] = f64::NAN;
     assert!(matches!(
-        refused(&rotation, &broken),
+        cycle_error(&rotation, &moment_with_nan),
         Error::NotFinite { quantity: "moment", index: 7, .. }
     ));
     let mut simulation = on_springs(Bonded).build().unwrap();
     let time_series = recorded(&mut simulation, 10).time_series;
     let rocking = time_series.rocking(0).unwrap();
     for window in [0.05..0.01, 7.0..8.0] {
-        let found = rocking.between(window.clone());
-        assert!(matches!(found, Err(Error::Size { found: 0, .. })), "{window:?}");
+        let computed = rocking.between(window.clone());
+        assert!(matches!(computed, Err(Error::Size { found: 0, .. })), "{window:?}");
     }
     for window in [f64::NAN..1.0, 0.0..f64::NAN, 0.0..f64::INFINITY] {
-        let found = rocking.between(window.clone());
-        assert!(matches!(found, Err(Error::Input { .. })), "{window:?}");
+        let computed = rocking.between(window.clone());
+        assert!(matches!(computed, Err(Error::Input { .. })), "{window:?}");
     }
     assert_eq!(rocking.between(0.03..0.05).unwrap().times.len(), 3);
     let mut shortened = rocking;
@@ -308,8 +310,8 @@ fn each_foundation_has_its_series() {
         }
         assert_eq!(run.foundations[k].residual_settlement, rocking.settlement[1000]);
         assert_eq!(run.foundations[k].residual_rotation, rocking.rotation[1000]);
-        let largest = rocking.settlement.iter().copied().fold(0.0, f64::max);
-        assert_eq!(run.foundations[k].settlement.highest.value, largest);
+        let max_magnitude = rocking.settlement.iter().copied().fold(0.0, f64::max);
+        assert_eq!(run.foundations[k].settlement.highest.value, max_magnitude);
     }
     let end = &states[1000];
     let [first, second] = &end.foundations[..] else { panic!("two foundations") };
@@ -320,8 +322,8 @@ fn each_foundation_has_its_series() {
     let csv = time_series.csv();
     let mut lines = csv.lines();
     let heading: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let last: Vec<&str> = lines.last().unwrap().split(',').collect();
-    assert_eq!(heading.len(), last.len());
+    let last_row: Vec<&str> = lines.last().unwrap().split(',').collect();
+    assert_eq!(heading.len(), last_row.len());
     for (name, value) in [
         ("settlement_m", end.value(Quantity::Settlement)),
         ("foundation_0_settlement_m", first.settlement),
@@ -330,14 +332,14 @@ fn each_foundation_has_its_series() {
         ("foundation_1_base_moment_n_m_per_m", second.base_moment),
     ] {
         let column = heading.iter().position(|heading| *heading == name).expect(name);
-        assert_eq!(last[column].parse(), Ok(value), "{name}");
+        assert_eq!(last_row[column].parse(), Ok(value), "{name}");
     }
     let text = serde_json::to_string(&time_series).unwrap();
     let read_back: TimeSeries = serde_json::from_str(&text).unwrap();
     assert_eq!(read_back.csv(), csv);
     assert_eq!(read_back.rocking(1).unwrap(), time_series.rocking(1).unwrap());
-    let damaged = text.replace("\"count\":2", "\"count\":3");
-    assert!(damaged != text && serde_json::from_str::<TimeSeries>(&damaged).is_err());
+    let damaged_text = text.replace("\"count\":2", "\"count\":3");
+    assert!(damaged_text != text && serde_json::from_str::<TimeSeries>(&damaged_text).is_err());
 }
 
 /// A single foundation has the series of the whole base, unless moments are about another point.
@@ -346,15 +348,20 @@ fn series_of_foundations_are_kept_on_request() {
     let two = Recorder::new().start(&two_footings()).unwrap();
     let error = two.rocking(0).unwrap_err();
     assert!(error.to_string().contains("set `foundations` of the recorder"), "{error}");
-    let mut shifted = on_springs(Bonded).moment_center(-3.0).motion(AtRest).build().unwrap();
-    let time_series = Recorder::new().start(&shifted).unwrap();
+    let mut shifted_simulation =
+        on_springs(Bonded).moment_center(-3.0).motion(AtRest).build().unwrap();
+    let time_series = Recorder::new().start(&shifted_simulation).unwrap();
     assert!(matches!(time_series.rocking(0), Err(Error::Scene { .. })));
-    let RecordedRun { time_series, states, .. } = recorded(&mut shifted, 5);
+    let RecordedRun { time_series, states, .. } = recorded(&mut shifted_simulation, 5);
     let moment = time_series.rocking(0).unwrap().moment[5];
     assert_eq!(moment, states[5].foundations[0].base_moment);
     assert!((moment - time_series.series(Quantity::BaseMoment)[5]).abs() > 1e5);
-    let alone = Recorder::new().start(&on_springs(Bonded).build().unwrap()).unwrap();
-    assert_eq!(alone.rocking(0).unwrap().moment, alone.series(Quantity::BaseMoment));
-    assert!(!alone.csv().contains("foundation_"));
-    assert!(alone.bytes() < time_series.bytes());
+    let series_of_one_foundation =
+        Recorder::new().start(&on_springs(Bonded).build().unwrap()).unwrap();
+    assert_eq!(
+        series_of_one_foundation.rocking(0).unwrap().moment,
+        series_of_one_foundation.series(Quantity::BaseMoment)
+    );
+    assert!(!series_of_one_foundation.csv().contains("foundation_"));
+    assert!(series_of_one_foundation.bytes() < time_series.bytes());
 }

@@ -1,4 +1,5 @@
-//! GOAL: pictures of rocking have units and a key, show measured points beside the paths, and refuse mixed units.
+//! GOAL: pictures of rocking have units and a key, show measured points beside the paths, and return errors for mixed
+//! units.
 //! SCENE: a block on springs that yield under a slow moment; a body in space; measured points, some of them not finite.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 
@@ -65,8 +66,8 @@ fn paths_and_measured_points_are_drawn_with_their_units() {
     shows(&moments, &key);
     // Three points that are finite, and one in the key.
     assert_eq!(occurrences(&moments, MEASURED_COLOR), 3 + 1);
-    let bare = plot::moment_rotation("T", &runs[..1], &[]).unwrap();
-    assert_eq!(occurrences(&bare, MEASURED_COLOR), 0);
+    let picture_of_one_run = plot::moment_rotation("T", &runs[..1], &[]).unwrap();
+    assert_eq!(occurrences(&picture_of_one_run, MEASURED_COLOR), 0);
 
     let points = [measured("centrifuge", &[(1e-3, 0.02), (2e-3, 0.05)])];
     let settlements = plot::settlement_rotation("T", &runs, &points).unwrap();
@@ -102,19 +103,19 @@ fn moments_in_space_are_those_of_the_whole_body() {
 }
 
 #[test]
-fn pictures_of_rocking_refuse_mixed_units_and_empty_lists() {
+fn pictures_of_rocking_return_errors_for_mixed_units_and_empty_lists() {
     let plane_series = settling_block();
     let space_series = body_in_space();
     let plane = plane_series.rocking(0).unwrap();
     let space = space_series.rocking(0).unwrap();
     for picture in [plot::moment_rotation, plot::settlement_rotation] {
-        let mixed = picture("T", &[("plane", plane), ("space", space)], &[]);
-        assert!(matches!(mixed, Err(Error::Scene { quantity: "unit of a moment", .. })));
-        let none = picture("T", &[], &[measured("points", &[(0.0, 1.0)])]);
-        assert!(matches!(none, Err(Error::Size { found: 0, needed: 1, .. })));
+        let mixed_picture = picture("T", &[("plane", plane), ("space", space)], &[]);
+        assert!(matches!(mixed_picture, Err(Error::Scene { quantity: "unit of a moment", .. })));
+        let empty_picture = picture("T", &[], &[measured("points", &[(0.0, 1.0)])]);
+        assert!(matches!(empty_picture, Err(Error::Size { found: 0, needed: 1, .. })));
     }
     // Points that no chart can show are left out.
-    let far = measured("far", &[(1e300, f64::INFINITY), (f64::NAN, f64::NAN)]);
-    let picture = plot::moment_rotation("T", &[("plane", plane)], &[far]).unwrap();
+    let distant_points = measured("far", &[(1e300, f64::INFINITY), (f64::NAN, f64::NAN)]);
+    let picture = plot::moment_rotation("T", &[("plane", plane)], &[distant_points]).unwrap();
     shows(&picture, &["far"]);
 }

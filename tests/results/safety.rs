@@ -21,13 +21,14 @@ use basemat_problems::wrapped::StructureWithForce;
 fn factors_of_a_pushed_block_follow_from_statics() {
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let weight = STANDARD_GRAVITY * block.total_mass();
-    // The second one uplifts: eccentricity h/4 = 1.25 > b/3. The third stands by tension only.
+    // The second block uplifts: its eccentricity h/4 = 1.25 exceeds b/3. The third block stands by tension only.
     for (push_ratio, height, bonded) in [(0.2, 1.5, false), (0.25, 5.0, false), (0.5, 6.0, true)] {
         let push = push_ratio * weight;
         let along = block.horizontal_at(height);
-        let pushed = StructureWithForce { structure: block.clone(), along, force: move |_| push };
+        let pushed_block =
+            StructureWithForce { structure: block.clone(), along, force: move |_| push };
         let builder = Simulation::builder(1e-3)
-            .structure(pushed)
+            .structure(pushed_block)
             .ground(SpringGround::new(-2.0..2.0, 40, 4e7, 2e7).unwrap())
             .motion(AtRest)
             .gravity(STANDARD_GRAVITY)
@@ -134,12 +135,15 @@ fn partly_bonded_laws(coefficients: &[f64]) -> Laws {
 #[test]
 fn friction_coefficients_are_those_of_the_laws() {
     let count = simulation().ground().elements().len();
-    let graded: Vec<f64> = (0..count).map(|e| 0.3 + 0.01 * e as f64).collect();
-    let factors = sliding_factors(coulomb_laws(&graded), Vec::new());
+    let graded_coefficients: Vec<f64> = (0..count).map(|e| 0.3 + 0.01 * e as f64).collect();
+    let factors = sliding_factors(coulomb_laws(&graded_coefficients), Vec::new());
     assert!(factors.iter().all(|factor| factor.is_finite()));
-    assert_eq!(factors, sliding_factors(coulomb_laws(&graded), graded.clone()));
-    let smaller = sliding_factors(coulomb_laws(&vec![0.3; count]), Vec::new());
-    assert!(factors.iter().zip(smaller).all(|(a, b)| *a > b));
+    assert_eq!(
+        factors,
+        sliding_factors(coulomb_laws(&graded_coefficients), graded_coefficients.clone())
+    );
+    let smaller_factors = sliding_factors(coulomb_laws(&vec![0.3; count]), Vec::new());
+    assert!(factors.iter().zip(smaller_factors).all(|(a, b)| *a > b));
     // One law for all; a layer; infinite friction.
     let layer = ThinLayer::new(soil(SI_UNITS), 0.5, 0.3).unwrap();
     for laws in [coulomb_laws(&[0.3]), vec![Box::new(layer) as Box<dyn InterfaceLaw>]] {
@@ -149,20 +153,22 @@ fn friction_coefficients_are_those_of_the_laws() {
     let unlimited = sliding_factors(vec![Box::new(Coulomb::uplift_only())], Vec::new());
     assert!(unlimited.iter().all(|factor| *factor == f64::INFINITY));
     // With one bonded element there is no factor, unless the builder has coefficients.
-    let without = sliding_factors(partly_bonded_laws(&graded), Vec::new());
-    assert!(without.iter().all(|factor| factor.is_nan()));
-    let run = march(partly_bonded_laws(&graded), Vec::new()).unwrap().0;
+    let factors_without_coefficient =
+        sliding_factors(partly_bonded_laws(&graded_coefficients), Vec::new());
+    assert!(factors_without_coefficient.iter().all(|factor| factor.is_nan()));
+    let run = march(partly_bonded_laws(&graded_coefficients), Vec::new()).unwrap().0;
     assert!(run.whole.sliding_safety.lowest.value.is_nan());
-    let with_coefficients = sliding_factors(partly_bonded_laws(&graded), graded.clone());
+    let with_coefficients =
+        sliding_factors(partly_bonded_laws(&graded_coefficients), graded_coefficients.clone());
     assert!(with_coefficients.iter().all(|factor| factor.is_finite()));
     let nan_friction = NanFriction(Coulomb::new(0.3).unwrap());
-    let refused = march(vec![Box::new(nan_friction) as Box<dyn InterfaceLaw>], Vec::new());
-    assert!(matches!(refused.err().unwrap(), Error::Input { .. }));
+    let result = march(vec![Box::new(nan_friction) as Box<dyn InterfaceLaw>], Vec::new());
+    assert!(matches!(result.err().unwrap(), Error::Input { .. }));
     for coefficient in [-0.1, f64::NAN, f64::NEG_INFINITY] {
-        let refused = march(partly_bonded_laws(&graded), vec![coefficient]);
-        assert!(matches!(refused.err().unwrap(), Error::Input { .. }));
+        let result = march(partly_bonded_laws(&graded_coefficients), vec![coefficient]);
+        assert!(matches!(result.err().unwrap(), Error::Input { .. }));
     }
-    assert!(march(partly_bonded_laws(&graded), vec![f64::INFINITY]).is_ok());
-    let refused = march(partly_bonded_laws(&graded), vec![0.4; 3]);
-    assert!(matches!(refused.err().unwrap(), Error::Size { found: 3, .. }));
+    assert!(march(partly_bonded_laws(&graded_coefficients), vec![f64::INFINITY]).is_ok());
+    let result = march(partly_bonded_laws(&graded_coefficients), vec![0.4; 3]);
+    assert!(matches!(result.err().unwrap(), Error::Size { found: 3, .. }));
 }

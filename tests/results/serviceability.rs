@@ -102,17 +102,17 @@ fn build(limits: Serviceability) -> Result<(), Error> {
     builder.serviceability(limits).build().map(|_| ())
 }
 
-/// GOAL: invalid limits are refused by name.
+/// GOAL: invalid limits are errors that name the limit.
 #[test]
-fn invalid_limits_are_refused() {
-    let none = Serviceability::default();
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let refused = [
-            Serviceability { slip: Some(bad), ..none },
-            Serviceability { gap: Some(bad), ..none },
-            Serviceability { uplifted_fraction: Some(bad), ..none },
-            Serviceability { rotation: Some(bad), ..none },
-            Serviceability { settlement: Some(bad), ..none },
+fn invalid_limits_are_errors() {
+    let no_limits = Serviceability::default();
+    for invalid_value in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let result = [
+            Serviceability { slip: Some(invalid_value), ..no_limits },
+            Serviceability { gap: Some(invalid_value), ..no_limits },
+            Serviceability { uplifted_fraction: Some(invalid_value), ..no_limits },
+            Serviceability { rotation: Some(invalid_value), ..no_limits },
+            Serviceability { settlement: Some(invalid_value), ..no_limits },
         ]
         .map(build);
         let names = [
@@ -122,15 +122,15 @@ fn invalid_limits_are_refused() {
             "allowable rotation",
             "allowable settlement",
         ];
-        for (refused, name) in refused.into_iter().zip(names) {
+        for (result, name) in result.into_iter().zip(names) {
             assert!(
-                matches!(refused, Err(Error::Input { quantity, value, .. })
-                    if quantity == name && value.to_bits() == bad.to_bits()),
-                "{name} {bad}"
+                matches!(result, Err(Error::Input { quantity, value, .. })
+                    if quantity == name && value.to_bits() == invalid_value.to_bits()),
+                "{name} {invalid_value}"
             );
         }
     }
-    let above_one = Serviceability { uplifted_fraction: Some(1.0 + 1e-12), ..none };
-    let one = Serviceability { uplifted_fraction: Some(1.0), ..none };
+    let above_one = Serviceability { uplifted_fraction: Some(1.0 + 1e-12), ..no_limits };
+    let one = Serviceability { uplifted_fraction: Some(1.0), ..no_limits };
     assert!(build(above_one).is_err() && build(one).is_ok());
 }

@@ -72,8 +72,8 @@ fn loops_pass_their_strains_and_stresses() {
     }
     assert!((rest_x - zero[0]).abs() < 2.0 && pixels_per_kilopascal < 0.0);
     // Strains below 0.1 % are in thousandths.
-    let small = plot::stress_strain("T", &[("rest", &small_loop)]).unwrap();
-    shows(&small, &["shear strain, 10⁻³", "0.4", "-0.4", "shear stress, kPa"]);
+    let small_strains = plot::stress_strain("T", &[("rest", &small_loop)]).unwrap();
+    shows(&small_strains, &["shear strain, 10⁻³", "0.4", "-0.4", "shear stress, kPa"]);
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn middle(corners: &[[f64; 2]]) -> [f64; 2] {
 #[test]
 fn solids_have_the_colours_of_their_values() {
     let mesh = section();
-    // The lower row is without values; the eight-node quadrilateral has the largest.
+    // The lower row has no values; the eight-node quadrilateral has the largest value.
     let values = [(3, 0.0), (4, 0.31), (5, 0.7), (8, 1.0 + f64::EPSILON)];
     let picture = plot::solid_section("Sand", "mobilised strength", &mesh, &values).unwrap();
     let classes = ["0 to 0.1", "0.1 to 0.2", "0.3 to 0.4", "0.9 to 1.0"];
@@ -164,13 +164,14 @@ fn solids_have_the_colours_of_their_values() {
         .filter(|tag| attribute(tag, "stroke") == "#464646")
         .count();
     assert_eq!(bars, 1);
-    // The class of the smallest values is below zero if they are.
+    // The class of the smallest values is below zero if these values are.
     let signed = plot::solid_section("T", "stress, kPa", &mesh, &[(0, -30.0), (1, 12.0)]).unwrap();
     shows(&signed, &["-30 to -25", "10 to 15"]);
-    let all: Vec<(usize, f64)> = [0, 1, 2, 3, 4, 5, 8].map(|element| (element, 2e-4)).to_vec();
-    let complete = plot::solid_section("T", "strain", &mesh, &all).unwrap();
-    assert!(!complete.as_str().contains("without a value"));
-    shows(&complete, &["1.8e-4 to 2.0e-4"]);
+    let all_values: Vec<(usize, f64)> =
+        [0, 1, 2, 3, 4, 5, 8].map(|element| (element, 2e-4)).to_vec();
+    let complete_picture = plot::solid_section("T", "strain", &mesh, &all_values).unwrap();
+    assert!(!complete_picture.as_str().contains("without a value"));
+    shows(&complete_picture, &["1.8e-4 to 2.0e-4"]);
 }
 
 fn section_error(mesh: &Mesh, values: &[(usize, f64)]) -> Error {
@@ -182,14 +183,17 @@ fn section_error(mesh: &Mesh, values: &[(usize, f64)]) -> Error {
 fn values_without_a_solid_are_errors() {
     let mesh = section();
     assert!(matches!(section_error(&mesh, &[]), Error::Size { found: 0, needed: 1, .. }));
-    let beyond = section_error(&mesh, &[(0, 1.0), (9, 1.0)]);
-    assert!(matches!(beyond, Error::Index { index: 9, bound: 9, .. }));
+    let error_of_a_missing_element = section_error(&mesh, &[(0, 1.0), (9, 1.0)]);
+    assert!(matches!(error_of_a_missing_element, Error::Index { index: 9, bound: 9, .. }));
     // A bar, a mass, and an element with two values.
     for values in [[(6, 1.0)], [(7, 1.0)]] {
         assert!(section_error(&mesh, &values).to_string().contains("not a solid"));
     }
-    let twice = section_error(&mesh, &[(2, 1.0), (3, 1.0), (2, 1.0)]);
-    assert!(matches!(&twice, Error::Part { part, .. } if part == "element 2"), "{twice}");
+    let error_of_a_second_value = section_error(&mesh, &[(2, 1.0), (3, 1.0), (2, 1.0)]);
+    assert!(
+        matches!(&error_of_a_second_value, Error::Part { part, .. } if part == "element 2"),
+        "{error_of_a_second_value}"
+    );
     for value in [f64::NAN, f64::NEG_INFINITY, 1e70] {
         let error = section_error(&mesh, &[(0, value)]);
         assert!(matches!(error, Error::Input { quantity: "value of an element", .. }), "{error}");

@@ -30,10 +30,10 @@ fn assert_series(recorded: &Recorded) {
     assert_eq!(time_series.energy_balances()[STEP_COUNT], states[STEP_COUNT].energy_balance);
 
     let peak = (0..=STEP_COUNT).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
-    let found = run.whole.base_shear.highest;
-    assert_eq!((found.value, found.time), (shear[peak], times[peak]));
-    let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
-    assert_eq!((run.whole.base_shear.lowest.value, lowest < 0.0), (lowest, true));
+    let computed = run.whole.base_shear.highest;
+    assert_eq!((computed.value, computed.time), (shear[peak], times[peak]));
+    let min_shear = shear.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!((run.whole.base_shear.lowest.value, min_shear < 0.0), (min_shear, true));
     let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     assert_eq!(run.probe("top").unwrap().magnitude(), top_peak);
 
@@ -53,15 +53,15 @@ fn assert_envelopes(recorded: &Recorded) {
     let elements = simulation.ground().elements();
     for (e, envelope) in run.envelope.iter().enumerate() {
         let pressures: Vec<f64> = states.iter().map(|s| s.contact[e].pressure).collect();
-        let highest = pressures.iter().copied().fold(0.0, f64::max);
-        assert_eq!(envelope.pressure.highest.value, highest);
-        let lowest = pressures.iter().copied().fold(1e99, f64::min);
-        assert_eq!(envelope.pressure.lowest.value, lowest);
+        let max_pressure = pressures.iter().copied().fold(0.0, f64::max);
+        assert_eq!(envelope.pressure.highest.value, max_pressure);
+        let min_pressure = pressures.iter().copied().fold(1e99, f64::min);
+        assert_eq!(envelope.pressure.lowest.value, min_pressure);
         assert_eq!(envelope.static_pressure, states[0].contact[e].pressure);
         let gap = states.iter().map(|s| s.contact[e].gap).fold(-1e99, f64::max);
         assert_eq!(envelope.gap.value, gap);
-        let open = states[1..].iter().filter(|s| !s.modes[e].is_closed()).count();
-        assert!((envelope.open - open as f64 * simulation.time_step()).abs() < 1e-9);
+        let open_count = states[1..].iter().filter(|s| !s.modes[e].is_closed()).count();
+        assert!((envelope.open - open_count as f64 * simulation.time_step()).abs() < 1e-9);
         assert_eq!(envelope.element, elements[e]);
     }
 }
@@ -89,8 +89,9 @@ fn assert_slip_events(recorded: &Recorded) {
     let letters: Vec<char> = states
         .windows(2)
         .map(|pair| {
-            let closed: Vec<_> = pair[1].modes.iter().filter(|mode| mode.is_closed()).collect();
-            let slides = !closed.is_empty() && closed.iter().all(|mode| mode.is_slip());
+            let closed_modes: Vec<_> =
+                pair[1].modes.iter().filter(|mode| mode.is_closed()).collect();
+            let slides = !closed_modes.is_empty() && closed_modes.iter().all(|mode| mode.is_slip());
             match (slides, pair[1].mean_slip > pair[0].mean_slip) {
                 (false, _) => ' ',
                 (true, true) => 'r',
@@ -102,8 +103,8 @@ fn assert_slip_events(recorded: &Recorded) {
     let events = letters.chunk_by(|a, b| a == b).filter(|event| event[0] != ' ').count();
     assert!(events > 2, "{letters:?}");
     assert_eq!(sliding.events.len(), events);
-    let slid = letters.iter().filter(|&&letter| letter != ' ').count();
-    assert!((sliding.duration - dt * slid as f64).abs() < 1e-9);
+    let sliding_count = letters.iter().filter(|&&letter| letter != ' ').count();
+    assert!((sliding.duration - dt * sliding_count as f64).abs() < 1e-9);
     assert_eq!(run.whole.residual_slip, states[STEP_COUNT].mean_slip);
     let sliding_distance: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
     assert!((sliding_distance / sliding.path - 1.0).abs() < 1e-12);
@@ -121,17 +122,20 @@ fn assert_safety(recorded: &Recorded) {
         for (quantity, expected) in
             [(Quantity::SlidingSafety, sliding), (Quantity::OverturningSafety, overturning)]
         {
-            let found = time_series.series(quantity)[k];
+            let computed = time_series.series(quantity)[k];
             if state.normal_force == 0.0 {
-                assert!(found.is_nan());
+                assert!(computed.is_nan());
                 continue;
             }
-            assert!(expected > 1e6 || (found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
-            assert!(found > 1.0 - 1e-9);
+            assert!(
+                expected > 1e6 || (computed / expected - 1.0).abs() < 1e-8,
+                "{computed} {expected}"
+            );
+            assert!(computed > 1.0 - 1e-9);
         }
     }
-    let lowest = run.whole.sliding_safety.lowest;
-    assert!((lowest.value - 1.0).abs() < 1e-9);
+    let min_safety = run.whole.sliding_safety.lowest;
+    assert!((min_safety.value - 1.0).abs() < 1e-9);
 }
 
 /// Checks the last energy balance and the sum of its fractions.
@@ -168,14 +172,14 @@ fn series_and_peaks_are_those_of_the_states() {
 fn thinned_series_are_every_seventh_state() {
     let Recorded { states, time_series, .. } =
         recorded(Recorder::new().every(7).contact(20).motion(50));
-    let all = recorded(Recorder::new()).time_series;
+    let complete_series = recorded(Recorder::new()).time_series;
     assert_eq!(time_series.times().len(), 1 + STEP_COUNT / 7);
     for (k, &shear) in time_series.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
     // Time, 13 scalars, 2 probes, 13 terms of the energy balance and its largest energy.
-    assert_eq!(all.bytes(), 8 * (1 + 13 + 2 + 14) * (STEP_COUNT + 1));
-    assert!(time_series.bytes() < all.bytes());
+    assert_eq!(complete_series.bytes(), 8 * (1 + 13 + 2 + 14) * (STEP_COUNT + 1));
+    assert!(time_series.bytes() < complete_series.bytes());
     assert_eq!(time_series.contact_frames().count(), 21);
     let frames: Vec<_> = time_series.motion_frames().collect();
     assert_eq!(frames.len(), 9);

@@ -60,8 +60,8 @@ const EL_CENTRO_STEPS: usize = 3118;
 
 #[test]
 fn usual_numbers_cause_no_warning() {
-    let usual = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), EL_CENTRO_STEPS);
-    assert!(!usual.warnings.iter().any(is_of_units), "{:?}", usual.warnings);
+    let usual_run = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), EL_CENTRO_STEPS);
+    assert!(!usual_run.warnings.iter().any(is_of_units), "{:?}", usual_run.warnings);
     let ten_seconds = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 1000);
     assert!(!ten_seconds.warnings.iter().any(is_of_units), "{:?}", ten_seconds.warnings);
     let rest = run(scene(building(3.0, FLOOR_MASS), AtRest), 20);
@@ -77,17 +77,18 @@ fn a_record_in_another_unit_causes_a_warning() {
         "0.319 m/s²: motion in g?",
     );
     let to_peak = record.scaled_to_peak(0.3).unwrap();
-    let both = VerticalIncidence { horizontal: Some(to_peak.clone()), vertical: Some(to_peak) };
+    let motion_in_two_directions =
+        VerticalIncidence { horizontal: Some(to_peak.clone()), vertical: Some(to_peak) };
     assert_warning(
-        &run(scene(building(3.0, FLOOR_MASS), both), EL_CENTRO_STEPS),
+        &run(scene(building(3.0, FLOOR_MASS), motion_in_two_directions), EL_CENTRO_STEPS),
         "0.300 m/s²: motion in g?",
     );
     let in_gal = record.scaled(100.0).unwrap();
     assert_warning(&run(scene(building(3.0, FLOOR_MASS), in_gal), 300), "motion in cm/s²?");
     // The steps of 20 ms are given in milliseconds, and divided by a thousand.
     for (step, words) in [(20.0, "steps of 2.00e1 s"), (2e-5, "steps of 2.00e-5 s")] {
-        let other = Record::new(step, record.accelerations().to_vec()).unwrap();
-        assert_warning(&run(scene(building(3.0, FLOOR_MASS), other), 300), words);
+        let wrong_record = Record::new(step, record.accelerations().to_vec()).unwrap();
+        assert_warning(&run(scene(building(3.0, FLOOR_MASS), wrong_record), 300), words);
     }
 }
 
@@ -110,9 +111,9 @@ fn numbers_of_a_structure_in_another_unit_cause_a_warning() {
 #[test]
 fn a_run_that_ends_early_causes_a_warning() {
     // 5 s have half of the intensity.
-    let early = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 500);
+    let run_to_the_middle = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 500);
     assert_warning(
-        &early,
+        &run_to_the_middle,
         "run ends at 5.00 s, its record at 31.18 s: 51 % of the record's intensity",
     );
     // A ground that moves ever faster.
@@ -139,10 +140,10 @@ fn every_page_states_its_motion() {
     for words in ["peak 3.12", " m/s² (0.318", " g), record of 31.18 s in steps of 0.02 s"] {
         assert!(line.contains(words), "{line}");
     }
-    let none = page(AtRest);
-    assert_eq!(none.lines().nth(1), Some("Ground motion: none"));
-    let fast = page(FreeFieldFn::new(|_, time| [1.5 * time * time, 0.0]));
-    let line = fast.lines().nth(1).unwrap();
+    let page_at_rest = page(AtRest);
+    assert_eq!(page_at_rest.lines().nth(1), Some("Ground motion: none"));
+    let page_of_fast_ground = page(FreeFieldFn::new(|_, time| [1.5 * time * time, 0.0]));
+    let line = page_of_fast_ground.lines().nth(1).unwrap();
     assert!(
         line.contains("peak 3") && line.ends_with("at the steps of the run, no record"),
         "{line}"
@@ -163,8 +164,8 @@ fn slide_with_damping(damping: f64) -> BrakedBlock {
     let block = RigidBlock::new(6.0, 2.0, 2000.0).unwrap();
     let mut mass = Triplets::new(3);
     block.mass(&mut mass).unwrap();
-    let scaled = mass.entries().iter().map(|&(i, j, value)| (i, j, damping * value));
-    let drag = Triplets::from_entries(3, scaled);
+    let mass_damping = mass.entries().iter().map(|&(i, j, value)| (i, j, damping * value));
+    let drag = Triplets::from_entries(3, mass_damping);
     let model = MatrixModel::new(mass, Triplets::new(3), block.base()).unwrap();
     let mut simulation = Simulation::builder(0.005)
         .ground(ElasticGround::under(soil(250.0), &model, 8).unwrap())
@@ -191,15 +192,15 @@ fn damping_that_brakes_a_sliding_block_causes_a_warning() {
     let expected = 1.5 * 1.5 / (0.2 * STANDARD_GRAVITY);
     assert!((free_slip / expected - 1.0).abs() < 0.05, "{free_slip}");
     assert_eq!(free.warning, None);
-    let braked = slide_with_damping(0.5);
-    let (rate, loss) = braked.warning.unwrap();
+    let braked_block = slide_with_damping(0.5);
+    let (rate, loss) = braked_block.warning.unwrap();
     assert!((rate - 0.5).abs() < 1e-9);
-    let braked_slip = braked.residual_slip;
+    let braked_slip = braked_block.residual_slip;
     assert!(
         (loss - (1.0 - braked_slip / free_slip)).abs() < 0.05,
         "{loss} {braked_slip} {free_slip}"
     );
-    // A hundredth of that brakes by half a per cent; rounding does not brake.
+    // A hundredth of this damping shortens the slip by half a per cent; rounding has no effect.
     for damping in [0.005, 1e-9, 1e-12, 1e-14, 1e-16] {
         assert_eq!(slide_with_damping(damping).warning, None, "{damping}");
     }
@@ -240,8 +241,8 @@ fn stiffnesses_and_motions_in_another_unit_cause_warnings() {
     assert_eq!(unit_warnings(1.0, 1.0, soil(250.0)), UnitWarnings::default());
     let UnitWarnings { period, acceleration } = unit_warnings(1e-3, 100.0, soil(250.0));
     // Equal storeys deflect by 3, 5 and 6 times m g/k under their weight to the side: ω² = 14/70 k/m.
-    let exact = 2.0 * std::f64::consts::PI * (5.0 * 30e3_f64 / 60e3).sqrt();
-    assert!((period.unwrap() / exact - 1.0).abs() < 0.02, "{period:?} {exact}");
+    let expected = 2.0 * std::f64::consts::PI * (5.0 * 30e3_f64 / 60e3).sqrt();
+    assert!((period.unwrap() / expected - 1.0).abs() < 0.02, "{period:?} {expected}");
     assert!((acceleration.unwrap() / 100.0 - 1.0).abs() < 0.03, "{acceleration:?}");
     let not_to_scale = Soil::new(1.0, 0.25, 1.0).unwrap();
     assert_eq!(unit_warnings(1e-3, 100.0, not_to_scale), UnitWarnings::default());
@@ -288,10 +289,10 @@ fn soils_in_other_units_cause_a_warning() {
     }
     // The description has each layer.
     let profile = SoilProfile::on_half_plane(soil(800.0)).with_layer(soil(200.0), 4.0).unwrap();
-    let thin = Soil::from_shear_wave_speed(150.0, 0.33, 18.0).unwrap();
-    let profile = profile.with_layer(thin, 3.0).unwrap();
+    let light_soil = Soil::from_shear_wave_speed(150.0, 0.33, 18.0).unwrap();
+    let profile = profile.with_layer(light_soil, 3.0).unwrap();
     let block = RigidBlock::new(4.0, 2.0, 1000.0).unwrap();
     let ground = ElasticGround::under(profile, &block, 2).unwrap();
     assert_eq!(ground.description().soils.len(), 3);
-    assert_eq!(ground.description().soils[1], thin);
+    assert_eq!(ground.description().soils[1], light_soil);
 }

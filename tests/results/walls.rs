@@ -54,8 +54,8 @@ fn elements_of_walls_have_heights_and_pictures_show_the_trench() {
     let shape = DeformedShape::of_block(&block().unwrap(), 8.0).unwrap();
     let corners = [[-3.0, -4.0], [3.0, -4.0], [3.0, 4.0], [-3.0, 4.0]];
     assert_eq!(positions(&shape), corners);
-    let flat = RigidBlock::new(6.0, 8.0, 900.0).unwrap();
-    let lowered = DeformedShape::of_block(&flat, 8.0).unwrap().lowered(4.0).unwrap();
+    let block_without_walls = RigidBlock::new(6.0, 8.0, 900.0).unwrap();
+    let lowered = DeformedShape::of_block(&block_without_walls, 8.0).unwrap().lowered(4.0).unwrap();
     assert_eq!(positions(&lowered), corners);
     assert!(lowered.lowered(f64::NAN).is_err());
 

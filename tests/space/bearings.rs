@@ -69,8 +69,8 @@ fn bearings_carry_the_floors_above() {
         for _ in 0..250 {
             let state = simulation.step().unwrap();
             let end = [0, 1].map(|k| drifts[k].value(state.displacement()));
-            let middle = [0, 1].map(|k| 0.5 * (start[k] + end[k]));
-            let force = spring.response(middle).force;
+            let midstep_drift = [0, 1].map(|k| 0.5 * (start[k] + end[k]));
+            let force = spring.response(midstep_drift).force;
             for k in 0..2 {
                 let computed = shears[k].value(&[], &[], state.acceleration());
                 assert!((computed - force[k]).abs() < 1e-8 * 2.0e4, "{computed} {force:?}");
@@ -84,15 +84,15 @@ fn bearings_carry_the_floors_above() {
         }
         assert_eq!(spring.save().len(), variables);
         let balance = simulation.state().energy_balance;
-        let dissipated = spring.energy(start).dissipated;
+        let expected_hysteresis = spring.energy(start).dissipated;
         assert!(
-            (balance.hysteresis / dissipated - 1.0).abs() < 1e-9,
-            "{} {dissipated}",
+            (balance.hysteresis / expected_hysteresis - 1.0).abs() < 1e-9,
+            "{} {expected_hysteresis}",
             balance.hysteresis
         );
         let run = simulation.run(1, |_| {}).unwrap();
         assert!(run.energy_error < 1e-9, "{}", run.energy_error);
-        // Beyond the limit, and not along a line.
+        // The bearings yield, and the force lags behind the drift in direction.
         assert!(max_force > 2.0e4 && max_lag > 0.3, "{max_force} {max_lag}");
         assert!(balance.algorithmic.abs() < 0.05 * balance.hysteresis, "{balance:?}");
     }
@@ -109,39 +109,40 @@ fn an_oblique_motion_is_a_motion_along_an_axis() {
         .unwrap();
     let drifts = uniaxial.drift(0).unwrap();
     let motion_along_x = Triaxial { x: Some(record.clone()), ..Triaxial::default() };
-    let mut straight = simulation(uniaxial, bed, motion_along_x);
+    let mut uniaxial_simulation = simulation(uniaxial, bed, motion_along_x);
     let biaxial = isolated_building([0.0; 2]).with_biaxial_law(0, bilinear().coupled()).unwrap();
     let oblique_motion = Triaxial {
         x: Some(record.scaled(0.6).unwrap()),
         y: Some(record.scaled(0.8).unwrap()),
         ..Triaxial::default()
     };
-    let mut oblique = simulation(biaxial, bed, oblique_motion);
+    let mut biaxial_simulation = simulation(biaxial, bed, oblique_motion);
     let mut max_drift = 0.0_f64;
     for _ in 0..400 {
-        let expected = drifts[0].value(straight.step().unwrap().displacement());
-        let state = oblique.step().unwrap();
+        let expected = drifts[0].value(uniaxial_simulation.step().unwrap().displacement());
+        let state = biaxial_simulation.step().unwrap();
         let computed = [0, 1].map(|k| drifts[k].value(state.displacement()));
         let error = (computed[0] - 0.6 * expected).hypot(computed[1] - 0.8 * expected);
         assert!(error < 1e-10, "{computed:?} {expected}");
         max_drift = max_drift.max(expected.abs());
     }
-    let dissipated = [straight, oblique].map(|run| run.state().energy_balance.hysteresis);
+    let dissipated_energies =
+        [uniaxial_simulation, biaxial_simulation].map(|run| run.state().energy_balance.hysteresis);
     assert!(
-        max_drift > 2e-3 && (dissipated[1] / dissipated[0] - 1.0).abs() < 1e-8,
-        "{max_drift} {dissipated:?}"
+        max_drift > 2e-3 && (dissipated_energies[1] / dissipated_energies[0] - 1.0).abs() < 1e-8,
+        "{max_drift} {dissipated_energies:?}"
     );
 }
 
 #[test]
 fn a_storey_has_one_law_in_each_direction() {
     let building = isolated_building([0.0; 2]);
-    let beyond = building.clone().with_biaxial_law(2, bilinear().coupled());
-    assert!(matches!(beyond, Err(Error::Index { index: 2, bound: 2, .. })));
+    let error_of_a_missing_storey = building.clone().with_biaxial_law(2, bilinear().coupled());
+    assert!(matches!(error_of_a_missing_storey, Err(Error::Index { index: 2, bound: 2, .. })));
     for direction in [StoreyBuilding::DIRECTION_ALONG, StoreyBuilding::DIRECTION_ACROSS] {
         let uniaxial = building.clone().with_law(0, direction, bilinear()).unwrap();
-        let second = uniaxial.with_biaxial_law(0, bilinear().coupled());
-        assert!(matches!(second, Err(Error::Scene { .. })));
+        let error_of_a_second_law = uniaxial.with_biaxial_law(0, bilinear().coupled());
+        assert!(matches!(error_of_a_second_law, Err(Error::Scene { .. })));
         let biaxial = building.clone().with_biaxial_law(0, bilinear().coupled()).unwrap();
         assert!(matches!(biaxial.with_law(0, direction, bilinear()), Err(Error::Scene { .. })));
     }

@@ -18,7 +18,7 @@ pub(crate) const BED_PROPERTIES: BedProperties =
     BedProperties { stiffness: [3.0e7, 2.0e7, 1.4e7], dashpot: [6.0e5, 3.0e5, 4.0e5] };
 
 impl BedProperties {
-    /// The same along y as along x.
+    /// The same bed with the properties along x also along y.
     pub(crate) fn isotropic(self) -> Self {
         Self {
             stiffness: [self.stiffness[0], self.stiffness[1], self.stiffness[1]],

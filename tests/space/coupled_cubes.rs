@@ -54,21 +54,21 @@ fn motion_along(direction: usize) -> Triaxial {
 /// Largest effect of one cube on the other, relative to the motion of a cube alone.
 ///
 /// Mirrored at the plane between them, the cubes move alike; before the fastest waves arrive, they move as if alone.
-fn max_coupling(direction: usize, distance_in_cells: usize, alone: &[Vec<f64>]) -> f64 {
+fn max_coupling(direction: usize, distance_in_cells: usize, motion_alone: &[Vec<f64>]) -> f64 {
     let pair = march(Some(distance_in_cells), direction);
-    let max_displacement = alone.iter().fold(0.0_f64, |max, u| max.max(u[direction].abs()));
+    let max_displacement = motion_alone.iter().fold(0.0_f64, |max, u| max.max(u[direction].abs()));
     // The mirror image x → −x changes the signs of u_x, r_y and r_z, and of a motion along x.
     let motion_sign = if direction == 0 { -1.0 } else { 1.0 };
     let mirror_signs = [-1.0, 1.0, 1.0, 1.0, -1.0, -1.0].map(|sign| motion_sign * sign);
     let gap = CELL_PITCH * distance_in_cells as f64 - CUBE_SIDE;
     let arrival = gap / (SHEAR_WAVE_SPEED * 3.5_f64.sqrt());
     let mut max_coupling = 0.0_f64;
-    for (step, (u, alone)) in pair.iter().zip(alone).enumerate() {
+    for (step, (u, motion_alone)) in pair.iter().zip(motion_alone).enumerate() {
         for k in 0..6 {
             let asymmetry = (u[k] - mirror_signs[k] * u[6 + k]).abs();
             assert!(asymmetry < 1e-9 * max_displacement, "{direction} {k}: {asymmetry:e}");
             let lever = if k < 3 { 1.0 } else { 2.0 };
-            let coupling = lever * (u[k] - alone[k]).abs() / max_displacement;
+            let coupling = lever * (u[k] - motion_alone[k]).abs() / max_displacement;
             max_coupling = max_coupling.max(coupling);
             let is_before_arrival = TIME_STEP * (step as f64 + 2.0) < arrival;
             assert!(!is_before_arrival || coupling < 1e-4, "{direction} {k} {step}: {coupling:e}");
@@ -81,8 +81,8 @@ fn max_coupling(direction: usize, distance_in_cells: usize, alone: &[Vec<f64>]) 
 #[test]
 fn two_cubes_couple_through_the_soil() {
     for direction in 0..2 {
-        let alone = march(None, direction);
-        let couplings = [6, 12, 30].map(|cells| max_coupling(direction, cells, &alone));
+        let motion_alone = march(None, direction);
+        let couplings = [6, 12, 30].map(|cells| max_coupling(direction, cells, &motion_alone));
         println!("{direction}: {couplings:?}");
         // The amplitude of surface waves decreases with the root of the distance.
         assert!(couplings[1] < couplings[0] && couplings[2] < couplings[1], "{couplings:?}");

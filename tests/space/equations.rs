@@ -121,16 +121,16 @@ impl EquationsOfMotion<'_> {
             let middle = self.cells.middle(e);
             let x = middle[0] - self.cuboid.center[0];
             let y = middle[1] - self.cuboid.center[1];
-            let before = self.field.displacement_at(middle, time + -HALF_INTERVAL);
-            let now = self.field.displacement_at(middle, time + 0.0);
-            let after = self.field.displacement_at(middle, time + HALF_INTERVAL);
+            let ground_before = self.field.displacement_at(middle, time + -HALF_INTERVAL);
+            let ground_now = self.field.displacement_at(middle, time + 0.0);
+            let ground_after = self.field.displacement_at(middle, time + HALF_INTERVAL);
             let displacement = point_displacement(u, x, y);
             let velocity = point_displacement(v, x, y);
             let force: [f64; 3] = std::array::from_fn(|k| {
                 let component = [1, 2, 0][k];
-                let rate = (after[k] - before[k]) / (2.0 * HALF_INTERVAL);
+                let rate = (ground_after[k] - ground_before[k]) / (2.0 * HALF_INTERVAL);
                 -area
-                    * (self.bed.stiffness[component] * (displacement[k] - now[k])
+                    * (self.bed.stiffness[component] * (displacement[k] - ground_now[k])
                         + self.bed.dashpot[component] * (velocity[k] - rate))
             });
             let moments = [y * force[2], -x * force[2], x * force[1] - y * force[0]];

@@ -94,23 +94,25 @@ fn half_space(structure: &dyn Structure) -> ElasticGround {
 /// Compares the base of a stiff model at rest with a rigid body, on springs and on a half-space, which couples the
 /// cells. Returns the displacement of the body on each.
 pub(super) fn assert_moves_rigidly(
-    stiff: &FemModel,
-    rigid: impl Fn() -> RigidBody,
+    stiff_model: &FemModel,
+    rigid_body: impl Fn() -> RigidBody,
     sides: [f64; 2],
 ) -> [Vec<f64>; 2] {
     let springs = SpringCells::under(sides, [0.0; 2], [7, 5], BED_PROPERTIES);
     let stiff_displacements = [
-        static_displacement(stiff.clone(), springs.clone()),
-        static_displacement(stiff.clone(), half_space(stiff)),
+        static_displacement(stiff_model.clone(), springs.clone()),
+        static_displacement(stiff_model.clone(), half_space(stiff_model)),
     ];
-    let rigid_displacements =
-        [static_displacement(rigid(), springs), static_displacement(rigid(), half_space(&rigid()))];
+    let rigid_displacements = [
+        static_displacement(rigid_body(), springs),
+        static_displacement(rigid_body(), half_space(&rigid_body())),
+    ];
     for (computed, expected) in stiff_displacements.iter().zip(&rigid_displacements) {
         let settlement = expected[2].abs();
         assert!(settlement > 1e-5, "{expected:?}");
-        for node in stiff.base().nodes() {
+        for node in stiff_model.base().nodes() {
             let stiff_rows = [&node.horizontal, &node.across, &node.vertical];
-            let rigid_rows = rigid().displacement_at([node.x, node.y, 0.0]);
+            let rigid_rows = rigid_body().displacement_at([node.x, node.y, 0.0]);
             for (stiff_row, rigid_row) in stiff_rows.into_iter().zip(rigid_rows) {
                 let computed = stiff_row.value(computed);
                 let expected = rigid_row.value(expected);
@@ -138,7 +140,7 @@ fn shaken_simulation(model: &FemModel, sides: [f64; 2], friction: f64, gravity: 
 
 /// Checks a soft model under waves from three sides: cells open and slide, its `top` moves, and the energy balance closes.
 ///
-/// Another simulation resumes halfway, to the last bit.
+/// Another simulation, which resumes halfway, has the same states to the last bit.
 pub(super) fn assert_lifts_off_and_slides(
     model: &FemModel,
     top: [f64; 3],
@@ -148,39 +150,39 @@ pub(super) fn assert_lifts_off_and_slides(
 ) {
     let top = model.mesh().node_at_point(top).unwrap();
     let drift = model.row(top, Direction::X).unwrap();
-    let mut whole = shaken_simulation(model, sides, friction, gravity);
-    let mut resumed = shaken_simulation(model, sides, friction, gravity);
+    let mut uninterrupted_simulation = shaken_simulation(model, sides, friction, gravity);
+    let mut resumed_simulation = shaken_simulation(model, sides, friction, gravity);
     let mut max_open = 0;
     let mut max_sliding = 0;
     let mut max_drift = 0.0_f64;
     for half in 0..2 {
-        let run = whole.run(300, |state| {
-            let open = state.modes.iter().filter(|mode| **mode == Mode::Open).count();
-            let sliding = state.modes.iter().filter(|mode| **mode == Mode::Slip).count();
-            max_open = max_open.max(open);
-            max_sliding = max_sliding.max(sliding);
+        let run = uninterrupted_simulation.run(300, |state| {
+            let open_count = state.modes.iter().filter(|mode| **mode == Mode::Open).count();
+            let sliding_count = state.modes.iter().filter(|mode| **mode == Mode::Slip).count();
+            max_open = max_open.max(open_count);
+            max_sliding = max_sliding.max(sliding_count);
             max_drift = max_drift.max(drift.value(state.displacement()).abs());
         });
         let run = run.unwrap();
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         if half == 0 {
-            resumed.resume(&whole.checkpoint().unwrap()).unwrap();
+            resumed_simulation.resume(&uninterrupted_simulation.checkpoint().unwrap()).unwrap();
         }
     }
     assert!(
         max_open > 3 && max_sliding > 3 && max_drift > 1e-4,
         "{max_open} {max_sliding} {max_drift}"
     );
-    resumed.run(300, |_| {}).unwrap();
-    assert_eq!(resumed.state(), whole.state());
+    resumed_simulation.run(300, |_| {}).unwrap();
+    assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
 }
 
 #[test]
 fn a_stiff_block_is_the_rigid_body() {
-    let stiff = block(1.0e14);
-    assert_eq!(stiff.base().nodes().count(), 4 * 3 * 2);
+    let stiff_block = block(1.0e14);
+    assert_eq!(stiff_block.base().nodes().count(), 4 * 3 * 2);
     let sides = [BLOCK_SIDES[0], BLOCK_SIDES[1]];
-    for displacement in assert_moves_rigidly(&stiff, rigid_block, sides) {
+    for displacement in assert_moves_rigidly(&stiff_block, rigid_block, sides) {
         let rotation = displacement[3].abs().min(displacement[4].abs());
         assert!(rotation > 1e-2 * displacement[2].abs(), "{displacement:?}");
     }

@@ -1,4 +1,4 @@
-//! GOAL: a hinge whose bending moments yield on a circle is the same in all directions, and closes the energy.
+//! GOAL: a hinge whose bending moments yield on a circle is the same in all directions, and its energy balance closes.
 //! SCENE: a mast of circular section on a rigid raft, with a hinge at its foot, under a pulse and shaken.
 //! REFERENCE: the pulse along x; the rigid–plastic closed form; balance of energy.
 
@@ -85,21 +85,22 @@ fn peak(displacements: &[[f64; 2]]) -> f64 {
 fn a_pulse_in_any_direction_turns_the_mast_alike() {
     let force = 2.0 * PLASTIC_MOMENT / MAST_HEIGHT;
     let reference = pushed_displacements(0.0, force);
-    let excess = force * MAST_HEIGHT - PLASTIC_MOMENT;
-    let rotation =
-        force * excess * PULSE_DURATION.powi(2) / (2.0 * TOP_MASS * MAST_HEIGHT * PLASTIC_MOMENT);
+    let excess_moment = force * MAST_HEIGHT - PLASTIC_MOMENT;
+    let rotation = force * excess_moment * PULSE_DURATION.powi(2)
+        / (2.0 * TOP_MASS * MAST_HEIGHT * PLASTIC_MOMENT);
     let peak_rotation = peak(&reference) / MAST_HEIGHT;
     println!("{peak_rotation} for {rotation}");
     assert!((peak_rotation / rotation - 1.0).abs() < 5e-3);
     for angle in [0.5, 1.3, 4.0] {
-        let turned = pushed_displacements(angle, force);
+        let turned_displacements = pushed_displacements(angle, force);
         let scale = peak(&reference);
-        let mut largest = 0.0_f64;
-        for ([along, across], [expected, _]) in turned.iter().zip(&reference) {
-            largest = largest.max((along - expected).abs() / scale).max(across.abs() / scale);
+        let mut max_difference = 0.0_f64;
+        for ([along, across], [expected, _]) in turned_displacements.iter().zip(&reference) {
+            max_difference =
+                max_difference.max((along - expected).abs() / scale).max(across.abs() / scale);
         }
-        println!("{angle}: {largest:.1e}");
-        assert!(largest < 1e-9, "{angle}: {largest:e}");
+        println!("{angle}: {max_difference:.1e}");
+        assert!(max_difference < 1e-9, "{angle}: {max_difference:e}");
     }
 }
 

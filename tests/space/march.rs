@@ -47,24 +47,29 @@ fn displacement_after(duration: f64, steps: usize) -> Vec<f64> {
     simulation.state().absolute_displacement().to_vec()
 }
 
-/// Errors are of second order; extrapolation to a zero step leaves 2e-6.
+/// Errors are of second order in the step; extrapolation to a zero step leaves 2e-6.
 #[test]
 fn a_cuboid_follows_its_equations_of_motion() {
     let duration = 0.8;
     let cells = cells(ECCENTRIC_CUBOID);
     let expected =
         ECCENTRIC_CUBOID.march(&cells, BED_PROPERTIES, &STRAIGHT_PULSES, duration / 1600.0, 1600);
-    let coarse = displacement_after(duration, 200);
-    let fine = displacement_after(duration, 400);
+    let coarse_displacement = displacement_after(duration, 200);
+    let fine_displacement = displacement_after(duration, 400);
     // Rotations move the edges by some metres times as much.
     let max_component = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
     let min_component = expected.iter().fold(f64::INFINITY, |min, x| min.min(x.abs()));
     assert!(min_component > 1e-3 * max_component, "{expected:?}");
-    let errors = [&coarse, &fine].map(|u| max_difference(u, &expected) / max_component);
+    let errors = [&coarse_displacement, &fine_displacement]
+        .map(|u| max_difference(u, &expected) / max_component);
     let order = (errors[0] / errors[1]).log2();
     assert!(errors[1] < 1e-3 && (order - 2.0).abs() < 0.05, "{errors:?}, order {order}");
-    let extrapolated: Vec<_> = coarse.iter().zip(&fine).map(|(c, f)| (4.0 * f - c) / 3.0).collect();
-    let error = max_difference(&extrapolated, &expected) / max_component;
+    let extrapolated_displacement: Vec<_> = coarse_displacement
+        .iter()
+        .zip(&fine_displacement)
+        .map(|(c, f)| (4.0 * f - c) / 3.0)
+        .collect();
+    let error = max_difference(&extrapolated_displacement, &expected) / max_component;
     assert!(error < 2e-6, "{error:e}");
 }
 
@@ -141,7 +146,7 @@ fn turned_displacement(quarter_turns: usize) -> Vec<f64> {
     simulation.state().absolute_displacement().to_vec()
 }
 
-/// A scene that is turned by 90 degrees about the vertical axis has displacements that are.
+/// The displacements of a scene that is turned by 90 degrees about the vertical axis are turned, too.
 #[test]
 fn a_turned_scene_turns_its_displacements() {
     let u = turned_displacement(0);
@@ -181,15 +186,15 @@ fn modes_and_degrees_of_freedom_have_the_same_motion() {
 
 #[test]
 fn a_run_in_space_resumes_to_the_last_bit() {
-    let mut whole = scene(2e-3).unwrap();
-    whole.run(120, |_| {}).unwrap();
-    let saved = whole.checkpoint().unwrap();
-    whole.run(80, |_| {}).unwrap();
-    let mut resumed = scene(2e-3).unwrap();
-    resumed.resume(&saved).unwrap();
-    assert!(resumed.state().free_field_across != 0.0);
-    resumed.run(80, |_| {}).unwrap();
-    assert_eq!(resumed.state(), whole.state());
+    let mut uninterrupted_simulation = scene(2e-3).unwrap();
+    uninterrupted_simulation.run(120, |_| {}).unwrap();
+    let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
+    uninterrupted_simulation.run(80, |_| {}).unwrap();
+    let mut resumed_simulation = scene(2e-3).unwrap();
+    resumed_simulation.resume(&checkpoint).unwrap();
+    assert!(resumed_simulation.state().free_field_across != 0.0);
+    resumed_simulation.run(80, |_| {}).unwrap();
+    assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
 }
 
 /// The mass matrix about the middle of the base follows from Steiner's theorem; the polygon has the area of the circle.
@@ -202,9 +207,10 @@ fn a_cylinder_has_the_mass_and_the_base_of_its_closed_form() {
     let mass = std::f64::consts::PI * radius * radius * height * density;
     let mut matrix = Triplets::new(6);
     body.mass(&mut matrix).unwrap();
-    let tilting = mass * (radius * radius / 4.0 + height * height / 3.0);
+    let tilting_inertia = mass * (radius * radius / 4.0 + height * height / 3.0);
     let lever = mass * height / 2.0;
-    let diagonal = [mass, mass, mass, tilting, tilting, mass * radius * radius / 2.0];
+    let diagonal =
+        [mass, mass, mass, tilting_inertia, tilting_inertia, mass * radius * radius / 2.0];
     let mut expected = [[0.0; 6]; 6];
     for (i, value) in diagonal.into_iter().enumerate() {
         expected[i][i] = value;
@@ -216,7 +222,7 @@ fn a_cylinder_has_the_mass_and_the_base_of_its_closed_form() {
     let mut computed = [[0.0; 6]; 6];
     matrix.entries().iter().for_each(|&(i, j, value)| computed[i][j] += value);
     let error = max_difference(computed.as_flattened(), expected.as_flattened());
-    assert!(error < 1e-12 * tilting);
+    assert!(error < 1e-12 * tilting_inertia);
     let base = body.base();
     let corners: Vec<_> = base.nodes().collect();
     let next_corners = corners.iter().cycle().skip(1);

@@ -72,11 +72,11 @@ fn free_frequencies() -> [f64; 2] {
 
 #[test]
 fn rigid_motions_in_space_have_no_modal_damping() {
-    let damped = ModalDamping::new(&[0.05]).unwrap().on(mast()).unwrap();
+    let damped_structure = ModalDamping::new(&[0.05]).unwrap().on(mast()).unwrap();
     let mut expected = free_frequencies();
     expected.sort_by(f64::total_cmp);
-    assert_eq!(damped.frequencies().len(), 2, "{:?}", damped.frequencies());
-    for (computed, expected) in damped.frequencies().iter().zip(expected) {
+    assert_eq!(damped_structure.frequencies().len(), 2, "{:?}", damped_structure.frequencies());
+    for (computed, expected) in damped_structure.frequencies().iter().zip(expected) {
         assert!((computed / expected - 1.0).abs() < 1e-9, "{computed} {expected}");
     }
     let fixed = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(mast()).unwrap();
@@ -117,8 +117,9 @@ fn all_coordinates_and_wrappers_have_the_same_motion() {
         let computed = march(damping.on(mast()).unwrap(), coordinates);
         assert_close(&computed, &expected, tolerance * max_displacement);
     }
-    let wrapped = march(WithSprings::new(damping.on(mast()).unwrap()), Coordinates::Physical);
-    assert_close(&wrapped, &expected, 0.0);
+    let wrapped_displacement =
+        march(WithSprings::new(damping.on(mast()).unwrap()), Coordinates::Physical);
+    assert_close(&wrapped_displacement, &expected, 0.0);
     // A reduced structure has the degrees of freedom of its base; modal coordinates replace those of the top.
     let reduction = CraigBampton::new(2);
     let damped_after = damping.on(reduction.reduce(mast()).unwrap()).unwrap();
@@ -164,12 +165,12 @@ fn a_matrix_model_moves_like_the_structure_with_its_matrices() {
 
     let storeys = [PlanStorey::new(3.0, 1e5, [9.0; 2], [2e8, 3e8, 4e9]); 4];
     let building = StoreyBuilding::new(body, &storeys).unwrap();
-    let whole = relative_displacement(building.clone());
-    assert_eq!(whole, relative_displacement(matrix_model(&building)));
-    let reduced = CraigBampton::new(12).reduce(matrix_model(&building)).unwrap();
-    let recovery = reduced.recovery();
-    let recovered = recovery.full(&relative_displacement(reduced)).unwrap();
-    for (computed, expected) in recovered.iter().zip(&whole) {
+    let whole_displacement = relative_displacement(building.clone());
+    assert_eq!(whole_displacement, relative_displacement(matrix_model(&building)));
+    let reduced_structure = CraigBampton::new(12).reduce(matrix_model(&building)).unwrap();
+    let recovery = reduced_structure.recovery();
+    let recovered_displacement = recovery.full(&relative_displacement(reduced_structure)).unwrap();
+    for (computed, expected) in recovered_displacement.iter().zip(&whole_displacement) {
         assert!((computed - expected).abs() < 1e-12, "{computed} {expected}");
     }
 }
@@ -184,6 +185,6 @@ fn invalid_matrices_are_errors() {
     assert!(matches!(without_faces, Err(Error::Size { .. })));
     let too_small = MatrixModel::new(identity(5), Triplets::new(5), mast().base());
     assert!(matches!(too_small, Err(Error::Index { index: 5, bound: 5, .. })));
-    let unequal = MatrixModel::new(identity(6), Triplets::new(5), mast().base());
-    assert!(matches!(unequal, Err(Error::Size { .. })));
+    let result = MatrixModel::new(identity(6), Triplets::new(5), mast().base());
+    assert!(matches!(result, Err(Error::Size { .. })));
 }

@@ -93,17 +93,17 @@ fn depth(shape: &DeformedShape, cell: &[usize]) -> f64 {
 fn assert_cells_are_drawn(
     cells: &[&Vec<usize>],
     points_in_view: &[[f64; 2]],
-    drawn: &[Vec<[f64; 2]>],
+    drawn_cells: &[Vec<[f64; 2]>],
 ) {
     let first = points_in_view[cells[0][0]];
     let second = points_in_view[cells[0][1]];
-    let scale = (drawn[0][1][0] - drawn[0][0][0]) / (second[0] - first[0]);
-    for (cell, polygon) in cells.iter().zip(drawn) {
+    let scale = (drawn_cells[0][1][0] - drawn_cells[0][0][0]) / (second[0] - first[0]);
+    for (cell, polygon) in cells.iter().zip(drawn_cells) {
         assert_eq!(cell.len(), polygon.len());
         for (&corner, computed) in cell.iter().zip(polygon) {
             for axis in 0..2 {
                 let expected =
-                    drawn[0][0][axis] + scale * (points_in_view[corner][axis] - first[axis]);
+                    drawn_cells[0][0][axis] + scale * (points_in_view[corner][axis] - first[axis]);
                 assert!(
                     (computed[axis] - expected).abs() < 0.3,
                     "{cell:?}: {computed:?} {expected}"
@@ -200,13 +200,13 @@ fn values_of_shells_are_shown_on_a_plan() {
     let svg = plot::shell_plan("Moments", "m_x, kNm/m", &mesh, &values).unwrap();
     svg.save(file("moments.svg")).unwrap();
     let text = svg.as_str();
-    let drawn = polygons(text);
-    assert_eq!(drawn.len(), 9);
-    let shown = [drawn[0].color, drawn[4].color, drawn[8].color];
-    assert_eq!(shown, ["#143C8C", "#FAF0DE", "#96141E"]);
-    let origin = drawn[0].middle;
-    let side = drawn[1].middle[0] - origin[0];
-    for (k, polygon) in drawn.iter().enumerate() {
+    let drawn_polygons = polygons(text);
+    assert_eq!(drawn_polygons.len(), 9);
+    let colors_shown = [drawn_polygons[0].color, drawn_polygons[4].color, drawn_polygons[8].color];
+    assert_eq!(colors_shown, ["#143C8C", "#FAF0DE", "#96141E"]);
+    let origin = drawn_polygons[0].middle;
+    let side = drawn_polygons[1].middle[0] - origin[0];
+    for (k, polygon) in drawn_polygons.iter().enumerate() {
         let row = (k / 3) as f64;
         let column = (k % 3) as f64;
         let expected = [origin[0] + side * column, origin[1] - side * row];
@@ -216,7 +216,7 @@ fn values_of_shells_are_shown_on_a_plan() {
     for word in ["m_x, kNm/m", "-400 to -300", "-100 to 0", "300 to 400", "x, m", "y, m"] {
         assert!(text.contains(word), "{word}");
     }
-    // A value has one colour wherever it stands, and zero is pale beside one sign only.
+    // A value has one colour at every place, and zero is pale beside values of one sign only.
     assert_eq!(colors(&mesh, &[(0, 0.0), (1, 700.0)]), ["#FAF0DE", "#96141E"]);
     assert_eq!(colors(&mesh, &[(0, -700.0), (1, 0.0)])[0], "#143C8C");
     assert_eq!(colors(&mesh, &[(3, 0.0)]), ["#FAF0DE"]);
@@ -230,8 +230,8 @@ fn shell_plan_error(mesh: &Mesh, values: &[(usize, f64)]) -> Error {
 fn values_without_a_shell_are_errors() {
     let mesh = model().mesh().clone();
     assert!(matches!(shell_plan_error(&mesh, &[]), Error::Size { .. }));
-    let beyond = shell_plan_error(&mesh, &[(12, 0.0)]);
-    assert!(matches!(beyond, Error::Index { index: 12, bound: 12, .. }));
+    let error_beyond_the_mesh = shell_plan_error(&mesh, &[(12, 0.0)]);
+    assert!(matches!(error_beyond_the_mesh, Error::Index { index: 12, bound: 12, .. }));
     // A brick, and a beam.
     for element in [9, 10] {
         assert!(matches!(shell_plan_error(&mesh, &[(element, 0.0)]), Error::Part { .. }));

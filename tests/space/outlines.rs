@@ -88,7 +88,10 @@ fn stiffnesses_fall_steadily_to_their_closed_form() {
         let computed = [4, 6, 8, 12, 16].map(|cells| stiffness(&body, cells));
         println!("{name}: {:.4?}", computed.map(|k| k / low - 1.0));
         assert!(computed.is_sorted_by(|coarse, fine| fine < coarse), "{name} {computed:?}");
-        let finest = computed[4];
-        assert!(finest > low && finest < high * (1.0 + tolerance), "{name} {finest} {low} {high}");
+        let finest_stiffness = computed[4];
+        assert!(
+            finest_stiffness > low && finest_stiffness < high * (1.0 + tolerance),
+            "{name} {finest_stiffness} {low} {high}"
+        );
     }
 }

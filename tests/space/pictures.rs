@@ -75,8 +75,8 @@ impl RecordedMotion {
         let mut simulation = on_springs(structure, AmplifiedPulses, Vec::new());
         simulation.run(200, |_| {}).unwrap();
         let recorder = Recorder::new().contact(5).motion(5);
-        let recorded = scenes::record_run(&mut simulation, recorder, 200);
-        Self { time_series: recorded.time_series, states: recorded.states }
+        let recorded_motion = scenes::record_run(&mut simulation, recorder, 200);
+        Self { time_series: recorded_motion.time_series, states: recorded_motion.states }
     }
 
     /// States of the frames.
@@ -145,7 +145,7 @@ fn a_body_moves_above_its_elements() {
     let text = svg.as_str();
     assert!(text.contains(">stick<") && text.contains(">slip<") && text.contains(">open<"));
     assert!(!text.contains("to the left") && text.contains("contact from above"));
-    // Each element below the body and at the side; open ones are dark.
+    // The picture has each element below the body and at the side; open elements are dark.
     let count = time_series.elements().len();
     assert_eq!(text.matches("stroke-width=\"0.6\"").count(), 2 * count);
     assert!(text.contains("#164878"));
@@ -232,13 +232,13 @@ fn level_motion(dofs: &[f64], level: usize, [dx, dy]: [f64; 2]) -> [f64; 3] {
 
 #[test]
 fn paraview_files_have_towers_in_space() {
-    let recorded = RecordedMotion::of(tower());
+    let recorded_motion = RecordedMotion::of(tower());
     let shape = DeformedShape::of_storeys(&tower()).unwrap();
     let folder = folder("paraview");
-    let written = paraview::write_series(&folder, "tower", &shape, &recorded.time_series);
+    let written = paraview::write_series(&folder, "tower", &shape, &recorded_motion.time_series);
     assert_eq!(written, Ok(2 * 41));
     let text = std::fs::read_to_string(folder.join("tower_0007.vtu")).unwrap();
-    let state = &recorded.states[35];
+    let state = &recorded_motion.states[35];
     let places = vtk_array(&text, "points");
     let displacement = vtk_array(&text, "displacement");
     let velocity = vtk_array(&text, "velocity");
@@ -281,8 +281,8 @@ fn motions_relative_to_the_base_have_rows_along_both_axes() {
         let floor = tower.floor(storey, [3.0, -4.0]).unwrap();
         let drift = tower.total_drift(storey, [3.0, -4.0]).unwrap();
         for k in 0..2 {
-            let relative = (floor[k].clone() - base_motion[k].clone()).value(&dofs);
-            assert!((relative - drift[k].value(&dofs)).abs() < 1e-13);
+            let relative_motion = (floor[k].clone() - base_motion[k].clone()).value(&dofs);
+            assert!((relative_motion - drift[k].value(&dofs)).abs() < 1e-13);
         }
         let along = tower.floor(storey, [0.0; 2]).unwrap()[0].clone();
         // The motion may be along y as well.
@@ -294,8 +294,11 @@ fn motions_relative_to_the_base_have_rows_along_both_axes() {
     assert!(matches!(at_nan, Err(Error::Input { .. })));
     let line = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
     let inertia = [[1e4, 0.0, 0.0], [0.0, 1e4, 0.0], [0.0, 0.0, 1e4]];
-    let flat = RigidBody::from_mass(line, 1e4, inertia, [0.0; 3]).unwrap();
-    assert!(matches!(DofCombination::of_base(&flat, [0.0; 3]), Err(Error::Input { .. })));
+    let body_without_area = RigidBody::from_mass(line, 1e4, inertia, [0.0; 3]).unwrap();
+    assert!(matches!(
+        DofCombination::of_base(&body_without_area, [0.0; 3]),
+        Err(Error::Input { .. })
+    ));
     // In the plane: to the right and up.
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
     let rows = DofCombination::of_base(&block, [1.5, 7.0, 3.0]).unwrap();
@@ -307,10 +310,10 @@ fn motions_relative_to_the_base_have_rows_along_both_axes() {
 
 #[test]
 fn frames_have_the_motion_of_the_ground_along_y() {
-    let recorded = RecordedMotion::of(body());
-    let expected = recorded.ground_motion_across();
+    let recorded_motion = RecordedMotion::of(body());
+    let expected = recorded_motion.ground_motion_across();
     assert!(expected.iter().any(|u| u.abs() > 1e-3));
-    let time_series = &recorded.time_series;
+    let time_series = &recorded_motion.time_series;
     let frames = time_series.motion_frames();
     let computed: Vec<f64> = frames.map(|frame| frame.free_field_across).collect();
     assert_eq!(computed, expected);
@@ -344,23 +347,25 @@ mod archives {
 
     #[test]
     fn archives_have_the_motion_along_y() {
-        let recorded = RecordedMotion::of(body());
+        let recorded_motion = RecordedMotion::of(body());
         let mut archive = Vec::new();
-        recorded.time_series.write_npz(&mut archive).unwrap();
+        recorded_motion.time_series.write_npz(&mut archive).unwrap();
         let across = npz_array(&archive, "motion_free_field_across_m");
-        assert_eq!(across, recorded.ground_motion_across());
+        assert_eq!(across, recorded_motion.ground_motion_across());
         let ground_motion: Vec<f64> =
-            recorded.shown_states().flat_map(|state| state.free_field).collect();
+            recorded_motion.shown_states().flat_map(|state| state.free_field).collect();
         assert_eq!(npz_array(&archive, "motion_free_field_m"), ground_motion);
-        let torque = recorded.time_series.series(basemat::results::Quantity::Torque);
+        let torque = recorded_motion.time_series.series(basemat::results::Quantity::Torque);
         assert_eq!(npz_array(&archive, "torque_n_m"), torque);
-        let slips: Vec<f64> = recorded
+        let slips: Vec<f64> = recorded_motion
             .shown_states()
             .flat_map(|state| state.contact.iter().map(|contact| contact.slip_across))
             .collect();
         assert_eq!(npz_array(&archive, "contact_slip_across_m"), slips);
-        let displacements: Vec<f64> =
-            recorded.shown_states().flat_map(|state| state.displacement().to_vec()).collect();
+        let displacements: Vec<f64> = recorded_motion
+            .shown_states()
+            .flat_map(|state| state.displacement().to_vec())
+            .collect();
         assert_eq!(npz_array(&archive, "motion_displacement"), displacements);
     }
 }

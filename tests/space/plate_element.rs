@@ -91,7 +91,7 @@ pub(super) fn plate_corners([i, j]: [usize; 2]) -> [[usize; 2]; 4] {
 /// Deflection of a plate: a rigid motion and constant curvatures.
 struct DeflectionField {
     /// w, ∂w/∂x and ∂w/∂y at the origin.
-    rigid: [f64; 3],
+    rigid_motion: [f64; 3],
     /// ∂²w/∂x², ∂²w/∂y² and ∂²w/∂x∂y.
     curvatures: [f64; 3],
 }
@@ -100,9 +100,13 @@ impl DeflectionField {
     /// Degrees of freedom of a node.
     fn nodal_values(&self, x: f64, y: f64) -> [f64; NODE_DOFS] {
         let [xx, yy, xy] = self.curvatures;
-        let w = self.rigid[0] + self.rigid[1] * x + self.rigid[2] * y;
+        let w = self.rigid_motion[0] + self.rigid_motion[1] * x + self.rigid_motion[2] * y;
         let bending = 0.5 * xx * x * x + 0.5 * yy * y * y + xy * x * y;
-        [w + bending, self.rigid[2] + yy * y + xy * x, -(self.rigid[1] + xx * x + xy * y)]
+        [
+            w + bending,
+            self.rigid_motion[2] + yy * y + xy * x,
+            -(self.rigid_motion[1] + xx * x + xy * y),
+        ]
     }
 
     /// Energy of Kirchhoff's plate.
@@ -122,13 +126,13 @@ fn plates_pass_the_patch_test() {
     let poisson = 0.3;
     let sides = [[1.0, 2.0], [0.7, 1.1]];
     let lines = sides.map(|[first, second]| [0.0, first, first + second]);
-    for (rigid, curvatures) in [
+    for (rigid_motion, curvatures) in [
         ([1.0, 0.0, 0.0], [0.0; 3]),
         ([0.0, 2.0, -3.0], [0.0; 3]),
         ([0.0; 3], [1.0, 0.0, 0.0]),
         ([0.0; 3], [0.3, -0.8, 0.6]),
     ] {
-        let field = DeflectionField { rigid, curvatures };
+        let field = DeflectionField { rigid_motion, curvatures };
         let mut inner_force = [0.0; NODE_DOFS];
         let mut energy = 0.0;
         for j in 0..2 {

@@ -73,7 +73,7 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
     let time_step = plan.pitch()[1] * random.log_within(0.05, 10.0);
     let gravity = random.log_within(1e-4, 1e-2);
     let friction = random.log_within(0.02, 10.0);
-    // No friction, some, or infinite.
+    // Friction is zero, finite or infinite.
     let friction = if friction < 0.03 { 0.0 } else { friction };
     let friction = if random.chance(0.1) { f64::INFINITY } else { friction };
     let pressure = gravity * density * height;
@@ -136,7 +136,7 @@ impl RunTotals {
         let elements = simulation.ground().elements();
         let areas: Vec<f64> = elements.iter().map(ContactElement::area).collect();
         let mut previous_contact = simulation.state().contact.clone();
-        let begun = simulation.begin_run();
+        let run_in_progress = simulation.begin_run();
         for _ in 0..STEP_COUNT {
             let state = match simulation.step() {
                 Ok(state) => state,
@@ -150,7 +150,7 @@ impl RunTotals {
             self.add_step(number, state, &previous_contact, &areas);
             previous_contact.copy_from_slice(&state.contact);
         }
-        for warning in simulation.end_run(begun).warnings {
+        for warning in simulation.end_run(run_in_progress).warnings {
             self.add_warning(number, &warning);
         }
     }
@@ -222,10 +222,10 @@ impl RunTotals {
 
 #[test]
 fn energy_balances_of_random_scenes_close() {
-    let first = env_number("SPACE_FIRST", 0);
+    let first_number = env_number("SPACE_FIRST", 0);
     let scenes = env_number("SPACE_SCENES", SCENE_COUNT);
     let mut totals = RunTotals::default();
-    for number in first..first + scenes {
+    for number in first_number..first_number + scenes {
         totals.run(number);
         if number % 50 == 49 {
             totals.print();
@@ -250,29 +250,29 @@ fn energy_balances_of_random_flexible_scenes_close() {
         outcome.run(number);
     }
     println!("{outcome:?}");
-    assert!(outcome.refused.is_empty() && outcome.reduced == 4, "{outcome:?}");
+    assert!(outcome.errors.is_empty() && outcome.reduced == 4, "{outcome:?}");
     assert!(outcome.open_steps > 150 && outcome.sliding_steps > 200, "{outcome:?}");
 }
 
 /// Scenes whose Ritz vectors do not converge are stepped in all modes.
 #[test]
-fn small_flexible_scenes_are_reduced_without_refusal() {
+fn small_flexible_scenes_are_reduced_without_errors() {
     let mut outcome = FlexibleSceneTotals::default();
     for number in [33, 37] {
         outcome.run(number);
     }
     println!("{outcome:?}");
-    assert!(outcome.refused.is_empty() && outcome.reduced == 2, "{outcome:?}");
+    assert!(outcome.errors.is_empty() && outcome.reduced == 2, "{outcome:?}");
 }
 
-/// Saved at any step and resumed in another simulation, runs have the same bits: half as many scenes.
+/// Runs that are saved at any step and resumed in another simulation have the same bits.
 #[test]
 fn random_scenes_resume_to_the_last_bit() {
-    let first = env_number("SPACE_FIRST", 0);
+    let first_number = env_number("SPACE_FIRST", 0);
     let scenes = env_number("SPACE_SCENES", 24) / 2;
     let mut compared_steps = 0;
     let mut sliding_steps = 0;
-    for number in first..first + scenes {
+    for number in first_number..first_number + scenes {
         let seed = FIRST_SEED + number as u64;
         let Ok(mut whole) = scene(&mut Random(seed)) else { continue };
         let mut random = Random(number as u64);
@@ -288,10 +288,13 @@ fn random_scenes_resume_to_the_last_bit() {
             states.push(state.clone());
         }
         for (step, checkpoint) in checkpoints {
-            let mut resumed = scene(&mut Random(seed)).unwrap();
-            resumed.resume(&checkpoint).unwrap();
+            let mut resumed_simulation = scene(&mut Random(seed)).unwrap();
+            resumed_simulation.resume(&checkpoint).unwrap();
             for expected in &states[step..] {
-                assert!(resumed.step().unwrap() == expected, "{number}, saved after {step}");
+                assert!(
+                    resumed_simulation.step().unwrap() == expected,
+                    "{number}, saved after {step}"
+                );
                 compared_steps += 1;
                 sliding_steps += usize::from(slides(expected));
             }

@@ -78,8 +78,8 @@ fn build(model: FemModel, coordinates: Coordinates) -> basemat::Result<Simulatio
 }
 
 /// Relative difference of the time series of a probe.
-fn probe_error(full: &[State], reduced: &[State], probe: usize) -> f64 {
-    apart(full, reduced, |state| vec![state.probes[probe]])
+fn probe_error(full_states: &[State], reduced_states: &[State], probe: usize) -> f64 {
+    apart(full_states, reduced_states, |state| vec![state.probes[probe]])
 }
 
 fn pressures(state: &State) -> Vec<f64> {
@@ -90,24 +90,26 @@ fn pressures(state: &State) -> Vec<f64> {
 fn reduced_coordinates_on_many_cells_keep_the_tolerance() {
     let mass_proportional = RayleighDamping::new(0.6, 0.0).unwrap();
     for damping in [Some(rayleigh()), Some(mass_proportional), None] {
-        let full = march(block(SOFT_MODULUS, damping), Coordinates::Physical);
-        let max_uplift = full.iter().map(|state| state.uplifted_fraction).fold(0.0, f64::max);
-        let slips = full.iter().map(|state| state.value(Quantity::LargestSlip));
+        let full_states = march(block(SOFT_MODULUS, damping), Coordinates::Physical);
+        let max_uplift =
+            full_states.iter().map(|state| state.uplifted_fraction).fold(0.0, f64::max);
+        let slips = full_states.iter().map(|state| state.value(Quantity::LargestSlip));
         let max_slip = slips.fold(0.0, f64::max);
         assert!(max_uplift > 0.1 && max_slip > 1e-3, "{max_uplift} {max_slip}");
         let tolerance = 1e-3;
-        let reduced = march(block(SOFT_MODULUS, damping), Coordinates::Reduced { tolerance });
-        assert!(reduced.iter().all(|state| state.energy_balance.residual() < 1e-9));
+        let reduced_states =
+            march(block(SOFT_MODULUS, damping), Coordinates::Reduced { tolerance });
+        assert!(reduced_states.iter().all(|state| state.energy_balance.residual() < 1e-9));
         let errors = [
-            apart(&full, &reduced, |state| vec![state.base_shear]),
-            apart(&full, &reduced, |state| state.absolute_displacement().to_vec()),
-            probe_error(&full, &reduced, 0),
-            apart(&full, &reduced, pressures),
+            apart(&full_states, &reduced_states, |state| vec![state.base_shear]),
+            apart(&full_states, &reduced_states, |state| state.absolute_displacement().to_vec()),
+            probe_error(&full_states, &reduced_states, 0),
+            apart(&full_states, &reduced_states, pressures),
         ];
         println!("{damping:?}: {errors:?}, {max_uplift} {max_slip}");
-        let section_errors = [1, 2].map(|probe| probe_error(&full, &reduced, probe));
+        let section_errors = [1, 2].map(|probe| probe_error(&full_states, &reduced_states, probe));
         assert!(section_errors.iter().all(|error| *error < tolerance), "{section_errors:?}");
-        // All coordinates would leave rounding only.
+        // With all coordinates the errors would be rounding.
         assert!(errors.iter().all(|error| (1e-12..tolerance).contains(error)), "{errors:?}");
     }
 }
@@ -118,12 +120,12 @@ fn reduced_coordinates_on_many_cells_keep_the_tolerance() {
 #[test]
 fn section_forces_keep_the_tolerance() {
     let model = block(CONCRETE_MODULUS, Some(rayleigh()));
-    let full = march(model.clone(), Coordinates::Physical);
-    assert!(full.iter().any(|state| state.uplifted_fraction > 0.1));
-    // The second tolerance needs more Ritz vectors than there may be: all modes are stepped.
+    let full_states = march(model.clone(), Coordinates::Physical);
+    assert!(full_states.iter().any(|state| state.uplifted_fraction > 0.1));
+    // The second tolerance needs more Ritz vectors than are allowed, so that all modes are stepped.
     for tolerance in [1e-4, 1e-6] {
-        let reduced = march(model.clone(), Coordinates::Reduced { tolerance });
-        let errors = [0, 1, 2].map(|probe| probe_error(&full, &reduced, probe));
+        let reduced_states = march(model.clone(), Coordinates::Reduced { tolerance });
+        let errors = [0, 1, 2].map(|probe| probe_error(&full_states, &reduced_states, probe));
         println!("{tolerance:e}: roof, section shear and moment {errors:?}");
         assert!(errors.iter().all(|error| *error < tolerance), "{errors:?}");
     }
@@ -131,7 +133,7 @@ fn section_forces_keep_the_tolerance() {
 
 /// A model with too many degrees of freedom for all its modes: the error names the cause and the remedies.
 #[test]
-fn a_tolerance_beyond_the_vectors_is_refused_with_its_cause() {
+fn a_tolerance_beyond_the_vectors_is_an_error_with_its_cause() {
     let model = layered_block(14, CONCRETE_MODULUS, Some(rayleigh()));
     assert_eq!(model.dofs(), 2880);
     match build(model, Coordinates::Reduced { tolerance: 1e-6 }).map(|_| ()) {
@@ -148,12 +150,12 @@ fn a_tolerance_beyond_the_vectors_is_refused_with_its_cause() {
 #[test]
 fn rayleigh_damping_with_p_delta_is_reduced_on_many_cells() {
     let model = block(SOFT_MODULUS, Some(rayleigh())).with_p_delta(9.81).unwrap();
-    let full = march(model.clone(), Coordinates::Physical);
+    let full_states = march(model.clone(), Coordinates::Physical);
     let tolerance = 1e-3;
-    let reduced = march(model, Coordinates::Reduced { tolerance });
-    assert!(reduced.iter().all(|state| state.energy_balance.residual() < 1e-9));
-    let mut errors = vec![apart(&full, &reduced, |state| vec![state.base_shear])];
-    errors.extend([0, 1, 2].map(|probe| probe_error(&full, &reduced, probe)));
+    let reduced_states = march(model, Coordinates::Reduced { tolerance });
+    assert!(reduced_states.iter().all(|state| state.energy_balance.residual() < 1e-9));
+    let mut errors = vec![apart(&full_states, &reduced_states, |state| vec![state.base_shear])];
+    errors.extend([0, 1, 2].map(|probe| probe_error(&full_states, &reduced_states, probe)));
     println!("{errors:?}");
     assert!(errors.iter().all(|error| (1e-12..tolerance).contains(error)), "{errors:?}");
 }

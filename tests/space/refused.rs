@@ -18,9 +18,9 @@ fn build_error(
     ground: impl Ground + 'static,
     law: impl InterfaceLaw + 'static,
 ) -> Error {
-    let built =
+    let result =
         Simulation::builder(0.01).structure(structure).ground(ground).interface(law).build();
-    built.expect_err("an error")
+    result.expect_err("an error")
 }
 
 fn cube() -> RigidBody {
@@ -139,9 +139,12 @@ fn elements_that_are_no_cells_are_errors() {
     // An element without a place in plan, unlike the others.
     let error = build_error(cube(), with_element(3, ContactElement::new(-1.0, 1.0)), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
-    let flat = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
-    assert_eq!(invalid_quantity(with_element(3, flat)), "depth of a contact element");
-    // Ends of an element are moved to the right and away, m.
+    let element_without_depth = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
+    assert_eq!(
+        invalid_quantity(with_element(3, element_without_depth)),
+        "depth of a contact element"
+    );
+    // Shifts of the right, front and back end of an element, m.
     for (right, front, back, expected) in [
         (0.0, 0.0, f64::NAN, "back end of a contact element"),
         (0.1, 0.0, 0.0, "left end of a contact element"),
@@ -149,11 +152,11 @@ fn elements_that_are_no_cells_are_errors() {
     ] {
         let element = &cells().elements[5];
         let [low, high] = element.depth();
-        let along = [element.left(), element.right() + right];
-        let stretched = ContactElement::in_plan(along, [low + front, high + back]);
-        assert_eq!(invalid_quantity(with_element(5, stretched)), expected);
+        let ends = [element.left(), element.right() + right];
+        let stretched_element = ContactElement::in_plan(ends, [low + front, high + back]);
+        assert_eq!(invalid_quantity(with_element(5, stretched_element)), expected);
     }
-    // In the plane these rows lie on one another.
+    // In the plane the elements of these rows overlap.
     let mut lines = cells();
     for element in &mut lines.elements {
         *element = ContactElement::new(element.left(), element.right());
@@ -174,9 +177,9 @@ fn body_on(outline: &[[f64; 2]], inertia: [[f64; 3]; 3]) -> Result<RigidBody> {
 #[test]
 fn invalid_bodies_are_errors() {
     let square = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
-    let round = [[1e4, 0.0, 0.0], [0.0, 1e4, 0.0], [0.0, 0.0, 1e4]];
-    assert!(body_on(&square, round).is_ok());
-    let mut inertia = round;
+    let sphere_inertia = [[1e4, 0.0, 0.0], [0.0, 1e4, 0.0], [0.0, 0.0, 1e4]];
+    assert!(body_on(&square, sphere_inertia).is_ok());
+    let mut inertia = sphere_inertia;
     inertia[0][1] = 1.0;
     let error = body_on(&square, inertia).err().unwrap();
     assert!(error.to_string().contains("symmetric"));
@@ -184,12 +187,15 @@ fn invalid_bodies_are_errors() {
     inertia[1][0] = 1e4;
     let error = body_on(&square, inertia).err().unwrap();
     assert!(error.to_string().contains("positive definite"));
-    assert!(matches!(body_on(&square[..2], round), Err(Error::Size { found: 2, needed: 3, .. })));
+    assert!(matches!(
+        body_on(&square[..2], sphere_inertia),
+        Err(Error::Size { found: 2, needed: 3, .. })
+    ));
     assert!(RigidBody::cuboid([4.0, 0.0, 4.0], 2000.0).is_err());
     assert!(RigidBody::cylinder(4.0, 4.0, f64::NAN).is_err());
-    assert!(RigidBody::from_mass(square.to_vec(), 1e4, round, [0.0, 0.0, -1.0]).is_err());
-    let crossed = [square[0], square[2], square[1], square[3]];
-    let error = build_error(body_on(&crossed, round).unwrap(), cells(), Bonded);
+    assert!(RigidBody::from_mass(square.to_vec(), 1e4, sphere_inertia, [0.0, 0.0, -1.0]).is_err());
+    let crossed_outline = [square[0], square[2], square[1], square[3]];
+    let error = build_error(body_on(&crossed_outline, sphere_inertia).unwrap(), cells(), Bonded);
     let Error::Item { item, source } = &error else { panic!("{error}") };
     assert!(item == "face 0" && matches!(**source, Error::Scene { .. }), "{error}");
 }
@@ -230,7 +236,7 @@ struct SmallLoads {
     /// Horizontal load along x, N.
     push: f64,
     /// Downward load, relative to the weight.
-    down: f64,
+    downward_load: f64,
     /// Torque, N·m.
     torque: f64,
 }
@@ -244,7 +250,7 @@ impl SmallLoads {
             .structure(body)
             .interface(Yielding::new(1.2 * FLAT_BODY_WEIGHT / 36.0, 0.0).unwrap())
             .load(Load::new(0, move |_| self.push))
-            .load(Load::new(2, move |_| -self.down * FLAT_BODY_WEIGHT))
+            .load(Load::new(2, move |_| -self.downward_load * FLAT_BODY_WEIGHT))
             .load(Load::new(5, move |_| self.torque))
             .build()
     }
@@ -261,14 +267,16 @@ impl SmallLoads {
 #[test]
 fn loads_of_the_size_of_rounding_are_allowed() {
     for (push, torque) in [(0.0, 1e-20), (1e-20, 0.0), (1e-20, 1e-20)] {
-        assert!(SmallLoads { push, down: 0.1, torque }.build().is_ok());
-        let cause = SmallLoads { push, down: 0.3, torque }.stability_error();
+        assert!(SmallLoads { push, downward_load: 0.1, torque }.build().is_ok());
+        let cause = SmallLoads { push, downward_load: 0.3, torque }.stability_error();
         assert!(matches!(cause, StabilityError::BearingFailure { .. }), "{cause}");
     }
-    let twisted = SmallLoads { push: 0.0, down: 0.1, torque: 100.0 }.stability_error();
-    assert!(matches!(twisted, StabilityError::Twisting { .. }), "{twisted}");
-    let pushed = SmallLoads { push: 100.0, down: 0.1, torque: 0.0 }.stability_error();
-    assert!(matches!(pushed, StabilityError::Sliding { .. }), "{pushed}");
+    let torsion_error =
+        SmallLoads { push: 0.0, downward_load: 0.1, torque: 100.0 }.stability_error();
+    assert!(matches!(torsion_error, StabilityError::Twisting { .. }), "{torsion_error}");
+    let sliding_error =
+        SmallLoads { push: 100.0, downward_load: 0.1, torque: 0.0 }.stability_error();
+    assert!(matches!(sliding_error, StabilityError::Sliding { .. }), "{sliding_error}");
 }
 
 /// A rigid body of 200 t on a convex face with these corners from its `center`, m.
@@ -328,7 +336,7 @@ fn all_convex_quadrilaterals_carry_a_rigid_body() {
         let corners = square
             .map(|[x, y]| [x + 6.0 * random.uniform() - 3.0, y + 6.0 * random.uniform() - 3.0]);
         let body = on_face(&corners, [0.0; 2]);
-        // Narrow corners, and faces that are not convex, are refused for other reasons.
+        // Narrow corners, and faces that are not convex, cause other errors.
         let Ok(ground) = SpringGround::under(&body, 8, 4e7, 3e7) else { continue };
         let simulation =
             Simulation::builder(0.01).ground(ground).structure(body).interface(Bonded).build();

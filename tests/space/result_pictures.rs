@@ -18,11 +18,11 @@ fn pictures_show_open_and_sliding_cells() {
     let RockingBody { time_series, run, states } = RockingBody::new();
     let time = run.whole.uplifted_area.highest.time;
     let frames = states.iter().step_by(10);
-    let shown = frames
+    let shown_frames = frames
         .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
         .unwrap();
-    let open_count = shown.modes.iter().filter(|mode| !mode.is_closed()).count();
-    let slip_count = shown.modes.iter().filter(|mode| mode.is_slip()).count();
+    let open_count = shown_frames.modes.iter().filter(|mode| !mode.is_closed()).count();
+    let slip_count = shown_frames.modes.iter().filter(|mode| mode.is_slip()).count();
     assert!(open_count > 2 && slip_count > 2, "{open_count} {slip_count}");
     let picture = plot::contact_plan("Contact", &time_series, time).unwrap();
     let at_rest = plot::contact_plan("Contact", &time_series, 0.0).unwrap();
@@ -53,12 +53,12 @@ fn pictures_do_not_mix_dimensions() {
     let mut strip = Recorder::new().contact(1).start(&simulation).unwrap();
     simulation.run(3, |state| strip.record(state)).unwrap();
     assert!(matches!(plot::contact_plan("T", &strip, 0.0), Err(Error::Scene { .. })));
-    let mixed = [("body", &body), ("strip", &strip)];
+    let bodies = [("body", &body), ("strip", &strip)];
     assert!(matches!(
-        plot::time_series("T", &mixed, Quantity::BaseShear),
+        plot::time_series("T", &bodies, Quantity::BaseShear),
         Err(Error::Scene { .. })
     ));
-    assert!(plot::time_series("T", &mixed, Quantity::MeanSlip).is_ok());
+    assert!(plot::time_series("T", &bodies, Quantity::MeanSlip).is_ok());
     // Series of results in space are empty in the plane.
     assert!(strip.series(Quantity::Torque).is_empty() && !strip.in_plan());
 }

@@ -51,11 +51,12 @@ fn rotation_path(steps_per_leg: usize) -> RotationPath {
         let targets =
             (0..2 * CYCLES_PER_PACKET).map(|k| if k % 2 == 0 { amplitude } else { -amplitude });
         for target in targets.chain([0.0]) {
-            let begin = rotations[rotations.len() - 1];
-            let legs = if begin == 0.0 || target == 0.0 { 1 } else { 2 };
+            let leg_start = rotations[rotations.len() - 1];
+            let legs = if leg_start == 0.0 || target == 0.0 { 1 } else { 2 };
             let count = legs * steps_per_leg;
-            rotations
-                .extend((1..=count).map(|k| begin + (target - begin) * k as f64 / count as f64));
+            rotations.extend(
+                (1..=count).map(|k| leg_start + (target - leg_start) * k as f64 / count as f64),
+            );
         }
         ends.push(rotations.len() - 1);
     }
@@ -80,16 +81,16 @@ fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> BaseState) -> P
     let RotationPath { rotations, ends } = rotation_path(steps_per_leg);
     let mut row = PacketRow { moments: [0.0; 5], settlements: [0.0; 5] };
     let static_settlement = turn(0, 0.0).settlement;
-    let mut begin = 1;
+    let mut first_step = 1;
     for (packet, end) in ends.into_iter().enumerate() {
         let mut range = [0.0_f64; 2];
-        for step in begin..=end {
+        for step in first_step..=end {
             let BaseState { moment, settlement } = turn(step, rotations[step]);
             range = [range[0].min(moment), range[1].max(moment)];
             row.settlements[packet] = (settlement - static_settlement) / FOOTING_BASE.length;
         }
         row.moments[packet] = (range[1] - range[0]) / (FOOTING_BASE.weight * FOOTING_BASE.length);
-        begin = end + 1;
+        first_step = end + 1;
     }
     row
 }
@@ -128,8 +129,8 @@ impl Structure for TurnedFooting {
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         let step = nearest_integer(time);
-        let last = self.rotations.len() - 1;
-        load[4] += DRIVE_STIFFNESS * self.rotations[step.min(last)];
+        let last_index = self.rotations.len() - 1;
+        load[4] += DRIVE_STIFFNESS * self.rotations[step.min(last_index)];
         Ok(())
     }
 }
@@ -175,20 +176,23 @@ fn simulated_row(
     let rotations = rotation_path(steps_per_leg).rotations;
     let mut simulation = scene(cells, law, friction, rotations).unwrap().build().unwrap();
     let elements = simulation.ground().elements().to_vec();
-    let mut dissipated = 0.0;
+    let mut dissipated_energy = 0.0;
     let computed = row(steps_per_leg, |step, _| {
         if step > 0 {
             let energy = simulation.step().unwrap().energy_balance;
             assert!(energy.residual() < 1e-9, "{energy}");
-            assert!(energy.contact >= dissipated - 1e-12 * energy.largest, "{step}: {energy}");
-            dissipated = energy.contact;
+            assert!(
+                energy.contact >= dissipated_energy - 1e-12 * energy.largest,
+                "{step}: {energy}"
+            );
+            dissipated_energy = energy.contact;
         }
         let state = simulation.state();
         let moments = state.contact.iter().zip(&elements);
         let moment: f64 = moments.map(|(c, e)| c.pressure * e.area() * e.center()[0]).sum();
         BaseState { moment, settlement: -state.displacement()[2] }
     });
-    assert!(dissipated > 0.0);
+    assert!(dissipated_energy > 0.0);
     computed
 }
 
@@ -252,12 +256,12 @@ fn a_footing_settles_as_strips_on_loves_half_space() {
 #[test]
 fn rocking_converges_with_the_cells() {
     let [_, law] = prototype_laws();
-    let fine = simulated_row([32, 1], law, 0.5, 10);
-    print_row("32", &fine);
+    let fine_row = simulated_row([32, 1], law, 0.5, 10);
+    print_row("32", &fine_row);
     for columns in [8, 16] {
-        let coarse = simulated_row([columns, 1], law, 0.5, 10);
-        print_row(&columns.to_string(), &coarse);
-        let RowDifferences { moment, settlement } = differences(&coarse, &fine);
+        let coarse_row = simulated_row([columns, 1], law, 0.5, 10);
+        print_row(&columns.to_string(), &coarse_row);
+        let RowDifferences { moment, settlement } = differences(&coarse_row, &fine_row);
         println!("{moment:.4} {settlement:.4}");
         assert!(moment < 0.03 && settlement < 0.1, "{columns}");
     }

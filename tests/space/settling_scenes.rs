@@ -185,8 +185,8 @@ impl SettlingTotals {
             self.unstable_scenes += 1;
             return;
         };
-        let mut dissipated = 0.0;
-        let mut saved = None;
+        let mut dissipated_energy = 0.0;
+        let mut checkpoint = None;
         let law = scene.parameters();
         let mut starts = settling_states(&simulation);
         for step in 1..=STEP_COUNT {
@@ -194,9 +194,9 @@ impl SettlingTotals {
                 simulation.step().unwrap_or_else(|error| panic!("{number}: {error} {scene:?}"));
             let energy = &state.energy_balance;
             assert!(energy.residual() < 1e-9, "{number}, {step}: {energy} {scene:?}");
-            let change = (energy.contact - dissipated) / energy.largest;
+            let change = (energy.contact - dissipated_energy) / energy.largest;
             assert!(change >= -1e-10, "{number}, {step}: {change:e} {scene:?}");
-            dissipated = energy.contact;
+            dissipated_energy = energy.contact;
             self.min_dissipation = self.min_dissipation.min(change);
             self.max_residual = self.max_residual.max(energy.residual());
             self.steps += 1;
@@ -215,15 +215,19 @@ impl SettlingTotals {
             }
             starts = settling_states(&simulation);
             if step == SAVED_STEP {
-                saved = Some(simulation.checkpoint().unwrap());
+                checkpoint = Some(simulation.checkpoint().unwrap());
             }
         }
-        let mut resumed = scene.simulation().unwrap();
-        resumed.resume(&saved.unwrap()).unwrap();
+        let mut resumed_simulation = scene.simulation().unwrap();
+        resumed_simulation.resume(&checkpoint.unwrap()).unwrap();
         for _ in SAVED_STEP..STEP_COUNT {
-            resumed.step().unwrap();
+            resumed_simulation.step().unwrap();
         }
-        assert_eq!(words_of(resumed.state()), words_of(simulation.state()), "{number}: {scene:?}");
+        assert_eq!(
+            words_of(resumed_simulation.state()),
+            words_of(simulation.state()),
+            "{number}: {scene:?}"
+        );
     }
 }
 
@@ -257,7 +261,7 @@ fn difference_of_runs(scene: &SettlingScene, laws: [Box<dyn InterfaceLaw>; 2]) -
     (differences[0] / scales[0]).max(differences[1] / scales[1])
 }
 
-/// With vanishing settlements and full memory the law is that of a rigid memory.
+/// In the limit of vanishing settlements the law is `Yielding`.
 #[test]
 fn the_limit_without_settlements_is_yielding() {
     for is_in_space in [false, true] {
@@ -279,7 +283,8 @@ fn the_limit_without_settlements_is_yielding() {
             let yielding = Yielding::new(3.0 * scene.mean_pressure(), 0.6).unwrap();
             let laws: [Box<dyn InterfaceLaw>; 2] = [Box::new(scene.law()), Box::new(yielding)];
             assert_eq!(difference_of_runs(&scene, laws), 0.0, "{scene:?}");
-            // Without weight before the run: so small a settlement is rounding of a half-space's.
+            // The weight acts from t = 0: so small a reference settlement is below the rounding of the settlement of a
+            // half-space.
             let scene = SettlingScene { gravity_stage: GravityStage::Unloaded, ..scene };
             let sharp = SettlingScene { reference_settlement: 1e-12, ..scene };
             let laws: [Box<dyn InterfaceLaw>; 2] = [Box::new(sharp.law()), Box::new(yielding)];
@@ -316,15 +321,15 @@ fn space_and_plane_are_the_same_on_springs() {
     let bed = SpringGround::in_plan(plan, [stiffness[0], stiffness[1], stiffness[1]]).unwrap();
     let bed = bed.with_dashpots(dashpots[0], dashpots[1]).unwrap();
     let mut space = builder().structure(body).ground(bed).build().unwrap();
-    let mut largest = 0.0_f64;
+    let mut max_value = 0.0_f64;
     for step in 0..400 {
-        let [one, other] = [plane.step().unwrap(), space.step().unwrap()];
-        for (e, contact) in one.contact.iter().enumerate() {
+        let [plane_state, space_state] = [plane.step().unwrap(), space.step().unwrap()];
+        for (e, contact) in plane_state.contact.iter().enumerate() {
             for row in [0, CELL_COUNT] {
-                let in_plan = &other.contact[row + e];
-                largest = largest.max(contact.pressure);
+                let in_plan = &space_state.contact[row + e];
+                max_value = max_value.max(contact.pressure);
                 let difference = (contact.pressure - in_plan.pressure).abs();
-                assert!(difference < 1e-6 * largest, "{step}, {e}: {contact:?} {in_plan:?}");
+                assert!(difference < 1e-6 * max_value, "{step}, {e}: {contact:?} {in_plan:?}");
                 assert!((contact.gap - in_plan.gap).abs() < 1e-9, "{step}, {e}");
             }
         }

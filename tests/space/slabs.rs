@@ -66,11 +66,11 @@ impl Slab {
         for row in &self.horizontal_motions(node) {
             matrix.add_outer(row, mass);
         }
-        let first = self.dof(node);
-        matrix.add(first, first, mass);
+        let first_dof = self.dof(node);
+        matrix.add(first_dof, first_dof, mass);
         let pitch = self.pitch();
         let small_inertia = mass * 1e-2 * pitch * pitch;
-        for rotation in [first + 1, first + 2] {
+        for rotation in [first_dof + 1, first_dof + 2] {
             matrix.add(rotation, rotation, small_inertia);
         }
     }
@@ -161,11 +161,12 @@ fn too_few_cells_under_a_slab_are_an_error_or_a_warning() {
         let settlement = u[slab.dof([12, 0])] - u[slab.dof([12, 12])];
         assert!((settlement / 2.7466e-3 - 1.0).abs() < tolerance, "{cells}: {settlement}");
         let warnings = simulation.run(1, |_| {}).unwrap().warnings;
-        let found = warnings.iter().find_map(|warning| match warning {
+        let counts_in_warning = warnings.iter().find_map(|warning| match warning {
             Warning::CoarseBase { elements, needed, .. } => Some([*elements, *needed]),
             _ => None,
         });
-        let has_warning = found.is_some_and(|[elements, needed]| elements == cells && needed <= 14);
+        let has_warning =
+            counts_in_warning.is_some_and(|[elements, needed]| elements == cells && needed <= 14);
         assert_eq!(has_warning, cells < 12, "{cells}: {warnings:?}");
     }
 }
@@ -180,13 +181,13 @@ fn a_slab_gets_as_many_cells_as_faces() {
         assert_eq!(ground.elements().len(), cells * cells);
     }
     assert!(Plan::under(&model, 1).is_err());
-    let rigid = RigidBody::cuboid([12.0, 12.0, 1.0], 2400.0).unwrap();
-    assert_eq!(Plan::under(&rigid, 4).unwrap().count(), 16);
+    let rigid_body = RigidBody::cuboid([12.0, 12.0, 1.0], 2400.0).unwrap();
+    assert_eq!(Plan::under(&rigid_body, 4).unwrap().count(), 16);
     assert_eq!(model.base().nodes().count(), 400);
     // A mesh that is much finer than cells can be: `build` checks whether there are enough.
-    let fine = Slab { count: 50, ..slab }.model().unwrap();
-    assert_eq!(Plan::under(&fine, 12).unwrap().count(), 31 * 31);
-    assert_eq!(Plan::under(&fine, 40).unwrap().count(), 40 * 40);
+    let fine_model = Slab { count: 50, ..slab }.model().unwrap();
+    assert_eq!(Plan::under(&fine_model, 12).unwrap().count(), 31 * 31);
+    assert_eq!(Plan::under(&fine_model, 40).unwrap().count(), 40 * 40);
 }
 
 /// A soft plate under its weight sinks as the soil under a uniform pressure q does: 1.1222 q B (1 − ν)/(2G) in the

@@ -46,17 +46,17 @@ fn build_pushed(scene: SimulationBuilder, stage: GravityStage) -> Simulation {
 /// Numbers of open, sliding and yielding elements, over all steps.
 #[derive(Debug, Default)]
 struct ModeCounts {
-    open: usize,
+    open_count: usize,
     slip: usize,
-    yielding: usize,
+    yielding_count: usize,
 }
 
 impl ModeCounts {
     fn add(&mut self, state: &State) {
         for mode in &state.modes {
-            self.open += usize::from(*mode == Mode::Open);
+            self.open_count += usize::from(*mode == Mode::Open);
             self.slip += usize::from(mode.is_slip());
-            self.yielding += usize::from(mode.to_string().contains("yield"));
+            self.yielding_count += usize::from(mode.to_string().contains("yield"));
         }
     }
 }
@@ -78,7 +78,7 @@ fn a_slice_lifts_and_slides_as_the_block_of_the_plane() {
         ("thin layer", &|| thin_layer(0.4)),
     ];
     for (name, law) in laws {
-        // A base without friction has nothing against the load at t = 0.
+        // A base without friction does not resist the load at t = 0.
         let stage = match name {
             "frictionless" => GravityStage::Unloaded,
             _ => GravityStage::Frictionless,
@@ -104,9 +104,9 @@ fn a_slice_lifts_and_slides_as_the_block_of_the_plane() {
             counts.add(computed);
         }
         println!("{name}: {counts:?}, {max_errors:?} of {max_values:?}");
-        assert!(counts.open > 0 || name == "frictionless", "{name} opens");
+        assert!(counts.open_count > 0 || name == "frictionless", "{name} opens");
         assert!(counts.slip > 0 || name == "uplift only", "{name} slides");
-        assert!((counts.yielding > 0) == (name == "yielding"), "{name} yields");
+        assert!((counts.yielding_count > 0) == (name == "yielding"), "{name} yields");
         for (error, value) in max_errors.iter().zip(max_values) {
             assert!(*error <= 1e-7 * value.max(1e-6), "{name}: {max_errors:?} of {max_values:?}");
         }
@@ -195,7 +195,7 @@ fn unlimited_strength_is_a_strength_never_reached() {
     }
 }
 
-/// A motion may begin with numbers that are not normal, as the beginning of a Ricker pulse does.
+/// A motion may begin with subnormal numbers, as a Ricker pulse does.
 #[test]
 fn bonds_hold_under_motions_that_underflow() {
     let soil = Soil::new(1e8, 0.3, 2000.0).unwrap();
@@ -227,15 +227,15 @@ fn a_run_that_slides_resumes_to_the_last_bit() {
             Box::new(Cohesive::new(2e4, 3e4, 0.4).unwrap())
         }];
     for law in laws {
-        let mut whole = scene(law(), 4e-3, 2.0).unwrap();
-        let run = whole.run(450, |_| {}).unwrap();
+        let mut uninterrupted_simulation = scene(law(), 4e-3, 2.0).unwrap();
+        let run = uninterrupted_simulation.run(450, |_| {}).unwrap();
         assert!(run.energy_error < 1e-9 && run.whole.largest_slip.magnitude() > 1e-3);
-        let saved = whole.checkpoint().unwrap();
-        whole.run(200, |_| {}).unwrap();
-        let mut resumed = scene(law(), 4e-3, 2.0).unwrap();
-        resumed.resume(&saved).unwrap();
-        resumed.run(200, |_| {}).unwrap();
-        assert_eq!(resumed.state(), whole.state());
+        let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
+        uninterrupted_simulation.run(200, |_| {}).unwrap();
+        let mut resumed_simulation = scene(law(), 4e-3, 2.0).unwrap();
+        resumed_simulation.resume(&checkpoint).unwrap();
+        resumed_simulation.run(200, |_| {}).unwrap();
+        assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
     }
 }
 
@@ -290,7 +290,7 @@ impl PlaneLaw for PlaneOnlyLaw {
 
 /// A law of the plane alone, and one whose open elements transmit pressure.
 #[test]
-fn laws_without_limits_in_space_are_refused_by_name() {
+fn laws_without_limits_in_space_are_named_in_their_error() {
     let error = scene(InPlane(PlaneOnlyLaw), 4e-3, 1.0).unwrap_err();
     assert!(matches!(error, Error::Scene { quantity: "PlaneOnlyLaw", .. }), "{error}");
     let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
@@ -318,8 +318,8 @@ fn build_with_load(weights: f64) -> Result<Simulation> {
 }
 
 /// The stability error of a scene.
-fn stability_error(built: Result<Simulation>) -> StabilityError {
-    let Error::Stability(cause) = built.unwrap_err() else {
+fn stability_error(result: Result<Simulation>) -> StabilityError {
+    let Error::Stability(cause) = result.unwrap_err() else {
         panic!("another error")
     };
     *cause
@@ -352,13 +352,13 @@ fn loads_at_the_start_are_carried_by_friction() {
 #[test]
 fn moments_overturn_about_either_axis() {
     for (dof, sign) in [(3, 1.0), (3, -1.0), (4, 1.0)] {
-        let built = Simulation::builder(4e-3)
+        let result = Simulation::builder(4e-3)
             .structure(body())
             .ground(cells())
             .interface(Coulomb::new(0.5).unwrap())
             .load(Load::new(dof, move |_| 3.6 * sign * BODY_WEIGHT))
             .build();
-        let cause = stability_error(built);
+        let cause = stability_error(result);
         let StabilityError::Overturning { ratio, .. } = cause else {
             panic!("{cause}")
         };

@@ -69,17 +69,24 @@ fn springs_add_up_to_winklers_stiffness() {
     let about_x = rocking_stiffness(z, b, l, 6.0);
     let about_y = rocking_stiffness(z, l, b, 8.0);
     let stiffness = [x * l * b, y * l * b, z * l * b, about_x, about_y, torsion];
-    let unloaded = static_displacement(bed(6).unwrap(), [0.0; 6]);
-    let settlement_ratio = unloaded[2] * stiffness[2] / (SMALL_GRAVITY * ECCENTRIC_CUBOID.mass());
+    let unloaded_displacement = static_displacement(bed(6).unwrap(), [0.0; 6]);
+    let settlement_ratio =
+        unloaded_displacement[2] * stiffness[2] / (SMALL_GRAVITY * ECCENTRIC_CUBOID.mass());
     assert!((settlement_ratio + 1.0).abs() < 1e-9, "{settlement_ratio}");
     for (dof, stiffness) in stiffness.into_iter().enumerate() {
         let mut forces = [0.0; 6];
         forces[dof] = UNIT_LOAD;
-        let loaded = static_displacement(bed(6).unwrap(), forces);
-        for (other, (loaded, unloaded)) in loaded.into_iter().zip(unloaded).enumerate() {
+        let loaded_displacement = static_displacement(bed(6).unwrap(), forces);
+        for (other, (loaded_displacement, unloaded_displacement)) in
+            loaded_displacement.into_iter().zip(unloaded_displacement).enumerate()
+        {
             let expected = if other == dof { UNIT_LOAD / stiffness } else { 0.0 };
-            let error = (loaded - unloaded - expected).abs() * stiffness / UNIT_LOAD;
-            assert!(error < 1e-10, "{dof} {other}: {loaded} {unloaded} {expected}");
+            let error = (loaded_displacement - unloaded_displacement - expected).abs() * stiffness
+                / UNIT_LOAD;
+            assert!(
+                error < 1e-10,
+                "{dof} {other}: {loaded_displacement} {unloaded_displacement} {expected}"
+            );
         }
     }
 }
@@ -115,12 +122,17 @@ fn a_cuboid_on_springs_follows_its_equations_of_motion() {
     let pulses = CrossingPulses { quarter_turns: 0 };
     let expected =
         ECCENTRIC_CUBOID.march(&cells, SPRING_PROPERTIES, &pulses, duration / 1600.0, 1600);
-    let coarse = displacement_after(duration, 200);
-    let fine = displacement_after(duration, 400);
+    let coarse_displacement = displacement_after(duration, 200);
+    let fine_displacement = displacement_after(duration, 400);
     let size = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
-    for ((coarse, fine), expected) in coarse.into_iter().zip(fine).zip(expected) {
-        let extrapolated = (4.0 * fine - coarse) / 3.0;
-        assert!((extrapolated - expected).abs() < 2e-6 * size, "{extrapolated} {expected}");
+    for ((coarse_displacement, fine_displacement), expected) in
+        coarse_displacement.into_iter().zip(fine_displacement).zip(expected)
+    {
+        let extrapolated_displacement = (4.0 * fine_displacement - coarse_displacement) / 3.0;
+        assert!(
+            (extrapolated_displacement - expected).abs() < 2e-6 * size,
+            "{extrapolated_displacement} {expected}"
+        );
     }
 }
 

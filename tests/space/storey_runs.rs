@@ -136,15 +136,15 @@ fn turned_scene(quarter_turns: usize) -> Simulation {
 /// directions included.
 #[test]
 fn a_turned_building_turns_its_displacements() {
-    let straight = turned_scene(0);
-    assert!(straight.state().energy_balance.hysteresis > 0.0);
-    let u = straight.state().displacement();
+    let unturned_simulation = turned_scene(0);
+    assert!(unturned_simulation.state().energy_balance.hysteresis > 0.0);
+    let u = unturned_simulation.state().displacement();
     assert!(u.iter().all(|u| u.abs() > 1e-8), "{u:?}");
     for quarter_turns in 1..4 {
         let mut expected = u.to_vec();
-        for first in [0, 3, 6, 9, 12] {
-            let vector = turned([u[first], u[first + 1]], quarter_turns);
-            expected[first..first + 2].copy_from_slice(&vector);
+        for first_dof in [0, 3, 6, 9, 12] {
+            let vector = turned([u[first_dof], u[first_dof + 1]], quarter_turns);
+            expected[first_dof..first_dof + 2].copy_from_slice(&vector);
         }
         let simulation = turned_scene(quarter_turns);
         for (computed, expected) in simulation.state().displacement().iter().zip(&expected) {

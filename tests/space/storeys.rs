@@ -55,7 +55,7 @@ fn an_eccentric_storey_couples_sway_and_twist() {
         let storey = PlanStorey { mass_center, stiffness_center, ..storey };
         let mat = RigidBody::cuboid([FLOOR_LENGTH, FLOOR_WIDTH, 1.0], 2500.0).unwrap();
         let building = StoreyBuilding::new(mat, &[storey]).unwrap();
-        let damped = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(building).unwrap();
+        let damped_structure = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(building).unwrap();
         let sway = stiffness[across] / mass;
         let twist = (stiffness[2] + stiffness[across] * eccentricity.powi(2)) / polar_inertia;
         let coupling = stiffness[across] * eccentricity;
@@ -65,8 +65,8 @@ fn an_eccentric_storey_couples_sway_and_twist() {
         let mut expected = [middle - root, middle + root, stiffness[1 - across] / mass]
             .map(|square: f64| square.sqrt() / TAU);
         expected.sort_by(f64::total_cmp);
-        assert_eq!(damped.frequencies().len(), 3, "{:?}", damped.frequencies());
-        for (computed, expected) in damped.frequencies().iter().zip(expected) {
+        assert_eq!(damped_structure.frequencies().len(), 3, "{:?}", damped_structure.frequencies());
+        for (computed, expected) in damped_structure.frequencies().iter().zip(expected) {
             assert!((computed / expected - 1.0).abs() < 1e-5, "{computed} {expected}");
         }
     }
@@ -274,11 +274,11 @@ fn level_motion(u: &[f64], level: usize) -> [f64; 3] {
 /// The weight of point masses that have a floor's mass and polar inertia, lowered by the sway below them.
 #[test]
 fn weights_sink_with_the_sway_of_all_storeys_below() {
-    let with = stiffness_matrix(&building(0));
-    let without = stiffness_matrix(&building(0).with_p_delta(0.0).unwrap());
-    let u: Vec<f64> = (0..with.len()).map(|k| (1.7 * k as f64).sin()).collect();
-    let with = form(&u, &with, &u);
-    let without = form(&u, &without, &u);
+    let stiffness_with_p_delta = stiffness_matrix(&building(0));
+    let stiffness_without_p_delta = stiffness_matrix(&building(0).with_p_delta(0.0).unwrap());
+    let u: Vec<f64> = (0..stiffness_with_p_delta.len()).map(|k| (1.7 * k as f64).sin()).collect();
+    let stiffness_with_p_delta = form(&u, &stiffness_with_p_delta, &u);
+    let stiffness_without_p_delta = form(&u, &stiffness_without_p_delta, &u);
     let radius = ((MAT_SIDES[0].powi(2) + MAT_SIDES[1].powi(2)) / 12.0).sqrt();
     let mut expected = 0.0;
     for floor in 0..3 {
@@ -287,16 +287,20 @@ fn weights_sink_with_the_sway_of_all_storeys_below() {
             let x = 0.6 + dx;
             let y = -0.4 * floor as f64 + dy;
             for storey in 0..=floor {
-                let below = level_motion(&u, storey);
-                let above = level_motion(&u, storey + 1);
-                let drift: [f64; 3] = std::array::from_fn(|k| above[k] - below[k]);
+                let motion_below = level_motion(&u, storey);
+                let motion_above = level_motion(&u, storey + 1);
+                let drift: [f64; 3] = std::array::from_fn(|k| motion_above[k] - motion_below[k]);
                 let square = (drift[0] - y * drift[2]).powi(2) + (drift[1] + x * drift[2]).powi(2);
                 expected -= P_DELTA_GRAVITY * 0.25 * mass * square / STOREY_HEIGHTS[storey];
             }
         }
     }
-    assert!((with - without - expected).abs() < 1e-9 * without, "{with} {without} {expected}");
-    assert!(expected.abs() > 1e-4 * without);
+    assert!(
+        (stiffness_with_p_delta - stiffness_without_p_delta - expected).abs()
+            < 1e-9 * stiffness_without_p_delta,
+        "{stiffness_with_p_delta} {stiffness_without_p_delta} {expected}"
+    );
+    assert!(expected.abs() > 1e-4 * stiffness_without_p_delta);
 }
 
 /// The building's cells.

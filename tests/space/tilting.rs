@@ -34,14 +34,14 @@ fn cylinder_on_concrete(modulus: f64, p_delta_gravity: f64) -> Simulation {
 #[test]
 fn a_slender_body_with_p_delta_is_placed_upright() {
     for modulus in [1e9, 4e9, 12.5e9] {
-        let without = cylinder_on_concrete(modulus, 0.0);
-        let with = cylinder_on_concrete(modulus, STANDARD_GRAVITY);
-        let weight = without.state().normal_force;
-        for (a, b) in without.state().contact.iter().zip(&with.state().contact) {
+        let without_p_delta = cylinder_on_concrete(modulus, 0.0);
+        let with_p_delta = cylinder_on_concrete(modulus, STANDARD_GRAVITY);
+        let weight = without_p_delta.state().normal_force;
+        for (a, b) in without_p_delta.state().contact.iter().zip(&with_p_delta.state().contact) {
             assert!((a.pressure - b.pressure).abs() < 1e-7 * weight, "{a:?} {b:?}");
             assert!((a.gap - b.gap).abs() < 1e-9, "{a:?} {b:?}");
         }
-        let rotations = &with.static_displacement()[3..5];
+        let rotations = &with_p_delta.static_displacement()[3..5];
         assert!(rotations.iter().all(|angle| angle.abs() < 1e-9), "{rotations:?}");
     }
 }
@@ -63,7 +63,8 @@ fn run_pushed_over(axis: usize, cells: usize) -> Run {
     simulation.run(100, |_| {}).unwrap()
 }
 
-/// A tall block that is pushed over, along x or along y, stands on its last row of 8, at 6.79/7 cells from the middle.
+/// A tall block that is pushed over, along x or along y, stands on its last row of 8 cells, 3.5 cells from the middle
+/// of a base of 7.79 cells.
 #[test]
 fn blocks_stand_on_their_outermost_cells() {
     let safeties = [Quantity::OverturningSafety, Quantity::OverturningSafetyAcross];

@@ -1,4 +1,4 @@
-//! GOAL: a base whose parts touch without a connection causes a warning; parts that overlap are refused.
+//! GOAL: a base whose parts touch without a connection causes a warning; parts that overlap are errors.
 //! SCENE: rafts of shells with two nodes at each point of a joint, and with a node in the middle of a longer side; a raft of
 //! free corners by matrices.
 //! REFERENCE: points by hand; the same rafts with common nodes, or with the node tied to the ends of the side.
@@ -59,19 +59,19 @@ fn single_step(structure: impl Structure + 'static) -> Result<Run> {
 struct Tear {
     points: usize,
     /// x and y of the first point, m.
-    first: [f64; 2],
+    first_point: [f64; 2],
 }
 
 /// The tear of a base, and the text of its warning.
 fn tear_and_text(structure: impl Structure + 'static) -> Result<Option<(Tear, String)>> {
     let run = single_step(structure)?;
-    let found = run.warnings.iter().find_map(|warning| match warning {
+    let tear_and_text = run.warnings.iter().find_map(|warning| match warning {
         Warning::Mistake(Mistake::TornBase { points, x, y }) => {
-            Some((Tear { points: *points, first: [*x, *y] }, warning.to_string()))
+            Some((Tear { points: *points, first_point: [*x, *y] }, warning.to_string()))
         }
         _ => None,
     });
-    Ok(found)
+    Ok(tear_and_text)
 }
 
 fn tear(structure: impl Structure + 'static) -> Result<Option<Tear>> {
@@ -92,11 +92,11 @@ fn rafts_side_by_side_with_separate_nodes_are_torn() -> Result<()> {
     let Some((first_tear, text)) = tear_and_text(model(&[(3, 0.0), (3, 6.0)])?)? else {
         panic!("no warning")
     };
-    assert_eq!(first_tear, Tear { points: 4, first: [6.0, 0.0] });
+    assert_eq!(first_tear, Tear { points: 4, first_point: [6.0, 0.0] });
     assert!(text.contains("torn at 4 points, first at x = 6.00 m, y = 0.00 m"), "{text}");
     // A node in the middle of a longer side, and its ends twice.
     let hanging_node = tear(model(&[(1, 0.0), (2, 6.0)])?)?;
-    assert_eq!(hanging_node, Some(Tear { points: 3, first: [6.0, 0.0] }));
+    assert_eq!(hanging_node, Some(Tear { points: 3, first_point: [6.0, 0.0] }));
     // One raft, also with a thicker middle, and two a cell apart.
     let mut mesh = Mesh::in_space();
     add_raft_with_thickness(
@@ -127,14 +127,16 @@ fn a_node_on_a_side_is_tied_or_torn() -> Result<()> {
     let places =
         [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0], [9.0, 0.0], [9.0, 3.0], [9.0, 6.0]];
     let corners: [BaseNode; 7] = std::array::from_fn(|k| free_node(places[k], k));
-    let free = free_node([6.0, 3.0], 7);
-    let tied = BaseNode {
+    let free_node_on_side = free_node([6.0, 3.0], 7);
+    let tied_node = BaseNode {
         horizontal: mean_of_ends(0),
         across: mean_of_ends(1),
         vertical: mean_of_ends(2),
-        ..free.clone()
+        ..free_node_on_side.clone()
     };
-    for (middle, expected) in [(free, Some(Tear { points: 1, first: [6.0, 3.0] })), (tied, None)] {
+    for (middle, expected) in
+        [(free_node_on_side, Some(Tear { points: 1, first_point: [6.0, 3.0] })), (tied_node, None)]
+    {
         let faces = vec![
             corners[..4].to_vec(),
             // In either order of the corners.
@@ -198,7 +200,7 @@ fn faces_without_ground_are_counted() -> Result<()> {
 
 /// Rafts that overlap by 0.5 % of a side, and a raft in two layers.
 #[test]
-fn overlapping_rafts_are_refused() -> Result<()> {
+fn overlapping_rafts_are_errors() -> Result<()> {
     for (second_raft, expected_area) in [((2, 5.97), 0.09), ((1, 0.0), 9.0)] {
         let structure = model(&[(2, 0.0), second_raft])?;
         let result = SpringGround::under(&structure, 4, 5e7, 4e7).map(drop);

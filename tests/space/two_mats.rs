@@ -23,8 +23,8 @@ fn second_body_at(center: [f64; 2]) -> RigidBody {
 fn bodies_that_touch_or_overlap_are_errors() {
     // Overlapping, crossing without a corner in the other, side to side; a body beside the first is allowed.
     let beam = RigidBody::cuboid([12.0, 2.0, 1.0], BODY_DENSITY).unwrap();
-    for other in [second_body_at([2.0, 1.0]), second_body_at([6.0, 0.0]), beam] {
-        let error = first_body().with(other, 0.0).err().unwrap();
+    for second_body in [second_body_at([2.0, 1.0]), second_body_at([6.0, 0.0]), beam] {
+        let error = first_body().with(second_body, 0.0).err().unwrap();
         assert!(error.to_string().contains("touch or overlap"), "{error}");
     }
     assert!(first_body().with(second_body_at([6.0, 0.0]), 0.01).is_ok());
@@ -51,7 +51,7 @@ fn cells_error(ground: SpringCells) -> Error {
 
 #[test]
 fn cells_that_do_not_fit_two_mats_are_errors() {
-    // Row by row under both: the elements of a mat do not follow one another.
+    // Cells row by row under both mats: the elements of a mat are not consecutive.
     let lines: Vec<f64> = (-4..=11).map(f64::from).collect();
     let mut rows = SpringCells::between(&lines, &[-3.0, 0.0, 3.0], BED_PROPERTIES);
     rows.elements
@@ -59,8 +59,8 @@ fn cells_that_do_not_fit_two_mats_are_errors() {
     let error = cells_error(rows.resized());
     assert!(error.to_string().contains("apart from the others of its mat"), "{error}");
     // One element reaches from one mat to the other.
-    let wide = SpringCells::between(&[-4.0, 4.0, 7.0, 11.0], &[-3.0, 3.0], BED_PROPERTIES);
-    let error = cells_error(wide);
+    let wide_cells = SpringCells::between(&[-4.0, 4.0, 7.0, 11.0], &[-3.0, 3.0], BED_PROPERTIES);
+    let error = cells_error(wide_cells);
     assert!(error.to_string().contains("under two mats"), "{error}");
     // Nothing under the second.
     let first_only = SpringCells::between(&lines[..9], &[-3.0, 0.0, 3.0], BED_PROPERTIES);
@@ -70,6 +70,6 @@ fn cells_that_do_not_fit_two_mats_are_errors() {
     let plan = Plan::rectangle(-4.0..4.0, -3.0..3.0, 4).unwrap();
     let ground = SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap();
     let builder = Simulation::builder(0.01).structure(both_bodies(0)).ground(ground);
-    let built = builder.interface(Bonded).build();
-    assert!(matches!(built, Err(Error::Size { found: 0, .. })));
+    let result = builder.interface(Bonded).build();
+    assert!(matches!(result, Err(Error::Size { found: 0, .. })));
 }

@@ -25,8 +25,8 @@ fn unit_soil() -> Soil {
 }
 
 /// Ricker's wavelet (1 − 2u) e^−u, u = (π f (t − t₀))².
-fn ricker(frequency: f64, middle: f64, time: f64) -> f64 {
-    let u = (PI * frequency * (time - middle)).powi(2);
+fn ricker(frequency: f64, peak_time: f64, time: f64) -> f64 {
+    let u = (PI * frequency * (time - peak_time)).powi(2);
     (1.0 - 2.0 * u) * (-u).exp()
 }
 
@@ -145,10 +145,19 @@ fn a_block_that_lifts_and_slides_follows_the_table() {
             let u = state.absolute_displacement();
             let energy = &state.energy_balance;
             friction.add(&state.contact);
-            let open = open_elements(state) as f64 / friction.areas.len() as f64;
-            assert!((open - state.uplifted_fraction).abs() < 0.05);
-            let computed =
-                [-u[2], u[0], -u[1], u[3], -u[4], -u[5], open, energy.soil, friction.total];
+            let open_fraction = open_elements(state) as f64 / friction.areas.len() as f64;
+            assert!((open_fraction - state.uplifted_fraction).abs() < 0.05);
+            let computed = [
+                -u[2],
+                u[0],
+                -u[1],
+                u[3],
+                -u[4],
+                -u[5],
+                open_fraction,
+                energy.soil,
+                friction.total,
+            ];
             let expected = &remaining_rows.next().unwrap()[1..];
             for k in 0..9 {
                 error_squares[k] += (computed[k] - expected[k]).powi(2);
@@ -195,9 +204,9 @@ fn motions_along_both_diagonals_are_symmetric() {
     let size = peak(&along_x, 0);
     assert!(peak(&along_x, 4) > 0.1 * size, "it rocks");
     for (u, v) in first_diagonal.iter().zip(&second_diagonal) {
-        let turned = [-u[1], u[0], u[2], -u[4], u[3], u[5]];
-        for (a, b) in turned.iter().zip(v) {
-            assert!((a - b).abs() < 1e-10 * size, "{turned:?} {v:?}");
+        let turned_displacement = [-u[1], u[0], u[2], -u[4], u[3], u[5]];
+        for (a, b) in turned_displacement.iter().zip(v) {
+            assert!((a - b).abs() < 1e-10 * size, "{turned_displacement:?} {v:?}");
         }
         // The diagonal is an axis of symmetry.
         assert!((u[0] - u[1]).abs() < 1e-10 * size && (u[3] + u[4]).abs() < 1e-10 * size);
@@ -229,10 +238,10 @@ impl FreeField for EndlessSines {
 }
 
 /// A run of 120 steps in which waves cross `crossed` cells in a step.
-fn run_of_hard_steps(crossed: f64, mass: f64, friction: f64, kernels: &SharedKernels) -> Run {
+fn run_of_hard_steps(crossed_cells: f64, mass: f64, friction: f64, kernels: &SharedKernels) -> Run {
     let body = slender_block(mass / 16.0);
     let ground = ElasticGround::under(unit_soil(), &body, 8).unwrap();
-    let mut simulation = Simulation::builder(crossed * 2.0 / (8.0 - 0.21))
+    let mut simulation = Simulation::builder(crossed_cells * 2.0 / (8.0 - 0.21))
         .structure(body)
         .ground(ground.with_stages(Stages::Two).with_shared_kernels(kernels))
         .interface(Coulomb::new(friction).unwrap())
@@ -243,7 +252,7 @@ fn run_of_hard_steps(crossed: f64, mass: f64, friction: f64, kernels: &SharedKer
         .unwrap();
     let run = simulation.run(120, |_| {}).unwrap();
     println!(
-        "{crossed} {mass} {friction}: {:.1} iterations, {:?}, energy {:.1e}, open {:.2}, slip {:.1e}",
+        "{crossed_cells} {mass} {friction}: {:.1} iterations, {:?}, energy {:.1e}, open {:.2}, slip {:.1e}",
         run.trials as f64 / 120.0,
         run.fallbacks,
         run.energy_error,
@@ -263,14 +272,14 @@ fn hard_steps_are_solved() {
     let mut finite_trials = 0;
     let mut finite_steps = 0;
     let mut infinite_trials = 0;
-    for crossed in [0.4, 1.9, 7.8] {
+    for crossed_cells in [0.4, 1.9, 7.8] {
         for mass in [16.0, 1.0, 0.2] {
             for friction in [0.3, 1.0, 3.0] {
-                let run = run_of_hard_steps(crossed, mass, friction, &kernels);
+                let run = run_of_hard_steps(crossed_cells, mass, friction, &kernels);
                 finite_trials += run.trials;
                 finite_steps += run.steps;
             }
-            let run = run_of_hard_steps(crossed, mass, f64::INFINITY, &kernels);
+            let run = run_of_hard_steps(crossed_cells, mass, f64::INFINITY, &kernels);
             infinite_trials += run.trials;
         }
     }
@@ -282,17 +291,17 @@ fn hard_steps_are_solved() {
 /// Many cells, for which W is stored in blocks: saved where elements lift and slide, and resumed in another simulation.
 #[test]
 fn many_cells_resume_to_the_last_bit() {
-    let mut whole = block_scene(12, EndlessSines);
-    whole.run(15, |_| {}).unwrap();
-    let saved = whole.checkpoint().unwrap();
+    let mut uninterrupted_simulation = block_scene(12, EndlessSines);
+    uninterrupted_simulation.run(15, |_| {}).unwrap();
+    let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
     let mut states = Vec::new();
-    let run = whole.run(15, |state| states.push(state.clone())).unwrap();
-    let mut resumed = block_scene(12, EndlessSines);
-    resumed.resume(&saved).unwrap();
+    let run = uninterrupted_simulation.run(15, |state| states.push(state.clone())).unwrap();
+    let mut resumed_simulation = block_scene(12, EndlessSines);
+    resumed_simulation.resume(&checkpoint).unwrap();
     let mut open_count = 0;
     let mut slip_count = 0;
     for expected in &states {
-        assert!(resumed.step().unwrap() == expected);
+        assert!(resumed_simulation.step().unwrap() == expected);
         open_count += open_elements(expected);
         slip_count += expected.modes.iter().filter(|mode| mode.is_slip()).count();
     }
@@ -321,13 +330,13 @@ fn energies_with(history: HistoryOptions) -> EnergyBalance {
 /// A truncated history changes the soil's work by less than the bound in the energy balance.
 #[test]
 fn the_energy_balance_bounds_what_a_truncated_history_omits() {
-    let whole = energies_with(HistoryMethod::RelaxedFft.into());
+    let exact_energies = energies_with(HistoryMethod::RelaxedFft.into());
     let options = HistoryOptions { tolerance: Some(1e-4), ..HistoryOptions::default() };
-    let truncated = energies_with(options);
-    let difference = (whole.soil - truncated.soil).abs();
-    let bound = truncated.soil_error_bound;
-    println!("{difference:e} of {bound:e}, {}", whole.soil);
-    assert_eq!(whole.soil_error_bound, 0.0);
+    let truncated_energies = energies_with(options);
+    let difference = (exact_energies.soil - truncated_energies.soil).abs();
+    let bound = truncated_energies.soil_error_bound;
+    println!("{difference:e} of {bound:e}, {}", exact_energies.soil);
+    assert_eq!(exact_energies.soil_error_bound, 0.0);
     assert!(0.0 < difference && difference < bound, "{difference:e} {bound:e}");
-    assert!(bound < 0.5 * whole.soil, "{bound:e}");
+    assert!(bound < 0.5 * exact_energies.soil, "{bound:e}");
 }

@@ -77,7 +77,7 @@ fn only_warning(run: &Run) -> Warning {
     warning
 }
 
-/// Under motion along x and along y.
+/// The warning appears under motion along x and along y.
 #[test]
 fn cells_longer_than_a_twelfth_of_waves_give_a_warning() {
     for motion in [motion_along_x(el_centro_1940()), motion_along_y(el_centro_1940())] {
@@ -99,7 +99,7 @@ fn cells_longer_than_a_twelfth_of_waves_give_a_warning() {
     }
 }
 
-/// Of a mat twice as long as wide, the side with the fewer cells counts; unions of many cells do not.
+/// Of a mat twice as long as wide, the side with fewer cells determines the warning.
 #[test]
 fn rows_and_columns_of_cells_are_counted() {
     let [coarse, fine] = [2, 4].map(|cells| {
@@ -122,16 +122,17 @@ fn run_of_height(height: f64, time_step: f64) -> ShakenResult {
 /// A tower that rocks along y: steps that waves cross its base in damp it; a flat block follows the ground.
 #[test]
 fn steps_as_long_as_waves_cross_the_base_give_a_warning() {
-    let fine = run_of_height(20.0, 2.5e-3);
-    assert_eq!(fine.run.warnings, []);
-    let coarse = run_of_height(20.0, 1e-2);
-    let Warning::UnresolvedRadiation { crossing, time_step, needed } = only_warning(&coarse.run)
+    let fine_result = run_of_height(20.0, 2.5e-3);
+    assert_eq!(fine_result.run.warnings, []);
+    let coarse_result = run_of_height(20.0, 1e-2);
+    let Warning::UnresolvedRadiation { crossing, time_step, needed } =
+        only_warning(&coarse_result.run)
     else {
-        panic!("{:?}", coarse.run.warnings)
+        panic!("{:?}", coarse_result.run.warnings)
     };
     assert!((crossing - 10.0 / 400.0).abs() < 0.1 * crossing && time_step == 1e-2);
     assert!((needed - crossing / 8.0).abs() < 1e-15);
-    let ratio = coarse.max_base_shear / fine.max_base_shear;
+    let ratio = coarse_result.max_base_shear / fine_result.max_base_shear;
     assert!((ratio - 1.0).abs() > 0.05, "{ratio}");
     let flat_coarse = run_of_height(1.5, 1e-2);
     assert_eq!(flat_coarse.run.warnings, []);
@@ -143,12 +144,12 @@ fn steps_as_long_as_waves_cross_the_base_give_a_warning() {
 /// Steps that do not resolve a motion along y alone.
 #[test]
 fn unresolved_motions_along_y_give_a_warning() {
-    let slow = el_centro_1940().scaled(0.1).unwrap();
-    let fast = Record::new(0.002, slow.accelerations().to_vec()).unwrap();
+    let slow_record = el_centro_1940().scaled(0.1).unwrap();
+    let fast_record = Record::new(0.002, slow_record.accelerations().to_vec()).unwrap();
     let body = ShakenBody {
         sides: [20.0, 20.0, 4.0],
         soil_speed: 2000.0,
-        motion: motion_along_y(fast),
+        motion: motion_along_y(fast_record),
         cells: 4,
         time_step: 2e-2,
     };
@@ -251,8 +252,8 @@ fn substituted_friction(friction: f64) -> Option<String> {
     let run = simulation.run(600, |_| {}).unwrap();
     println!("{:?}", run.warnings);
     let mut warnings = run.warnings.iter();
-    let found = warnings.find(|warning| matches!(warning, Warning::LessFriction { .. }));
-    found.map(ToString::to_string)
+    let warning = warnings.find(|warning| matches!(warning, Warning::LessFriction { .. }));
+    warning.map(ToString::to_string)
 }
 
 /// Beside a bond, infinite friction is replaced by a finite one where it slides, with a warning.

@@ -60,25 +60,25 @@ fn eccentric_bases_have_winklers_pressures() {
         let expected_pressure = if row[8].is_nan() { row[4] } else { row[8] };
         let expected_slopes = [row[6], row[7]];
         let cells = if sides[1] < sides[0] { 8 } else { 12 };
-        let coarse = stand(sides, load_point, cells);
-        let fine = stand(sides, load_point, 2 * cells);
-        let pressure = extrapolated(coarse.max_pressure, fine.max_pressure);
+        let coarse_base = stand(sides, load_point, cells);
+        let fine_base = stand(sides, load_point, 2 * cells);
+        let pressure = extrapolated(coarse_base.max_pressure, fine_base.max_pressure);
         let pressure_error = pressure / expected_pressure - 1.0;
         let difference: [f64; 2] = std::array::from_fn(|axis| {
-            extrapolated(coarse.pressure_slopes[axis], fine.pressure_slopes[axis])
+            extrapolated(coarse_base.pressure_slopes[axis], fine_base.pressure_slopes[axis])
                 - expected_slopes[axis]
         });
         let slope_size = expected_slopes[0].hypot(expected_slopes[1]);
         let slope_error = difference[0].hypot(difference[1]) / slope_size;
         println!(
-            "{sides:?} {load_point:?}: pressure {pressure_error:.1e}, slope {slope_error:.1e}, {fine:?}"
+            "{sides:?} {load_point:?}: pressure {pressure_error:.1e}, slope {slope_error:.1e}, {fine_base:?}"
         );
         assert!(pressure_error.abs() < 1e-3 && slope_error < 1.5e-3, "{sides:?} {load_point:?}");
         // A line through corners of cells cuts as many as there are along a side.
-        let fraction_error = (fine.contact_fraction - row[5]).abs();
+        let fraction_error = (fine_base.contact_fraction - row[5]).abs();
         assert!(fraction_error < 0.51 / (2 * cells) as f64, "{sides:?} {load_point:?}");
-        let error_ratio = (coarse.max_pressure - expected_pressure).abs()
-            / (fine.max_pressure - expected_pressure).abs();
+        let error_ratio = (coarse_base.max_pressure - expected_pressure).abs()
+            / (fine_base.max_pressure - expected_pressure).abs();
         assert!((3.5..4.5).contains(&error_ratio), "{error_ratio}");
     }
 }

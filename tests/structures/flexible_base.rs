@@ -102,7 +102,7 @@ fn too_few_elements_under_a_mat_are_an_error_or_a_warning() {
     assert!((20..=22).contains(&needed) && difference.unwrap() < 0.01, "{warnings:?}");
     let StandingMat { settlement: found, warnings } = stand(0.25, graded_strip(32)).unwrap();
     assert!((found / exact - 1.0).abs() < 0.005 && warnings.is_empty(), "{found} {warnings:?}");
-    // A thick mat is stiffer than the soil between few elements.
+    // A thick mat hardly bends between few elements.
     let warnings = stand(2.0, graded_strip(8)).unwrap().warnings;
     assert!(warnings.is_empty(), "{warnings:?}");
 }
@@ -130,15 +130,15 @@ fn too_few_elements_with_a_law_for_each_are_an_error() {
     assert!(mat_with_laws(32).is_ok());
 }
 
-/// `under` takes at least an element for each segment; a rigid base takes the requested number.
+/// `under` makes at least one element for each segment of a flexible base, and the requested number under a rigid base.
 #[test]
 fn a_flexible_mat_gets_an_element_for_each_segment() {
     let model = mat(0.25, BEAM_COUNT).unwrap().model;
-    let rigid = basemat::structure::RigidBlock::new(20.0, 4.0, 2400.0).unwrap();
+    let rigid_block = basemat::structure::RigidBlock::new(20.0, 4.0, 2400.0).unwrap();
     for (requested, count) in [(8, BEAM_COUNT), (BEAM_COUNT, BEAM_COUNT), (64, 64)] {
         let flexible_ground = ElasticGround::under(soil(), &model, requested).unwrap();
         assert_eq!(flexible_ground.elements().len(), count);
-        let rigid_ground = ElasticGround::under(soil(), &rigid, requested).unwrap();
+        let rigid_ground = ElasticGround::under(soil(), &rigid_block, requested).unwrap();
         assert_eq!(rigid_ground.elements().len(), requested);
     }
     assert!(ElasticGround::under(soil(), &model, 0).is_err());

@@ -61,8 +61,10 @@ pub(super) fn traction_difference(whole: &[State], part: &[State], first: usize)
     let mut scale = 0.0_f64;
     for (whole, part) in whole.iter().zip(part) {
         for (k, contact) in part.contact.iter().enumerate() {
-            let other = &whole.contact[first + k];
-            for (a, b) in [(contact.pressure, other.pressure), (contact.shear, other.shear)] {
+            let whole_contact = &whole.contact[first + k];
+            for (a, b) in
+                [(contact.pressure, whole_contact.pressure), (contact.shear, whole_contact.shear)]
+            {
                 scale = scale.max(a.abs());
                 difference = difference.max((a - b).abs());
             }
@@ -87,7 +89,8 @@ fn structures_move_as_if_alone_until_waves_arrive() {
     let steps = 8 * before;
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), distance).unwrap();
     let strips = [strip(0.0, 4.0), strip(distance, 3.0)];
-    let both = weightless_run(base_scene().structure(group).ground(half_plane(&strips)), steps);
+    let group_states =
+        weightless_run(base_scene().structure(group).ground(half_plane(&strips)), steps);
     let first =
         weightless_run(base_scene().structure(tower()).ground(half_plane(&strips[..1])), steps);
     let block = block().centered_at(distance).unwrap();
@@ -95,10 +98,10 @@ fn structures_move_as_if_alone_until_waves_arrive() {
         weightless_run(base_scene().structure(block).ground(half_plane(&strips[1..])), steps);
     assert!(before > 20 && first[before - 1].contact[0].shear != 0.0);
     for (alone, from) in [(&first, 0), (&second, 6)] {
-        assert!(traction_difference(&both[..before], &alone[..before], from) < 1e-12);
-        // Later each responds to the other.
-        let late = traction_difference(&both, alone, from);
-        assert!(late > 1e-6, "{late}");
+        assert!(traction_difference(&group_states[..before], &alone[..before], from) < 1e-12);
+        // Later each structure responds to the other.
+        let late_difference = traction_difference(&group_states, alone, from);
+        assert!(late_difference > 1e-6, "{late_difference}");
     }
 }
 
@@ -181,18 +184,21 @@ fn nonlinear_members_act_on_their_degrees_of_freedom() {
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     let mut simulation = softening_scene(&strips);
     simulation.run(100, |_| {}).unwrap();
-    let saved = simulation.checkpoint().unwrap();
-    let then = states(simulation, 50);
-    let mut other = softening_scene(&strips);
-    other.resume(&saved).unwrap();
-    let again = states(other, 50);
-    assert_eq!(then[49].absolute_displacement(), again[49].absolute_displacement());
+    let checkpoint = simulation.checkpoint().unwrap();
+    let states_after_checkpoint = states(simulation, 50);
+    let mut other_simulation = softening_scene(&strips);
+    other_simulation.resume(&checkpoint).unwrap();
+    let resumed_states = states(other_simulation, 50);
+    assert_eq!(
+        states_after_checkpoint[49].absolute_displacement(),
+        resumed_states[49].absolute_displacement()
+    );
     // The same motion with a linear P–Δ of the second block.
-    let linear = block().with_p_delta(2.0e5 / (block().total_mass() * 3.5)).unwrap();
-    let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(linear, 5.0).unwrap();
+    let linear_block = block().with_p_delta(2.0e5 / (block().total_mass() * 3.5)).unwrap();
+    let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(linear_block, 5.0).unwrap();
     let reference = base_scene().structure(pair).ground(half_plane(&strips));
     let reference = states(reference.build().unwrap(), 150);
-    let difference = traction_difference(&reference[100..], &then, 0);
+    let difference = traction_difference(&reference[100..], &states_after_checkpoint, 0);
     assert!(difference < 1e-6, "{difference:e}");
 }
 
@@ -201,22 +207,22 @@ fn block_pair() -> StructureGroup {
 }
 
 #[test]
-fn invalid_groups_are_refused() {
+fn invalid_groups_are_errors() {
     let two = StructureGroup::new().with(block(), 0.0).unwrap();
     assert!(matches!(two.with(block(), 2.9), Err(Error::Input { .. })));
     let two = StructureGroup::new().with(block(), 0.0).unwrap();
     assert!(matches!(two.with(block(), f64::NAN), Err(Error::Input { .. })));
     // An element between the two blocks, and a foundation without elements.
     let across = [strip(0.0, 3.0), Strip::uniform(1.7..2.3, 1).unwrap(), strip(5.0, 3.0)];
-    let built = base_scene().structure(block_pair()).ground(half_plane(&across)).build();
-    assert!(matches!(built, Err(Error::Part { .. })), "{:?}", built.err());
-    let built = base_scene().structure(block_pair()).ground(half_plane(&across[..1])).build();
-    assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
-    let empty = base_scene()
+    let result = base_scene().structure(block_pair()).ground(half_plane(&across)).build();
+    assert!(matches!(result, Err(Error::Part { .. })), "{:?}", result.err());
+    let result = base_scene().structure(block_pair()).ground(half_plane(&across[..1])).build();
+    assert!(matches!(result, Err(Error::Size { .. })), "{:?}", result.err());
+    let empty_foundation = base_scene()
         .structure(StructureGroup::new())
         .ground(half_plane(&across[..1]))
         .build();
-    assert!(empty.is_err());
+    assert!(empty_foundation.is_err());
 }
 
 /// A block whose `mass` replaces the matrix that it should fill.
@@ -245,14 +251,15 @@ impl Structure for Replacing {
 
 /// A single structure may replace the matrix; in a group the entries of the other members would be lost.
 #[test]
-fn members_that_replace_the_matrix_of_their_group_are_refused() {
-    let alone = base_scene().structure(Replacing(block())).ground(half_plane(&[strip(0.0, 3.0)]));
-    assert!(alone.build().is_ok());
+fn members_that_replace_the_matrix_of_their_group_are_errors() {
+    let single_structure =
+        base_scene().structure(Replacing(block())).ground(half_plane(&[strip(0.0, 3.0)]));
+    assert!(single_structure.build().is_ok());
     let pair = StructureGroup::new().with(block(), 0.0).unwrap();
     let pair = pair.with(Replacing(block()), 5.0).unwrap();
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
-    let built = base_scene().structure(pair).ground(half_plane(&strips)).build();
-    assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
+    let result = base_scene().structure(pair).ground(half_plane(&strips)).build();
+    assert!(matches!(result, Err(Error::Size { .. })), "{:?}", result.err());
 }
 
 fn tower_and_block() -> StructureGroup {
@@ -261,21 +268,21 @@ fn tower_and_block() -> StructureGroup {
 
 #[test]
 fn foundations_stay_separate_in_every_wrapper() {
-    let wrapped: [Box<dyn Structure>; 3] = [
+    let wrapped_groups: [Box<dyn Structure>; 3] = [
         Box::new(WithSprings::new(tower_and_block())),
         Box::new(ModalDamping::new(&[0.05]).unwrap().on(tower_and_block()).unwrap()),
         Box::new(CraigBampton::new(2).reduce(tower_and_block()).unwrap()),
     ];
-    let plain: Box<dyn Structure> = Box::new(tower_and_block());
-    for structure in wrapped.into_iter().chain([plain]) {
+    let boxed_group: Box<dyn Structure> = Box::new(tower_and_block());
+    for structure in wrapped_groups.into_iter().chain([boxed_group]) {
         let Base::Lines(lines) = structure.base() else {
             panic!("a base in the plane")
         };
         assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
     let strips = [strip(0.0, 4.0), strip(5.0, 3.0)];
-    let wrapped = WithSprings::new(tower_and_block());
-    let simulation = base_scene().structure(wrapped).ground(half_plane(&strips));
+    let group_with_springs = WithSprings::new(tower_and_block());
+    let simulation = base_scene().structure(group_with_springs).ground(half_plane(&strips));
     assert_eq!(simulation.build().unwrap().state().foundations.len(), 2);
 }
 
@@ -301,12 +308,12 @@ impl Structure for Stilts {
 }
 
 #[test]
-fn foundations_of_one_node_are_refused() {
+fn foundations_of_one_node_are_errors() {
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(Stilts(block()), 5.0);
-    let built = base_scene().structure(pair.unwrap()).ground(half_plane(&strips)).build();
-    let Err(Error::Size { quantity, found: 1, needed: 2 }) = built else {
-        panic!("{:?}", built.err())
+    let result = base_scene().structure(pair.unwrap()).ground(half_plane(&strips)).build();
+    let Err(Error::Size { quantity, found: 1, needed: 2 }) = result else {
+        panic!("{:?}", result.err())
     };
     assert_eq!(quantity, "list of contact nodes of a foundation");
 }
@@ -330,20 +337,21 @@ fn rows_and_probes_stay_within_their_member() {
 
     // A section has displacements and velocities, whose indices are all shifted.
     let rows = tower().shear(1).unwrap();
-    let alone = Probe::section("shear", &rows);
+    let member_probe = Probe::section("shear", &rows);
     let group = StructureGroup::new().with(block(), -5.0).unwrap().with(tower(), 0.0).unwrap();
-    let moved = group.probe(1, alone.clone()).unwrap();
-    assert_eq!(moved.name, "shear");
-    for (moved, alone) in
-        [(&moved.displacement, &alone.displacement), (&moved.velocity, &alone.velocity)]
-    {
-        assert!(!alone.is_empty());
+    let group_probe = group.probe(1, member_probe.clone()).unwrap();
+    assert_eq!(group_probe.name, "shear");
+    for (group_probe, member_probe) in [
+        (&group_probe.displacement, &member_probe.displacement),
+        (&group_probe.velocity, &member_probe.velocity),
+    ] {
+        assert!(!member_probe.is_empty());
         let expected: DofCombination =
-            alone.into_iter().map(|&(index, weight)| (index + 3, weight)).collect();
-        assert_eq!(*moved, expected);
+            member_probe.into_iter().map(|&(index, weight)| (index + 3, weight)).collect();
+        assert_eq!(*group_probe, expected);
     }
-    assert!(moved.acceleration.is_empty());
-    let error = group.probe(0, alone).unwrap_err();
+    assert!(group_probe.acceleration.is_empty());
+    let error = group.probe(0, member_probe).unwrap_err();
     let source = Error::Index {
         quantity: "degree of freedom of a structure of the group",
         index: 4,

@@ -28,21 +28,24 @@ fn structures_on_springs_move_as_if_alone() {
         let first =
             base_scene().structure(tower()).ground(spring_bed(0.0, 4.0)).coordinates(coordinates);
         let first = states(first.build().unwrap(), 2000);
-        let moved = block().centered_at(4.5).unwrap();
-        let second =
-            base_scene().structure(moved).ground(spring_bed(4.5, 3.0)).coordinates(coordinates);
+        let moved_block = block().centered_at(4.5).unwrap();
+        let second = base_scene()
+            .structure(moved_block)
+            .ground(spring_bed(4.5, 3.0))
+            .coordinates(coordinates);
         let second = states(second.build().unwrap(), 2000);
         let beds = [spring_bed(0.0, 4.0), spring_bed(4.5, 3.0)];
-        let mixed = TwoBeds { beds, elements: Vec::new() };
+        let two_beds = TwoBeds { beds, elements: Vec::new() };
         let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 4.5).unwrap();
-        let both = base_scene().structure(group).ground(mixed.joined()).coordinates(coordinates);
-        let both = states(both.build().unwrap(), 2000);
+        let group_states =
+            base_scene().structure(group).ground(two_beds.joined()).coordinates(coordinates);
+        let group_states = states(group_states.build().unwrap(), 2000);
         for (alone, from, which) in [(&first, 0, 0), (&second, 6, 1)] {
-            let difference = traction_difference(&both, alone, from);
+            let difference = traction_difference(&group_states, alone, from);
             assert!(difference < 1e-7, "{coordinates:?}: {difference:e}");
-            let opened = alone.iter().any(|state| state.uplifted_fraction > 0.3);
-            assert!(opened || which == 0);
-            let foundation = &both[1999].foundations[which];
+            let lifts_off = alone.iter().any(|state| state.uplifted_fraction > 0.3);
+            assert!(lifts_off || which == 0);
+            let foundation = &group_states[1999].foundations[which];
             let expected = &alone[1999];
             let scale = expected.normal_force;
             assert!((foundation.base_shear - expected.base_shear).abs() < 1e-6 * scale);
@@ -52,7 +55,7 @@ fn structures_on_springs_move_as_if_alone() {
             assert!((foundation.mean_slip - expected.mean_slip).abs() < 1e-9);
             assert_eq!(foundation.uplifted_fraction, expected.uplifted_fraction);
         }
-        assert!(both.iter().all(|state| state.energy_balance.residual() < 1e-9));
+        assert!(group_states.iter().all(|state| state.energy_balance.residual() < 1e-9));
     }
 }
 

@@ -107,7 +107,7 @@ impl Portal {
 
         let weight = STANDARD_GRAVITY * (ROOF_MASS + 2.0 * self.footing_mass);
         assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-9);
-        let mut largest = 0.0_f64;
+        let mut max_magnitude = 0.0_f64;
         let mut error = 0.0_f64;
         simulation.run(simulation.steps_for(8.0), |state| {
             // The axial pair of the footings and their base moments balance the inertia forces.
@@ -116,10 +116,10 @@ impl Portal {
             };
             let pair = 0.5 * BEAM_SPAN * (left.normal_force - right.normal_force);
             let moment = pair + left.base_moment + right.base_moment;
-            largest = largest.max(moment.abs());
+            max_magnitude = max_magnitude.max(moment.abs());
             error = error.max((moment - state.probes[0]).abs());
         })?;
-        assert!(error < 1e-9 * largest, "moments differ by {error} of {largest}");
+        assert!(error < 1e-9 * max_magnitude, "moments differ by {error} of {max_magnitude}");
         Ok(())
     }
 }
@@ -141,10 +141,10 @@ fn fixed_base_error(area_factor: f64) -> f64 {
 
 #[test]
 fn the_frequency_on_a_fixed_base_is_the_closed_form() {
-    let stiff = fixed_base_error(1e5);
+    let stiff_error = fixed_base_error(1e5);
     let real = fixed_base_error(1.0);
     // Extensible members make the frame softer.
-    assert!(stiff.abs() < 1e-6 && (-0.01..0.0).contains(&real), "{stiff:e}, {real:e}");
+    assert!(stiff_error.abs() < 1e-6 && (-0.01..0.0).contains(&real), "{stiff_error:e}, {real:e}");
 }
 
 #[test]

@@ -40,9 +40,9 @@ fn scene(has_joint: bool) -> Result<Simulation> {
     let law = Coulomb::new(0.5)?;
     let builder = Simulation::builder(0.005).interface(law).motion(el_centro_1940());
     if !has_joint {
-        let whole = wall(12.0, 12)?;
-        let ground = ElasticGround::under(soil, &whole, BASE_ELEMENTS + JOINT_ELEMENTS)?;
-        return builder.ground(ground).structure(whole).build();
+        let whole_wall = wall(12.0, 12)?;
+        let ground = ElasticGround::under(soil, &whole_wall, BASE_ELEMENTS + JOINT_ELEMENTS)?;
+        return builder.ground(ground).structure(whole_wall).build();
     }
     let lower = wall(6.0, 6)?;
     let upper = wall(6.0, 6)?;

@@ -15,7 +15,7 @@ fn kernels(criterion: &mut Criterion) {
     let plane = HalfPlane::new(soil);
     criterion.bench_function("half-plane impulse", |b| b.iter(|| plane.impulse(black_box(1.3))));
     criterion.bench_function("half-plane step", |b| b.iter(|| plane.heaviside(black_box(1.3))));
-    // c_P Δt = half an element, twenty elements: fronts are inside until lag 120.
+    // c_P Δt = half an element, twenty elements: the slowest front, that of the Rayleigh wave, leaves at lag 86.
     let kernel = InfluenceKernel::new(soil, 0.25).expect("valid step");
     let strip = Strip::uniform(0.0..20.0, 20).expect("a valid strip").elements();
     let patch = PatchKernel::new(soil, strip.clone(), 0.25).expect("a valid patch");
@@ -30,33 +30,37 @@ fn kernels(criterion: &mut Criterion) {
             b.iter(|| patch.coefficients(class, black_box(1), &mut [&mut zz, &mut xx, &mut zx]));
         });
     }
-    let farthest = patch.classes().pairs()[19].class;
-    for first in [300, 3000, 1_000_000] {
-        group.bench_function(format!("late, lag {first}"), |b| {
+    let farthest_class = patch.classes().pairs()[19].class;
+    for first_lag in [300, 3000, 1_000_000] {
+        group.bench_function(format!("late, lag {first_lag}"), |b| {
             b.iter(|| {
-                patch.coefficients(farthest, black_box(first), &mut [&mut zz, &mut xx, &mut zx])
+                patch.coefficients(
+                    farthest_class,
+                    black_box(first_lag),
+                    &mut [&mut zz, &mut xx, &mut zx],
+                )
             });
         });
     }
     group.throughput(Throughput::Elements(1));
-    group.bench_function("one of a pair", |b| {
+    group.bench_function("weights of a pair of elements, one lag", |b| {
         b.iter(|| kernel.coefficients(strip[19], strip[0], black_box(300)));
     });
     group.finish();
-    let full = FullPlane::new(soil);
+    let full_plane = FullPlane::new(soil);
     criterion.bench_function("full-plane displacement", |b| {
-        b.iter(|| full.displacement(black_box([0.7, 0.4]), 2.0, LoadHistory::Step));
+        b.iter(|| full_plane.displacement(black_box([0.7, 0.4]), 2.0, LoadHistory::Step));
     });
     criterion.bench_function("full-plane traction", |b| {
-        b.iter(|| full.traction(black_box([0.7, 0.4]), [0.0, 1.0], 2.0, LoadHistory::Step));
+        b.iter(|| full_plane.traction(black_box([0.7, 0.4]), [0.0, 1.0], 2.0, LoadHistory::Step));
     });
 }
 
-/// All coefficients that a history of 1000 steps uses of a uniform patch.
+/// All convolution weights that a history of 1000 steps uses of a uniform patch.
 fn patches(criterion: &mut Criterion) {
     const LAG_COUNT: usize = 1_000;
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
-    let mut group = criterion.benchmark_group("coefficients of a patch, 1000 lags");
+    let mut group = criterion.benchmark_group("weights of a patch, 1000 lags");
     group.sample_size(20);
     let mut slices = [(); 3].map(|()| vec![0.0; LAG_COUNT]);
     for count in [10_u32, 40, 200] {

@@ -40,11 +40,11 @@ impl RepeatedSteps {
         let mut total = Duration::ZERO;
         for _ in 0..repetitions {
             self.simulation.resume(&self.start)?;
-            let begin = Instant::now();
+            let start_time = Instant::now();
             for _ in 0..TIMED_STEPS {
                 black_box(self.simulation.step()?);
             }
-            total += begin.elapsed();
+            total += start_time.elapsed();
         }
         Ok(total)
     }
@@ -57,9 +57,11 @@ fn steps(criterion: &mut Criterion) {
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
     let mut cases = Vec::new();
     for modes in [10, 20, 40, 80] {
-        let reduced = CraigBampton::new(modes).reduce(model.clone()).expect("a valid model");
-        let reduced_top = reduced.recovery().row(&top).expect("the top is a degree of freedom");
-        let simulation = scene(reduced, reduced_top, Coordinates::Auto);
+        let reduced_structure =
+            CraigBampton::new(modes).reduce(model.clone()).expect("a valid model");
+        let reduced_top =
+            reduced_structure.recovery().row(&top).expect("the top is a degree of freedom");
+        let simulation = scene(reduced_structure, reduced_top, Coordinates::Auto);
         cases.push((BenchmarkId::new("modes", modes), simulation));
     }
     cases.push((BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Physical)));

@@ -34,20 +34,20 @@ fn kinds(criterion: &mut Criterion) {
 
 fn direct_history(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct history, one evaluation");
-    for past in [1_000, 10_000] {
+    for past_steps in [1_000, 10_000] {
         let elements: Vec<ContactElement> =
             Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
         let kernel = PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch");
         let mut history = DirectHistory::new(Arc::new(kernel));
-        history.prepare(past + 1, &mut unobserved).expect("kernels");
-        for step in 0..past {
+        history.prepare(past_steps + 1, &mut unobserved).expect("kernels");
+        for step in 0..past_steps {
             let traction: Vec<f64> = (0..20).map(|i| ((step * 7 + i) as f64).sin()).collect();
             history.push(&traction);
         }
         let mut displacement = vec![0.0; 20];
         // Pressure on settlement and shear on sway, for each pair of elements.
-        group.throughput(Throughput::Elements(2 * 100 * past as u64));
-        group.bench_function(BenchmarkId::new("10 elements", past), |bencher| {
+        group.throughput(Throughput::Elements(2 * 100 * past_steps as u64));
+        group.bench_function(BenchmarkId::new("10 elements", past_steps), |bencher| {
             bencher.iter(|| history.evaluate(black_box(&mut displacement)));
         });
     }

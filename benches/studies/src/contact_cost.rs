@@ -50,12 +50,12 @@ struct StepCost {
     steps: usize,
 }
 
-fn measure(cells: usize, crossed: f64, bonded: bool, end: f64) -> Result<StepCost, AnyError> {
+fn measure(cells: usize, crossed_cells: f64, bonded: bool, end: f64) -> Result<StepCost, AnyError> {
     let body = RigidBody::cuboid([10.0, 10.0, 15.0], 500.0)?;
     let soil = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
     let ground = ElasticGround::under(soil, &body, cells)?;
     // Pressure waves are twice as fast as shear waves.
-    let step = crossed * 10.0 / (cells as f64 - 0.21) / 400.0;
+    let step = crossed_cells * 10.0 / (cells as f64 - 0.21) / 400.0;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "thousands")]
     let steps = (end / step) as usize;
     let mut builder = Simulation::builder(step)
@@ -76,9 +76,9 @@ fn measure(cells: usize, crossed: f64, bonded: bool, end: f64) -> Result<StepCos
     let mut times = Vec::new();
     let mut trials = 0;
     for _ in 0..steps {
-        let begin = ThreadTime::try_now()?;
+        let start_time = ThreadTime::try_now()?;
         let state = simulation.step()?;
-        let time = begin.try_elapsed()?.as_secs_f64();
+        let time = start_time.try_elapsed()?.as_secs_f64();
         let moves = state.modes.iter().any(|mode| *mode == Mode::Open || mode.is_slip());
         if state.time > MEASURED_FROM && (bonded || moves) {
             times.push(1e3 * time);
@@ -96,8 +96,8 @@ fn measure(cells: usize, crossed: f64, bonded: bool, end: f64) -> Result<StepCos
     })
 }
 
-fn percentile(sorted: &[f64], percent: usize) -> f64 {
-    sorted.get(sorted.len() * percent / 100).copied().unwrap_or(f64::NAN)
+fn percentile(sorted_values: &[f64], percent: usize) -> f64 {
+    sorted_values.get(sorted_values.len() * percent / 100).copied().unwrap_or(f64::NAN)
 }
 
 fn constant_damping(ratio: f64) -> basemat::Result<GeneralizedMaxwell> {
@@ -116,7 +116,7 @@ fn long_run(tolerance: f64) -> Result<(), AnyError> {
     let steps = 100_000;
     let step = 2e-3;
     let options = HistoryOptions { tolerance: Some(tolerance), ..HistoryOptions::default() };
-    let begin = std::time::Instant::now();
+    let start_time = std::time::Instant::now();
     let mut simulation = Simulation::builder(step)
         .ground(ElasticGround::under(profile, &body, 16)?.with_history(options)?)
         .structure(body)
@@ -124,13 +124,13 @@ fn long_run(tolerance: f64) -> Result<(), AnyError> {
         .motion(Triaxial { x: Some(el_centro_1940().scaled(2.0)?), y: None, up: None })
         .expected_steps(steps)
         .build()?;
-    let setup_seconds = begin.elapsed().as_secs_f64();
+    let setup_seconds = start_time.elapsed().as_secs_f64();
     let history = simulation.ground().description().history.ok_or("a history")?;
     println!("set-up {setup_seconds:.1} s; {history}");
     for part in 0..4 {
-        let begin = ThreadTime::try_now()?;
+        let start_time = ThreadTime::try_now()?;
         simulation.run(steps / 4, |_| {})?;
-        let time = begin.try_elapsed()?.as_secs_f64();
+        let time = start_time.try_elapsed()?.as_secs_f64();
         let history = simulation.ground().description().history.ok_or("a history")?;
         let balance = &simulation.state().energy_balance;
         println!(

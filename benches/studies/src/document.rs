@@ -15,16 +15,16 @@ pub(crate) fn splice(file: &str, name: &str, text: &str) -> Result<(), AnyError>
 pub(crate) fn splice_into(path: &Path, name: &str, text: &str) -> Result<(), AnyError> {
     let begin = format!("<!-- {name}: begin -->");
     let end = format!("<!-- {name}: end -->");
-    let old = std::fs::read_to_string(path)?;
-    let parts = old.split_once(&begin).and_then(|(before, rest)| {
+    let old_text = std::fs::read_to_string(path)?;
+    let parts = old_text.split_once(&begin).and_then(|(before, rest)| {
         let (_, after) = rest.split_once(&end)?;
         Some([before, after])
     });
     let Some([before, after]) = parts else {
         return Err(format!("{}: no markers '{begin}', '{end}'", path.display()).into());
     };
-    let new = format!("{before}{begin}\n\n{}\n\n{end}{after}", text.trim());
-    Ok(std::fs::write(path, new)?)
+    let new_text = format!("{before}{begin}\n\n{}\n\n{end}{after}", text.trim());
+    Ok(std::fs::write(path, new_text)?)
 }
 
 /// Writes a comma-separated file: its columns, then its rows.

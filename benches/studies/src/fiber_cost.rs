@@ -72,9 +72,9 @@ fn measure(
     let mut seconds = 0.0;
     let mut largest_seconds = 0.0_f64;
     for _ in 0..steps[1] {
-        let begin = ThreadTime::try_now()?;
+        let start_time = ThreadTime::try_now()?;
         simulation.step()?;
-        let step_seconds = begin.try_elapsed()?.as_secs_f64();
+        let step_seconds = start_time.try_elapsed()?.as_secs_f64();
         seconds += step_seconds;
         largest_seconds = largest_seconds.max(step_seconds);
     }
@@ -93,16 +93,16 @@ pub(crate) fn run(options: &FiberCostOptions) -> Result<(), AnyError> {
     let mut table = String::from(
         "|members|ms a step|longest step, ms|hysteresis over input|energy open by|\n|---|---|---|---|---|\n",
     );
-    let mut slow = Vec::new();
+    let mut slow_ratios = Vec::new();
     for (law, formulation, name) in FRAME_CASES {
-        let mut best = None::<FrameStepCost>;
+        let mut best_cost = None::<FrameStepCost>;
         for _ in 0..repetitions {
             let cost = measure(law, formulation, steps)?;
-            if best.is_none_or(|best| cost.seconds < best.seconds) {
-                best = Some(cost);
+            if best_cost.is_none_or(|best_cost| cost.seconds < best_cost.seconds) {
+                best_cost = Some(cost);
             }
         }
-        let Some(cost) = best else { continue };
+        let Some(cost) = best_cost else { continue };
         let row = format!(
             "|{name}|{:.2}|{:.1}|{:.2}|{:.0e}|\n",
             1e3 * cost.seconds,
@@ -113,15 +113,15 @@ pub(crate) fn run(options: &FiberCostOptions) -> Result<(), AnyError> {
         print!("{row}");
         table.push_str(&row);
         if cost.seconds > TIME_LIMIT {
-            slow.push(name);
+            slow_ratios.push(name);
         }
     }
     if let Some(docs) = &options.docs {
         splice_into(&docs.join("validation.md"), "fiber-cost", &table)?;
     }
-    if slow.is_empty() || options.short {
+    if slow_ratios.is_empty() || options.short {
         Ok(())
     } else {
-        Err(format!("more than {TIME_LIMIT} s a step: {}", slow.join("; ")).into())
+        Err(format!("more than {TIME_LIMIT} s a step: {}", slow_ratios.join("; ")).into())
     }
 }

@@ -70,10 +70,10 @@ fn rows(
 ) -> Result<Vec<TruncationRow>, AnyError> {
     let (frequencies, references) = tabled("0333");
     let mesh = FullPlaneMesh { elements, free: 0, beta: STRIP_BETA, quadrature };
-    let longest = FullPlaneMesh { free: frees.last().map_or(0, |free| 4 * free), ..mesh };
+    let longest_surface = FullPlaneMesh { free: frees.last().map_or(0, |free| 4 * free), ..mesh };
     // A march with the time kernel is unstable on so long a surface.
     let without_truncation =
-        quadrature.map(|_| bonded_impedances(POISSON_RATIO, longest, &frequencies));
+        quadrature.map(|_| bonded_impedances(POISSON_RATIO, longest_surface, &frequencies));
     let soil = Soil::new(1.0, POISSON_RATIO, 1.0)?;
     frees
         .iter()
@@ -140,17 +140,17 @@ pub(crate) fn run(options: &FullPlaneOptions) -> Result<(), AnyError> {
     let meshes = if options.short { [4, 8] } else { [8, 16] };
     let frees: &[usize] = if options.short { &[0, 2, 5] } else { &[0, 1, 2, 5, 10, 20, 40] };
     println!("bonded strip over 0.1 <= a0 <= 4, beta = {STRIP_BETA}; lengths over the half width");
-    let mut all = vec![];
+    let mut all_rows = vec![];
     for (name, quadrature) in [("BDF2", Some(CqMethod::Bdf2)), ("time kernel", None)] {
         println!("{name}");
         for elements in meshes {
             let rows = rows(quadrature, elements, frees)?;
             print(&rows);
-            all.extend(rows);
+            all_rows.extend(rows);
         }
     }
-    write(&options.out.join("impedances.csv"), &all)?;
-    draw(&options.out.join("impedances.svg"), &all)?;
+    write(&options.out.join("impedances.csv"), &all_rows)?;
+    draw(&options.out.join("impedances.svg"), &all_rows)?;
     println!("rigid block under a Ricker pulse against the half-plane, time kernel at beta = 1");
     for (elements, frees) in [(8, &[0, 5, 10, 20][..]), (16, &[0, 5, 10, 20])] {
         for &free in frees.iter().take(if options.short { 2 } else { 4 }) {

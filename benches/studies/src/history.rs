@@ -75,17 +75,17 @@ fn march(
 ) -> Result<MarchTime> {
     let mut displacement = vec![0.0; size];
     let mut input = vec![0.0; size];
-    let begin = Instant::now();
+    let start_time = Instant::now();
     let mut slowest_step = 0.0_f64;
     for step in 0..steps {
-        let begin = Instant::now();
+        let start_time = Instant::now();
         history.evaluate(&mut displacement)?;
         traction(step, &mut input);
         history.push(&input);
-        slowest_step = slowest_step.max(begin.elapsed().as_secs_f64());
+        slowest_step = slowest_step.max(start_time.elapsed().as_secs_f64());
         observe(&displacement);
     }
-    Ok(MarchTime { total: begin.elapsed().as_secs_f64(), slowest_step })
+    Ok(MarchTime { total: start_time.elapsed().as_secs_f64(), slowest_step })
 }
 
 /// Largest difference from the displacements of the direct sum, relative to the largest of these, and the time of the sum.
@@ -100,18 +100,18 @@ fn compare_with_direct_sum(
     computed: &[f64],
 ) -> Result<DirectComparison> {
     let steps = computed.len() / size;
-    let mut direct = DirectHistory::new(kernel);
-    direct.prepare(steps, &mut unobserved)?;
+    let mut direct_history = DirectHistory::new(kernel);
+    direct_history.prepare(steps, &mut unobserved)?;
     let mut difference = 0.0_f64;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut computed_steps = computed.chunks_exact(size);
-    let time = march(&mut direct, size, steps, |reference| {
+    let time = march(&mut direct_history, size, steps, |reference| {
         for (a, b) in computed_steps.next().unwrap_or_default().iter().zip(reference) {
             difference = difference.max((a - b).abs());
-            largest = largest.max(b.abs());
+            max_magnitude = max_magnitude.max(b.abs());
         }
     })?;
-    Ok(DirectComparison { error: difference / largest, seconds: time.total })
+    Ok(DirectComparison { error: difference / max_magnitude, seconds: time.total })
 }
 
 /// The table over the number of steps.
@@ -123,14 +123,14 @@ pub(crate) fn cost(options: &CostOptions) -> std::result::Result<(), AnyError> {
     println!("    steps   setup s   march s  µs/step  slowest ms      MB  direct s   ratio  error");
     let step_counts = [100, 300, 1_000, 3_000, 10_000, 30_000, 54_000, 100_000, 300_000, 1_000_000];
     for steps in step_counts.into_iter().take_while(|steps| *steps <= longest) {
-        let begin = Instant::now();
-        let mut relaxed = RelaxedFftHistory::new(Arc::clone(&kernel));
-        relaxed.prepare(steps, &mut unobserved)?;
-        let setup = begin.elapsed().as_secs_f64();
-        let compared = steps <= LONGEST_DIRECT;
-        let mut computed = Vec::with_capacity(if compared { steps * size } else { 0 });
-        let time = march(&mut relaxed, size, steps, |displacement| {
-            if compared {
+        let start_time = Instant::now();
+        let mut relaxed_history = RelaxedFftHistory::new(Arc::clone(&kernel));
+        relaxed_history.prepare(steps, &mut unobserved)?;
+        let setup = start_time.elapsed().as_secs_f64();
+        let is_compared = steps <= LONGEST_DIRECT;
+        let mut computed = Vec::with_capacity(if is_compared { steps * size } else { 0 });
+        let time = march(&mut relaxed_history, size, steps, |displacement| {
+            if is_compared {
                 computed.extend_from_slice(displacement);
             }
         })?;
@@ -139,12 +139,15 @@ pub(crate) fn cost(options: &CostOptions) -> std::result::Result<(), AnyError> {
             time.total,
             1e6 * time.total / steps as f64,
             1e3 * time.slowest_step,
-            relaxed.memory() as f64 / 1e6,
+            relaxed_history.memory() as f64 / 1e6,
         );
-        if compared {
-            let direct = compare_with_direct_sum(Arc::clone(&kernel), size, &computed)?;
-            let ratio = direct.seconds / time.total;
-            print!(" {:9.4} {ratio:7.1} {:.1e}", direct.seconds, direct.error);
+        if is_compared {
+            let direct_comparison = compare_with_direct_sum(Arc::clone(&kernel), size, &computed)?;
+            let ratio = direct_comparison.seconds / time.total;
+            print!(
+                " {:9.4} {ratio:7.1} {:.1e}",
+                direct_comparison.seconds, direct_comparison.error
+            );
         }
         println!();
     }
@@ -161,7 +164,7 @@ pub(crate) fn exponentials(options: &ExponentialsOptions) -> std::result::Result
         "tolerance      error  window  poles functions  passivity  setup s   µs/step       kB error, march"
     );
     for exponent in 3..=12 {
-        let begin = Instant::now();
+        let start_time = Instant::now();
         let tolerance = 10.0_f64.powi(-exponent);
         let mut history = match ExponentialHistory::new(Arc::clone(&kernel), tolerance) {
             Ok(history) => history,
@@ -170,7 +173,7 @@ pub(crate) fn exponentials(options: &ExponentialsOptions) -> std::result::Result
                 continue;
             }
         };
-        let setup = begin.elapsed().as_secs_f64();
+        let setup = start_time.elapsed().as_secs_f64();
         let mut computed = Vec::with_capacity(compared * size);
         march(&mut history, size, compared, |displacement| {
             computed.extend_from_slice(displacement);

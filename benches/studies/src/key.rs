@@ -28,8 +28,8 @@ pub(crate) fn draw<'b>(
     top: i32,
     entries: &[(String, LegendSample)],
 ) -> Result<SheetArea<'b>, AnyError> {
-    let longest = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    let strip = u32::try_from(NAME_MARGIN + LETTER_WIDTH * longest)?;
+    let name_length = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let strip = u32::try_from(NAME_MARGIN + LETTER_WIDTH * name_length)?;
     let (chart, key) = sheet.split_horizontally(sheet.dim_in_pixel().0.saturating_sub(strip));
     let mut y = top;
     for (name, sample) in entries {

@@ -51,7 +51,7 @@ fn march(
 ) -> Result<LayeredMarch, AnyError> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1200 at most")]
     let steps = (reference.duration() / step).round() as usize;
-    let begin = ThreadTime::try_now()?;
+    let start_time = ThreadTime::try_now()?;
     let ground = ElasticGround::new(profile.clone(), Strip::graded(-1.0..1.0, elements)?)?
         .with_stages(stages);
     // Dimensionless, without weight.
@@ -64,10 +64,10 @@ fn march(
         .expected_steps(steps)
         .build()?;
     let mut mean_shears = Vec::with_capacity(steps);
-    let setup_seconds = begin.try_elapsed()?.as_secs_f64();
+    let setup_seconds = start_time.try_elapsed()?.as_secs_f64();
     simulation.run(steps, |state| mean_shears.push(state.base_shear))?;
     let errors = ForceSeries::new(step, mean_shears).errors(reference);
-    let march_seconds = begin.try_elapsed()?.as_secs_f64() - setup_seconds;
+    let march_seconds = start_time.try_elapsed()?.as_secs_f64() - setup_seconds;
     Ok(LayeredMarch { errors, setup_seconds, march_seconds })
 }
 
@@ -91,8 +91,8 @@ pub(crate) fn run(options: &LayeredAccuracyOptions) -> Result<(), AnyError> {
         for elements in counts {
             for step in steps {
                 // Three stages make a difference where the error of the elements is small.
-                let both = elements == &counts[counts.len() - 1];
-                for stages in &[Stages::Two, Stages::Three][..if both { 2 } else { 1 }] {
+                let compares_both = elements == &counts[counts.len() - 1];
+                for stages in &[Stages::Two, Stages::Three][..if compares_both { 2 } else { 1 }] {
                     let march = march(&profile, &reference, *elements, *step, *stages)?;
                     let LayeredMarch { errors, setup_seconds, march_seconds } = march;
                     println!(

@@ -92,7 +92,7 @@ fn cases() -> Result<Vec<WeightsCase>> {
     let clay = [(150.0, 6.0)];
     let ten_layers: Vec<_> = (0..10).map(|i| (150.0 + 20.0 * f64::from(i), 2.0)).collect();
     let on_rock = profile(&clay, true, false)?;
-    let undamped = profile(&clay, false, false)?;
+    let undamped_profile = profile(&clay, false, false)?;
     let rigid_base = profile(&clay, true, true)?;
     let undamped_rigid_base = profile(&clay, false, true)?;
     let half_plane = profile(&[], true, false)?;
@@ -104,7 +104,7 @@ fn cases() -> Result<Vec<WeightsCase>> {
     Ok(vec![
         WeightsCase::new("layer on rock", on_rock.clone(), 12, 2000),
         WeightsCase::new("the same, three stages", on_rock.clone(), 12, 2000).three_stages(),
-        WeightsCase::new("the same, undamped", undamped, 12, 1000).three_stages(),
+        WeightsCase::new("the same, undamped", undamped_profile, 12, 1000).three_stages(),
         WeightsCase::new("rigid base", rigid_base, 8, 1000),
         WeightsCase::new("rigid base, undamped", undamped_rigid_base, 8, 1000).three_stages(),
         WeightsCase::new("half-plane, damped", half_plane, 8, 4000),
@@ -125,9 +125,9 @@ fn preparation_time(
     weights: &dyn ConvolutionWeights,
     steps: usize,
 ) -> std::result::Result<f64, AnyError> {
-    let begin = ProcessTime::try_now()?;
+    let start_time = ProcessTime::try_now()?;
     weights.prepare(steps.next_power_of_two(), &mut unobserved)?;
-    Ok(begin.try_elapsed()?.as_secs_f64())
+    Ok(start_time.try_elapsed()?.as_secs_f64())
 }
 
 /// Prints times for two seconds of 8 × 8 cells on 10 m; pressure waves cross a fraction of a cell in a step.
@@ -135,9 +135,9 @@ fn in_space(short: bool) -> std::result::Result<(), AnyError> {
     let soil = Soil::new(60.0e6, 1.0 / 3.0, 1900.0)?;
     let rock = Soil::new(600.0e6, 0.3, 2200.0)?;
     let layer = SoilProfile::on_half_plane(rock).with_layer(soil, 6.0)?;
-    let damped = layer.with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0)?);
+    let damped_layer = layer.with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0)?);
     let grounds =
-        [("half-space", SoilProfile::on_half_plane(soil)), ("layer, 5 %, on rock", damped)];
+        [("half-space", SoilProfile::on_half_plane(soil)), ("layer, 5 %, on rock", damped_layer)];
     println!("\n| 8 × 8 cells | c₁Δt/cell | steps | s |");
     println!("|---|---|---|---|");
     for (name, profile) in grounds {

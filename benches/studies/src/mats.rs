@@ -193,8 +193,8 @@ fn mirrored(edge: &[usize], rows: usize) -> Vec<usize> {
         rest -= count;
     }
     let middle = rows - 2 * half.iter().sum::<usize>();
-    let back: Vec<usize> = half.iter().rev().copied().collect();
-    half.into_iter().chain((middle > 0).then_some(middle)).chain(back).collect()
+    let reversed_half: Vec<usize> = half.iter().rev().copied().collect();
+    half.into_iter().chain((middle > 0).then_some(middle)).chain(reversed_half).collect()
 }
 
 /// Coarsest time step, s; every setting takes samples at its multiples.

@@ -59,13 +59,13 @@ pub(crate) fn run(options: &PassivityOptions) {
                     history,
                     tolerance,
                 };
-                let begin = std::time::Instant::now();
+                let start_time = std::time::Instant::now();
                 let work = scene.min_work_ratio();
                 let growth = scene.growth_of_tractions();
                 let mesh = if graded { "graded" } else { "uniform" };
                 println!(
                     "{beta:>8} {poisson:>8.4} {mesh:>8} {work:>12.3e} {growth:>20.3} {:>8.1}",
-                    begin.elapsed().as_secs_f64()
+                    start_time.elapsed().as_secs_f64()
                 );
             }
         }

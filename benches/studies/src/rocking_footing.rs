@@ -72,23 +72,23 @@ fn laws(friction: f64) -> basemat::Result<Vec<NamedLaw>> {
 /// Runs the study.
 pub(crate) fn run(options: &RockingFootingOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
-    let mut measured = measured_packets();
+    let mut measured_rows = measured_packets();
     if options.short {
-        measured.truncate(2);
+        measured_rows.truncate(2);
     }
     let test = SlowRockingTest {
         poisson: options.poisson,
         cells: [options.cells, options.cells_across],
         steps_per_cycle: if options.short { 40 } else { options.steps },
-        ..SlowRockingTest::with_amplitudes(&measured)
+        ..SlowRockingTest::with_amplitudes(&measured_rows)
     };
-    write_series(&options.out.join("measured.csv"), &measured)?;
+    write_series(&options.out.join("measured.csv"), &measured_rows)?;
     let mut text = String::new();
     let mut figure = None;
     for (name, law) in laws(options.friction)? {
         let computed = test.run(law)?;
         write_series(&options.out.join(format!("{}.csv", file_stem(name))), &computed.packets)?;
-        let table = table(name, &measured, &computed)?;
+        let table = table(name, &measured_rows, &computed)?;
         println!("{table}");
         println!(
             "{} steps in {:.1} s, energy error {:.0e}\n",
@@ -97,7 +97,7 @@ pub(crate) fn run(options: &RockingFootingOptions) -> Result<(), AnyError> {
             computed.energy_error
         );
         text.push_str(&table);
-        figure = Some(picture(name, &measured, &computed.packets));
+        figure = Some(picture(name, &measured_rows, &computed.packets));
     }
     if let Some(figure) = figure {
         figure.draw(&options.out.join("rocking_footing.svg"))?;
@@ -159,14 +159,14 @@ fn write_series(path: &Path, packets: &[RockingPacket]) -> Result<(), AnyError> 
 }
 
 /// Moment and settlement over rotation.
-fn picture(name: &str, measured: &[RockingPacket], computed: &[RockingPacket]) -> Figure {
+fn picture(name: &str, measured_rows: &[RockingPacket], computed: &[RockingPacket]) -> Figure {
     let mut moments = FigurePanel::new("rotation, mrad", "moment, 2M/(P L)")
         .legend(SeriesLabelPosition::UpperLeft)
         .room(0.05, 0.25);
     let mut settlements = FigurePanel::new("rotation, mrad", "settlement/L")
         .legend(SeriesLabelPosition::UpperLeft)
         .room(0.05, 0.25);
-    for (series, packets) in [("measured", measured), (name, computed)] {
+    for (series, packets) in [("measured", measured_rows), (name, computed)] {
         let rows = packets.iter().flat_map(|packet| &packet.rows);
         let moment = rows.clone().map(|row| (1e3 * row.rotation, row.moment)).collect();
         let settlement = rows.map(|row| (1e3 * row.rotation, row.settlement)).collect();

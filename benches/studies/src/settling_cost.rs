@@ -79,8 +79,8 @@ struct SettlingStepCost {
 
 fn strong_motion(factor: f64) -> basemat::Result<Record> {
     let record = el_centro_1940();
-    let strong = record.accelerations().iter().skip(WEAK_SAMPLES).map(|a| factor * a);
-    Record::new(record.time_step(), strong.collect())
+    let strong_samples = record.accelerations().iter().skip(WEAK_SAMPLES).map(|a| factor * a);
+    Record::new(record.time_step(), strong_samples.collect())
 }
 
 fn simulation(cells: CellCase, law: LawCase) -> basemat::Result<Simulation> {
@@ -118,11 +118,11 @@ fn simulation(cells: CellCase, law: LawCase) -> basemat::Result<Simulation> {
 fn measure(cells: CellCase, law: LawCase, steps: usize) -> Result<SettlingStepCost, AnyError> {
     let mut simulation = simulation(cells, law)?;
     let mut trials = 0;
-    let begin = ThreadTime::try_now()?;
+    let start_time = ThreadTime::try_now()?;
     for _ in 0..steps {
         trials += simulation.step()?.trials;
     }
-    let seconds = begin.try_elapsed()?.as_secs_f64() / steps as f64;
+    let seconds = start_time.try_elapsed()?.as_secs_f64() / steps as f64;
     let trials = trials as f64 / steps as f64;
     Ok(SettlingStepCost { cells: simulation.ground().elements().len(), seconds, trials })
 }
@@ -138,9 +138,9 @@ pub(crate) fn run(options: &SettlingCostOptions) -> Result<(), AnyError> {
         let mut costs = [None::<SettlingStepCost>; LAW_CASES.len()];
         for _ in 0..repetitions {
             for (cost, law) in costs.iter_mut().zip(LAW_CASES) {
-                let measured = measure(cells, law, steps)?;
-                if cost.is_none_or(|cost| measured.seconds < cost.seconds) {
-                    *cost = Some(measured);
+                let measured_cost = measure(cells, law, steps)?;
+                if cost.is_none_or(|cost| measured_cost.seconds < cost.seconds) {
+                    *cost = Some(measured_cost);
                 }
             }
         }

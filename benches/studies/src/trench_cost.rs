@@ -42,13 +42,14 @@ const SHORT_RUN_SIZES: [[usize; 2]; 1] = [[8, 100]];
 fn profiles() -> Result<[(&'static str, SoilProfile); 3]> {
     let clay = Soil::from_shear_wave_speed(200.0, 1.0 / 3.0, 1900.0)?;
     let rock = Soil::from_shear_wave_speed(600.0, 0.3, 2200.0)?;
-    let damped = |ratio: f64| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
+    let damping_law = |ratio: f64| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
     let on_rock = SoilProfile::on_half_plane(rock)
-        .with_bedrock_damping(damped(0.01)?)
+        .with_bedrock_damping(damping_law(0.01)?)
         .with_layer(clay, 15.0)?
-        .with_damping(damped(0.05)?);
-    let on_rigid_bedrock =
-        SoilProfile::on_rigid_bedrock().with_layer(clay, 15.0)?.with_damping(damped(0.05)?);
+        .with_damping(damping_law(0.05)?);
+    let on_rigid_bedrock = SoilProfile::on_rigid_bedrock()
+        .with_layer(clay, 15.0)?
+        .with_damping(damping_law(0.05)?);
     Ok([
         ("half-plane", clay.into()),
         ("layer, 5 %, on rock", on_rock),
@@ -76,8 +77,10 @@ pub(crate) fn run(options: &TrenchCostOptions) -> std::result::Result<(), AnyErr
             let clock = std::time::Instant::now();
             ground.prepare(TIME_STEP, Some(*steps), &mut unobserved)?;
             let seconds = processor.try_elapsed()?.as_secs_f64();
-            let elapsed = clock.elapsed().as_secs_f64();
-            println!("| {name} | {element_count} | {steps} | {seconds:.2} | {elapsed:.2} |");
+            let elapsed_seconds = clock.elapsed().as_secs_f64();
+            println!(
+                "| {name} | {element_count} | {steps} | {seconds:.2} | {elapsed_seconds:.2} |"
+            );
         }
     }
     Ok(())

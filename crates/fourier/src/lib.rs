@@ -94,9 +94,10 @@ mod tests {
             let mut complex_planner = ComplexPlanner::default();
             complex_planner.plan_fft_forward(length).process(&mut complex_series);
             for (k, value) in spectrum.iter().enumerate() {
-                let exact = if k == 3 { 0.5 * length as f64 } else { 0.0 };
+                let exact_value = if k == 3 { 0.5 * length as f64 } else { 0.0 };
                 assert!(
-                    (value - exact).norm() < 1e-12 && (complex_series[k] - exact).norm() < 1e-12,
+                    (value - exact_value).norm() < 1e-12
+                        && (complex_series[k] - exact_value).norm() < 1e-12,
                     "{k}"
                 );
             }
@@ -106,9 +107,10 @@ mod tests {
                 .unwrap();
             complex_planner.plan_fft_inverse(length).process(&mut complex_series);
             for (j, value) in real_series.iter().enumerate() {
-                let exact = length as f64 * cosine(j);
+                let exact_value = length as f64 * cosine(j);
                 assert!(
-                    (value - exact).abs() < 1e-11 && (complex_series[j] - exact).norm() < 1e-11
+                    (value - exact_value).abs() < 1e-11
+                        && (complex_series[j] - exact_value).norm() < 1e-11
                 );
             }
         }

@@ -70,13 +70,14 @@ impl ComplexBlock {
     pub fn largest(&self) -> f64 {
         // Several maxima at once, because comparisons with a single one would wait for each other.
         let mut maxima = [0.0_f64; MAXIMA_AT_ONCE];
-        let (chunks, rest) = self.values.as_chunks::<MAXIMA_AT_ONCE>();
+        let (chunks, remaining_values) = self.values.as_chunks::<MAXIMA_AT_ONCE>();
         for values in chunks {
             for (maximum, value) in maxima.iter_mut().zip(values) {
                 *maximum = maximum.max(value.re.abs()).max(value.im.abs());
             }
         }
-        rest.iter()
+        remaining_values
+            .iter()
             .flat_map(|value| [value.re.abs(), value.im.abs()])
             .chain(maxima)
             .fold(0.0, f64::max)

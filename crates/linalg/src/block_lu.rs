@@ -202,7 +202,7 @@ impl BlockLu {
         } else {
             self.solve_fronts(&self.fronts, &mut vectors);
         }
-        for (row, value) in self.rows.iter().zip(&*vectors.ordered) {
+        for (row, value) in self.rows.iter().zip(&*vectors.ordered_values) {
             rhs[*row] = *value;
         }
     }
@@ -220,7 +220,7 @@ impl BlockLu {
         let mut memory = self.solve_memory(value_at, stack);
         let mut vectors = self.vectors_in(&mut memory);
         self.solve_fronts(&self.fronts[first_front..], &mut vectors);
-        rhs.copy_from_slice(&vectors.ordered[first_position..]);
+        rhs.copy_from_slice(&vectors.ordered_values[first_position..]);
     }
 
     /// Memory of a solve, which begins with the right-hand side in the order of elimination.
@@ -236,41 +236,42 @@ impl BlockLu {
 
     /// The vectors in the memory of a solve.
     fn vectors_in<'a>(&self, memory: &'a mut [f64]) -> SolveVectors<'a> {
-        let (ordered, scratch) = memory.split_at_mut(self.rows.len());
-        let (pivots, below) = scratch.split_at_mut(self.max_order);
-        SolveVectors { ordered, pivots, below }
+        let (ordered_values, scratch) = memory.split_at_mut(self.rows.len());
+        let (pivot_values, values_below) = scratch.split_at_mut(self.max_order);
+        SolveVectors { ordered_values, pivot_values, values_below }
     }
 
     /// Solves with these last fronts, in the order of elimination.
     fn solve_fronts(&self, fronts: &[LuFront], vectors: &mut SolveVectors<'_>) {
-        let x = &mut *vectors.ordered;
+        let x = &mut *vectors.ordered_values;
         for front in fronts {
-            let pivots = &mut vectors.pivots[..front.pivot_count];
-            let below = &mut vectors.below[..front.rows_below.len()];
-            below.fill(0.0);
+            let pivots = &mut vectors.pivot_values[..front.pivot_count];
+            let values_below = &mut vectors.values_below[..front.rows_below.len()];
+            values_below.fill(0.0);
             for (k, pivot) in pivots.iter_mut().enumerate() {
                 *pivot = x[front.first_position + self.pivot_rows[front.first_position + k]];
             }
             for k in 0..front.pivot_count {
                 let column = self.column(front, k);
-                let solved = pivots[k];
-                add_multiple(-solved, &column.pivots[k + 1..], &mut pivots[k + 1..]);
-                add_multiple(solved, column.below, below);
+                let pivot_value = pivots[k];
+                add_multiple(-pivot_value, &column.pivot_entries[k + 1..], &mut pivots[k + 1..]);
+                add_multiple(pivot_value, column.entries_below, values_below);
             }
             x[front.first_position..][..front.pivot_count].copy_from_slice(pivots);
-            front.rows_below.iter().zip(&*below).for_each(|(row, value)| x[*row] -= value);
+            front.rows_below.iter().zip(&*values_below).for_each(|(row, value)| x[*row] -= value);
         }
         for front in fronts.iter().rev() {
-            let pivots = &mut vectors.pivots[..front.pivot_count];
+            let pivots = &mut vectors.pivot_values[..front.pivot_count];
             pivots.copy_from_slice(&x[front.first_position..][..front.pivot_count]);
             for (k, row) in front.rows_below.iter().enumerate() {
-                add_multiple(-x[*row], self.column(front, front.pivot_count + k).pivots, pivots);
+                let column = self.column(front, front.pivot_count + k);
+                add_multiple(-x[*row], column.pivot_entries, pivots);
             }
             for k in (0..front.pivot_count).rev() {
-                let column = self.column(front, k).pivots;
+                let column = self.column(front, k).pivot_entries;
                 pivots[k] /= column[k];
-                let solved = pivots[k];
-                add_multiple(-solved, &column[..k], &mut pivots[..k]);
+                let pivot_value = pivots[k];
+                add_multiple(-pivot_value, &column[..k], &mut pivots[..k]);
             }
             x[front.first_position..][..front.pivot_count].copy_from_slice(pivots);
         }
@@ -278,28 +279,30 @@ impl BlockLu {
 
     /// Solves with the transposed matrix, in the order of elimination.
     fn solve_transposed(&self, vectors: &mut SolveVectors<'_>) {
-        let x = &mut *vectors.ordered;
+        let x = &mut *vectors.ordered_values;
         for front in &self.fronts {
-            let pivots = &mut vectors.pivots[..front.pivot_count];
+            let pivots = &mut vectors.pivot_values[..front.pivot_count];
             pivots.copy_from_slice(&x[front.first_position..][..front.pivot_count]);
             for k in 0..front.pivot_count {
-                let column = self.column(front, k).pivots;
+                let column = self.column(front, k).pivot_entries;
                 pivots[k] = (pivots[k] - dot(&column[..k], &pivots[..k])) / column[k];
             }
             for (k, row) in front.rows_below.iter().enumerate() {
-                x[*row] -= dot(self.column(front, front.pivot_count + k).pivots, pivots);
+                x[*row] -= dot(self.column(front, front.pivot_count + k).pivot_entries, pivots);
             }
             x[front.first_position..][..front.pivot_count].copy_from_slice(pivots);
         }
         for front in self.fronts.iter().rev() {
-            let pivots = &mut vectors.pivots[..front.pivot_count];
-            let below = &mut vectors.below[..front.rows_below.len()];
+            let pivots = &mut vectors.pivot_values[..front.pivot_count];
+            let values_below = &mut vectors.values_below[..front.rows_below.len()];
             pivots.copy_from_slice(&x[front.first_position..][..front.pivot_count]);
-            front.rows_below.iter().zip(&mut *below).for_each(|(row, value)| *value = x[*row]);
+            for (row, value) in front.rows_below.iter().zip(&mut *values_below) {
+                *value = x[*row];
+            }
             for k in (0..front.pivot_count).rev() {
                 let column = self.column(front, k);
-                pivots[k] -= dot(&column.pivots[k + 1..], &pivots[k + 1..]);
-                pivots[k] -= dot(column.below, below);
+                pivots[k] -= dot(&column.pivot_entries[k + 1..], &pivots[k + 1..]);
+                pivots[k] -= dot(column.entries_below, values_below);
             }
             for (k, pivot) in pivots.iter().enumerate() {
                 x[front.first_position + self.pivot_rows[front.first_position + k]] = *pivot;
@@ -311,29 +314,28 @@ impl BlockLu {
     fn column(&self, front: &LuFront, index: usize) -> FrontColumn<'_> {
         let order = front.order();
         let column = &self.values[front.first_value + index * order..][..order];
-        FrontColumn { pivots: &column[..front.pivot_count], below: &column[front.pivot_count..] }
+        let count = front.pivot_count;
+        FrontColumn { pivot_entries: &column[..count], entries_below: &column[count..] }
     }
 }
 
 /// Column of a front: entries in the rows of its pivots, and in the rows below.
 struct FrontColumn<'a> {
-    pivots: &'a [f64],
-    below: &'a [f64],
+    pivot_entries: &'a [f64],
+    entries_below: &'a [f64],
 }
 
 /// Vectors of a solve.
 struct SolveVectors<'a> {
     /// Right-hand side and solution in the order of elimination.
-    ordered: &'a mut [f64],
+    ordered_values: &'a mut [f64],
     /// Buffers of a front: values at its pivots, and at its rows below.
-    pivots: &'a mut [f64],
-    below: &'a mut [f64],
+    pivot_values: &'a mut [f64],
+    values_below: &'a mut [f64],
 }
 
 impl LuFront {
-    /// Place of a position among the rows of the front.
-    ///
-    /// `None` if it is not one of them.
+    /// Place of a position among the rows of the front, or `None`.
     fn place(&self, position: usize) -> Option<usize> {
         let pivot_place = position.checked_sub(self.first_position)?;
         if pivot_place < self.pivot_count {

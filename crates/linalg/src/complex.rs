@@ -51,9 +51,13 @@ impl Complex {
     /// Absolute value.
     #[inline]
     pub fn abs(self) -> f64 {
-        let square = self.squared_modulus();
+        let squared_modulus = self.squared_modulus();
         // `hypot` is slower, but its intermediate results stay in the range of f64.
-        if square.is_normal() { square.sqrt() } else { self.re.hypot(self.im) }
+        if squared_modulus.is_normal() {
+            squared_modulus.sqrt()
+        } else {
+            self.re.hypot(self.im)
+        }
     }
 
     /// |x|².
@@ -83,13 +87,16 @@ impl Complex {
     #[must_use]
     #[inline]
     pub fn inverse(self) -> Self {
-        let square = self.squared_modulus();
-        if square.is_normal() {
-            return self.conj().scale(1.0 / square);
+        let squared_modulus = self.squared_modulus();
+        if squared_modulus.is_normal() {
+            return self.conj().scale(1.0 / squared_modulus);
         }
         let larger_part = self.re.abs().max(self.im.abs());
-        let scaled = self.scale(1.0 / larger_part);
-        scaled.conj().scale(1.0 / scaled.squared_modulus()).scale(1.0 / larger_part)
+        let scaled_number = self.scale(1.0 / larger_part);
+        scaled_number
+            .conj()
+            .scale(1.0 / scaled_number.squared_modulus())
+            .scale(1.0 / larger_part)
     }
 
     /// Square root with a real part not below zero.
@@ -212,9 +219,9 @@ impl Div for Complex {
     type Output = Self;
     #[inline]
     fn div(self, other: Self) -> Self {
-        let square = other.squared_modulus();
-        if square.is_normal() {
-            return (self * other.conj()).scale(1.0 / square);
+        let squared_modulus = other.squared_modulus();
+        if squared_modulus.is_normal() {
+            return (self * other.conj()).scale(1.0 / squared_modulus);
         }
         self * other.inverse()
     }

@@ -28,9 +28,9 @@ pub struct CompressedMatrix {
     values: Vec<f64>,
     is_diagonal: bool,
     /// Copy of the nonzero entries, if there are few.
-    sparse: Option<SparseMatrix>,
+    sparse_copy: Option<SparseMatrix>,
     /// Product by Fourier transforms, if the matrix has the structure for it.
-    lattice: Option<LatticeProduct>,
+    lattice_product: Option<LatticeProduct>,
 }
 
 impl CompressedMatrix {
@@ -39,18 +39,18 @@ impl CompressedMatrix {
     /// Products use a sparse copy if most entries are zero.
     pub fn new(values: Vec<f64>, order: usize) -> Self {
         let nonzeros = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
-        let mut sparse = None;
+        let mut sparse_copy = None;
         if nonzeros.clone().count() <= values.len() / MIN_ENTRIES_PER_NONZERO {
             let entries = nonzeros.map(|(index, &value)| (index / order, index % order, value));
             let triplets = Triplets::from_entries(order, entries);
-            sparse = SparseMatrix::new("step compliance of the ground", &triplets).ok();
+            sparse_copy = SparseMatrix::new("step compliance of the ground", &triplets).ok();
         }
-        Self { sparse, ..Self::dense(values) }
+        Self { sparse_copy, ..Self::dense(values) }
     }
 
     /// Matrix of these entries, row by row; products use all entries.
     pub fn dense(values: Vec<f64>) -> Self {
-        Self { values, is_diagonal: false, sparse: None, lattice: None }
+        Self { values, is_diagonal: false, sparse_copy: None, lattice_product: None }
     }
 
     /// Diagonal matrix, of which only the diagonal is stored.
@@ -98,7 +98,7 @@ impl CompressedMatrix {
         let count = areas.len();
         let mut matrix = Self::new(values, 3 * count);
         if count >= MIN_LATTICE_ELEMENTS {
-            matrix.lattice = LatticeProduct::new(cells, areas, |receiver, source| {
+            matrix.lattice_product = LatticeProduct::new(cells, areas, |receiver, source| {
                 [0, 1, 2].map(|r| {
                     let row = &matrix.values[(r * count + receiver) * 3 * count..];
                     [0, 1, 2].map(|c| row[c * count + source] / areas[source])
@@ -110,17 +110,17 @@ impl CompressedMatrix {
 
     /// Columns and rows of the elements, if products use Fourier transforms.
     pub fn cells(&self) -> Option<&[[usize; 2]]> {
-        self.lattice.as_ref().map(LatticeProduct::cells)
+        self.lattice_product.as_ref().map(LatticeProduct::cells)
     }
 
     /// Scratch for [`CompressedMatrix::multiply_add_with`].
     pub fn scratch(&self) -> LatticeScratch {
-        self.lattice.as_ref().map(LatticeProduct::scratch).unwrap_or_default()
+        self.lattice_product.as_ref().map(LatticeProduct::scratch).unwrap_or_default()
     }
 
     /// Number of entries that a product without Fourier transforms reads.
     pub fn entry_count(&self) -> usize {
-        self.sparse.as_ref().map_or(self.values.len(), SparseMatrix::entry_count)
+        self.sparse_copy.as_ref().map_or(self.values.len(), SparseMatrix::entry_count)
     }
 
     /// y ← y + A x.
@@ -131,7 +131,7 @@ impl CompressedMatrix {
             }
             return;
         }
-        match &self.sparse {
+        match &self.sparse_copy {
             Some(sparse) => sparse.multiply_add(1.0, x, y),
             None => dense_multiply_add(&self.values, 1.0, x, y),
         }
@@ -139,8 +139,8 @@ impl CompressedMatrix {
 
     /// y ← y + A x, by Fourier transforms along the surface if these are faster.
     pub fn multiply_add_with(&self, scratch: &mut LatticeScratch, x: &[f64], y: &mut [f64]) {
-        match &self.lattice {
-            Some(lattice) if self.sparse.is_none() => {
+        match &self.lattice_product {
+            Some(lattice) if self.sparse_copy.is_none() => {
                 let count = x.len() / 3;
                 lattice.multiply(x, scratch, |k, e, value| y[k * count + e] += value);
             }

@@ -63,7 +63,7 @@ fn estimated_one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) 
     }
 }
 
-/// Roots of the diagonal's magnitudes; one for a zero on the diagonal.
+/// Square roots of the diagonal's magnitudes; 1 for a zero on the diagonal.
 fn roots_of_diagonal(diagonal: impl Iterator<Item = f64>) -> Vec<f64> {
     diagonal.map(|d| if d == 0.0 { 1.0 } else { d.abs().sqrt() }).collect()
 }
@@ -81,14 +81,14 @@ pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
         return 1.0;
     }
     let roots = roots_of_diagonal((0..order).map(|i| matrix[i * order + i]));
-    let scaled: Vec<f64> = (0..order * order)
+    let scaled_matrix: Vec<f64> = (0..order * order)
         .map(|k| matrix[k] / (roots[k / order] * roots[k % order]))
         .collect();
     let norm = (0..order)
-        .map(|j| (0..order).map(|i| scaled[i * order + j].abs()).sum::<f64>())
+        .map(|j| (0..order).map(|i| scaled_matrix[i * order + j].abs()).sum::<f64>())
         .fold(0.0, f64::max);
     let mut factor = DenseFactor::with_capacity(order);
-    if !factor.factor(&scaled, order) {
+    if !factor.factor(&scaled_matrix, order) {
         return f64::INFINITY;
     }
     norm * estimated_one_norm(order, &mut |x, is_transposed| {
@@ -158,7 +158,7 @@ mod tests {
             let diagonal_shift = random.log_within(1e-10, 1.0);
             let units: Vec<f64> = (0..n).map(|_| random.log_within(1e-6, 1e6)).collect();
             let random_entries: Vec<f64> = (0..n * n).map(|_| random.within(-1.0, 1.0)).collect();
-            let skew = if case % 3 == 0 { 0.5 } else { 0.0 };
+            let asymmetry = if case % 3 == 0 { 0.5 } else { 0.0 };
             let mut matrix = vec![0.0; n * n];
             for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
                 // The product is singular; the shift of its diagonal makes the matrix regular.
@@ -167,7 +167,7 @@ mod tests {
                 let addition = if i == j {
                     diagonal_shift
                 } else {
-                    skew * random_entries[i.min(j) * n + i.max(j)]
+                    asymmetry * random_entries[i.min(j) * n + i.max(j)]
                 };
                 let sign = if i < j { -1.0 } else { 1.0 };
                 matrix[i * n + j] = (product + sign * addition) * units[i] * units[j];
@@ -175,17 +175,21 @@ mod tests {
                     matrix[i * n + j] = matrix[i * n + j].abs();
                 }
             }
-            let exact = basemat_testkit::dense::condition_by_inverse(&matrix, n);
+            let exact_condition = basemat_testkit::dense::condition_by_inverse(&matrix, n);
             let mut triplets = Triplets::new(n);
             for (k, value) in matrix.iter().enumerate() {
                 triplets.add(k / n, k % n, *value);
             }
-            let sparse = SparseMatrix::new("test", &triplets).unwrap();
+            let sparse_matrix = SparseMatrix::new("test", &triplets).unwrap();
             let factor = SparseFactor::new("test", &triplets).unwrap();
-            for estimate in [dense_condition(&matrix, n), sparse_condition(&sparse, &factor)] {
+            for estimate in [dense_condition(&matrix, n), sparse_condition(&sparse_matrix, &factor)]
+            {
                 // The estimate is a lower bound up to rounding, and rarely far below the exact value.
-                let ratio = exact / estimate;
-                assert!(ratio > 0.99 && ratio < 3.0, "{case}: {estimate:e} for {exact:e}");
+                let ratio = exact_condition / estimate;
+                assert!(
+                    ratio > 0.99 && ratio < 3.0,
+                    "{case}: {estimate:e} for {exact_condition:e}"
+                );
                 max_ratio = max_ratio.max(ratio);
             }
         }

@@ -330,9 +330,9 @@ pub fn pivoted_cholesky(
         let mut column = vec![0.0; residual_diagonal.len()];
         write_column(pivot, &mut column);
         let mut products = vec![0.0; column.len()];
-        for other in &columns {
-            let factor = other[pivot];
-            for (product, entry) in products.iter_mut().zip(other) {
+        for earlier_column in &columns {
+            let factor = earlier_column[pivot];
+            for (product, entry) in products.iter_mut().zip(earlier_column) {
                 *product += entry * factor;
             }
         }

@@ -26,15 +26,19 @@ pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
 /// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1.
 ///
 /// K is symmetric, M symmetric positive definite. Eigenvectors are columns of the returned row-major matrix.
-/// `None` if M is not positive definite or the iteration fails.
+/// `None` if M is not positive definite, the iteration fails, or a result is not finite.
 ///
 /// With M = L Lᵀ, λ are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ is L⁻ᵀ times its eigenvectors.
 pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Option<Eigenpairs> {
     let factor = dense_copy(mass).llt(Side::Lower).ok()?;
-    let mut reduced = dense_copy(stiffness);
-    solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
-    solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
-    let FaerEigenpairs { values, mut vectors } = symmetric_eigen(&reduced)?;
+    let mut reduced_stiffness = dense_copy(stiffness);
+    solve_lower_triangular_in_place(factor.L(), reduced_stiffness.as_mut(), Par::Seq);
+    solve_lower_triangular_in_place(
+        factor.L(),
+        reduced_stiffness.as_mut().transpose_mut(),
+        Par::Seq,
+    );
+    let FaerEigenpairs { values, mut vectors } = symmetric_eigen(&reduced_stiffness)?;
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
     let vectors = row_major(&vectors);
     let is_finite = values.iter().chain(&vectors).all(|x| x.is_finite());
@@ -67,11 +71,11 @@ struct FaerEigenpairs {
 
 /// Dense copy of a sparse matrix.
 fn dense_copy(matrix: &SparseMatrix) -> Mat<f64> {
-    let mut dense = Mat::<f64>::zeros(matrix.order(), matrix.order());
+    let mut dense_matrix = Mat::<f64>::zeros(matrix.order(), matrix.order());
     for (row, column, value) in matrix.entries() {
-        dense[(row, column)] = value;
+        dense_matrix[(row, column)] = value;
     }
-    dense
+    dense_matrix
 }
 
 /// The entries of a matrix, row-major.

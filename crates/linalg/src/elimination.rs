@@ -219,12 +219,12 @@ pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
 pub(super) fn column_indices(matrix: &SparseMatrix) -> Vec<usize> {
     // Index of the next entry of each column.
     let mut next_index = column_starts(matrix);
-    let next = |(_, column, _): (usize, usize, f64)| {
+    let take_next_index = |(_, column, _): (usize, usize, f64)| {
         let index = next_index[column];
         next_index[column] += 1;
         index
     };
-    matrix.entries().map(next).collect()
+    matrix.entries().map(take_next_index).collect()
 }
 
 /// Position of the first entry of each column, in storage by columns.
@@ -300,7 +300,7 @@ mod tests {
         let last_rows: Vec<usize> = (0..400).map(|k| k * k % 20 + 20 * k).collect();
         let ending_elimination = elimination.ending_with(&last_rows).unwrap();
         let factor = SparseFactor::with_elimination("cube", &matrix, &ending_elimination).unwrap();
-        let condensed = factor.condensed(&last_rows).unwrap();
+        let condensed_matrix = factor.condensed(&last_rows).unwrap();
         let force: Vec<f64> = (0..400).map(|i| f64::from(i).cos()).collect();
         let mut displacement = vec![0.0; 8000];
         last_rows.iter().zip(&force).for_each(|(row, force)| displacement[*row] = *force);
@@ -308,12 +308,13 @@ mod tests {
             .unwrap()
             .solve(&mut displacement);
         let last_displacement: Vec<f64> = last_rows.iter().map(|row| displacement[*row]).collect();
-        let computed = SparseMatrix::from_dense(400, condensed.clone()).times(&last_displacement);
+        let computed =
+            SparseMatrix::from_dense(400, condensed_matrix.clone()).times(&last_displacement);
         assert!(computed.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
         // Another condensed matrix, which couples all last rows.
         let shift = |k: usize| if k.is_multiple_of(401) { 0.5 } else { 1e-3 };
-        let shifted = condensed.iter().enumerate().map(|(k, value)| value + shift(k));
-        let shifted: Vec<f64> = shifted.collect();
+        let shifted_values = condensed_matrix.iter().enumerate().map(|(k, value)| value + shift(k));
+        let shifted_matrix: Vec<f64> = shifted_values.collect();
         let x: Vec<f64> = (0..8000).map(|i| f64::from(i).sin()).collect();
         let mut solution = matrix.times(&x);
         for (k, row) in last_rows.iter().enumerate() {
@@ -321,7 +322,7 @@ mod tests {
                 last_rows.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
             solution[*row] += shift_products.sum::<f64>();
         }
-        factor.with_condensed(&last_rows, &shifted).unwrap().solve(&mut solution);
+        factor.with_condensed(&last_rows, &shifted_matrix).unwrap().solve(&mut solution);
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
         let factor = SparseFactor::with_elimination("cube", &matrix, &ending_elimination).unwrap();
         // Other rows are not the last ones, and for too many rows condensation costs more than a solve.
@@ -338,29 +339,29 @@ mod tests {
     #[test]
     fn uncoupled_parts_are_eliminated_one_after_the_other() {
         let single_cube = cube(13, 2.0);
-        let mut uncoupled = Triplets::new(3 * single_cube.order());
-        let mut coupled = Triplets::new(3 * single_cube.order());
+        let mut uncoupled_matrix = Triplets::new(3 * single_cube.order());
+        let mut coupled_matrix = Triplets::new(3 * single_cube.order());
         for (row, column, value) in single_cube.entries() {
-            (0..3).for_each(|k| uncoupled.add(3 * row + k, 3 * column + k, value));
+            (0..3).for_each(|k| uncoupled_matrix.add(3 * row + k, 3 * column + k, value));
             for (k, l) in (0..9).map(|k| (k / 3, k % 3)) {
                 let value = if k == l { 3.0 * value } else { 0.1 * value };
-                coupled.add(3 * row + k, 3 * column + l, value);
+                coupled_matrix.add(3 * row + k, 3 * column + l, value);
             }
         }
-        let uncoupled = SparseMatrix::new("", &uncoupled).unwrap();
-        let coupled = SparseMatrix::new("", &coupled).unwrap();
-        let elimination = Elimination::for_matrix(&coupled);
+        let uncoupled_matrix = SparseMatrix::new("", &uncoupled_matrix).unwrap();
+        let coupled_matrix = SparseMatrix::new("", &coupled_matrix).unwrap();
+        let elimination = Elimination::for_matrix(&coupled_matrix);
         let order = elimination.0.get().unwrap();
-        let columns = by_columns(&uncoupled);
+        let columns = by_columns(&uncoupled_matrix);
         let sorted_order = order.sorted_by_parts(columns.symbolic());
         for (k, rows) in sorted_order.rows.chunks(single_cube.order()).enumerate() {
             assert!(rows.iter().all(|row| row % 3 == k));
             assert!(rows.is_sorted_by_key(|row| order.positions[*row]));
         }
-        assert_eq!(order.sorted_by_parts(by_columns(&coupled).symbolic()).rows, order.rows);
-        let x: Vec<f64> = (0..uncoupled.order()).map(|i| (i as f64).sin()).collect();
-        let mut solution = uncoupled.times(&x);
-        SparseFactor::with_elimination("cubes", &uncoupled, &elimination)
+        assert_eq!(order.sorted_by_parts(by_columns(&coupled_matrix).symbolic()).rows, order.rows);
+        let x: Vec<f64> = (0..uncoupled_matrix.order()).map(|i| (i as f64).sin()).collect();
+        let mut solution = uncoupled_matrix.times(&x);
+        SparseFactor::with_elimination("cubes", &uncoupled_matrix, &elimination)
             .unwrap()
             .solve(&mut solution);
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));

@@ -158,9 +158,9 @@ pub fn ellipse_size(point: [f64; 2], low: f64, high: f64) -> f64 {
         // halved endlessly.
         return ((point[0] - low).abs() + (point[0] - high).abs()) / (high - low);
     }
-    let square = point[1] * point[1];
-    let low_distance = ((point[0] - low).powi(2) + square).sqrt();
-    let high_distance = ((point[0] - high).powi(2) + square).sqrt();
+    let squared_height = point[1] * point[1];
+    let low_distance = ((point[0] - low).powi(2) + squared_height).sqrt();
+    let high_distance = ((point[0] - high).powi(2) + squared_height).sqrt();
     (low_distance + high_distance) / (high - low)
 }
 

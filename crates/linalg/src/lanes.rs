@@ -263,11 +263,11 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     #[inline(always)]
     fn inverse(self) -> Self {
         let simd = self.simd;
-        let square = self.squared_modulus();
-        let reciprocal = simd.div_f64s(simd.splat_f64s(1.0), square);
+        let squared_modulus = self.squared_modulus();
+        let reciprocal = simd.div_f64s(simd.splat_f64s(1.0), squared_modulus);
         // Adding zero times the square makes the result NaN if the square is infinite.
         let checked_reciprocal =
-            simd.add_f64s(reciprocal, simd.mul_f64s(square, simd.splat_f64s(0.0)));
+            simd.add_f64s(reciprocal, simd.mul_f64s(squared_modulus, simd.splat_f64s(0.0)));
         self.with(
             simd.mul_f64s(self.re, checked_reciprocal),
             Self::negative(simd, simd.mul_f64s(self.im, checked_reciprocal)),

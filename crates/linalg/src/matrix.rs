@@ -293,16 +293,16 @@ mod tests {
         let diagonal_values: Vec<f64> = (0..11).map(|i| 1.0 + f64::from(i)).collect();
         let mut triplets = Triplets::new(11);
         diagonal_values.iter().enumerate().for_each(|(i, value)| triplets.add(i, i, *value));
-        let sparse = Matrix::Sparse(Arc::new(SparseMatrix::new("test", &triplets).unwrap()));
-        let diagonal = Matrix::Diagonal(diagonal_values);
+        let sparse_matrix = Matrix::Sparse(Arc::new(SparseMatrix::new("test", &triplets).unwrap()));
+        let diagonal_matrix = Matrix::Diagonal(diagonal_values);
         let x: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();
         let y: Vec<f64> = (0..11).map(|i| f64::from(i).cos()).collect();
-        assert!((sparse.form(&x, &y) - diagonal.form(&x, &y)).abs() < 1e-13);
+        assert!((sparse_matrix.form(&x, &y) - diagonal_matrix.form(&x, &y)).abs() < 1e-13);
         let mut sparse_sum = y.clone();
         let mut diagonal_sum = y.clone();
-        sparse.multiply_add(-2.0, &x, &mut sparse_sum);
-        diagonal.multiply_add(-2.0, &x, &mut diagonal_sum);
+        sparse_matrix.multiply_add(-2.0, &x, &mut sparse_sum);
+        diagonal_matrix.multiply_add(-2.0, &x, &mut diagonal_sum);
         assert!(sparse_sum.iter().zip(&diagonal_sum).all(|(a, b)| (a - b).abs() < 1e-13));
-        assert!(Matrix::Diagonal(vec![0.0]).is_empty() && !diagonal.is_empty());
+        assert!(Matrix::Diagonal(vec![0.0]).is_empty() && !diagonal_matrix.is_empty());
     }
 }

@@ -66,8 +66,8 @@ pub(super) fn read(source: &mut dyn Read) -> LineResult<Triplets> {
     let row_count = sizes[0];
     let column_count = sizes[1];
     if row_count != column_count {
-        let found = format!("{row_count} x {column_count}");
-        return Err(lines.fault(FileFault::value("size of the matrix", found, "square")));
+        let found_shape = format!("{row_count} x {column_count}");
+        return Err(lines.fault(FileFault::value("size of the matrix", found_shape, "square")));
     }
     lines.with_line_number(check_memory(&header, row_count))?;
     let mut matrix = Triplets::new(row_count);
@@ -94,9 +94,9 @@ fn parse_header(line: &str) -> ParseResult<MatrixMarketHeader> {
     let words: Vec<String> = line.split_whitespace().map(str::to_ascii_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let &["%%matrixmarket", object, format, field, symmetry] = words.as_slice() else {
-        let found: String = line.chars().take(MAX_QUOTED_CHARACTERS).collect();
+        let line_start: String = line.chars().take(MAX_QUOTED_CHARACTERS).collect();
         let needed = "'%%MatrixMarket matrix <format> <field> <symmetry>'";
-        return Err(FileFault::format(found, needed));
+        return Err(FileFault::format(line_start, needed));
     };
     if object != "matrix" {
         return Err(unsupported(object));
@@ -180,9 +180,9 @@ fn read_coordinates(
         let line = required_data_line(lines, wrong_entry_count(read_count, entry_count))?;
         let entry = lines.with_line_number(coordinate_entry(&line, matrix.order()))?;
         if header.is_symmetric && entry.row < entry.column {
-            let found = format!("({}, {})", entry.row + 1, entry.column + 1);
+            let place_text = format!("({}, {})", entry.row + 1, entry.column + 1);
             let needed = "on or below the diagonal of a symmetric matrix";
-            return Err(lines.fault(FileFault::value("entry", found, needed)));
+            return Err(lines.fault(FileFault::value("entry", place_text, needed)));
         }
         add_entry(matrix, header, entry);
     }

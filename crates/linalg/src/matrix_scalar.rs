@@ -155,8 +155,9 @@ where
     let mut hermitian_part = Vec::with_capacity(order * order);
     for row in 0..order {
         for column in 0..order {
-            let mirrored = conj(&matrix[column * order + row]);
-            hermitian_part.push(mul_real(&add(&matrix[row * order + column], &mirrored), &0.5));
+            let mirrored_entry = conj(&matrix[column * order + row]);
+            hermitian_part
+                .push(mul_real(&add(&matrix[row * order + column], &mirrored_entry), &0.5));
         }
     }
     if order == 0 || !hermitian_part.iter().all(is_finite) {

@@ -143,8 +143,8 @@ mod tests {
         assert!(copy.differs_from(&sum) && copy.has_pattern_of(&sum));
         copy.copy_values(&sum);
         assert!(!copy.differs_from(&sum) && !copy.has_pattern_of(&changing));
-        let mut moved = sum.clone();
-        moved.columns.swap(0, 1);
-        assert!(moved.differs_from(&sum));
+        let mut moved_sum = sum.clone();
+        moved_sum.columns.swap(0, 1);
+        assert!(moved_sum.differs_from(&sum));
     }
 }

@@ -267,8 +267,8 @@ pub(super) fn symmetric_product(
     let n = a.nrows();
     let mut product = vec![0.0; n * n];
     let target = MatMut::from_row_major_slice_mut(&mut product, n, n);
-    let lower = BlockStructure::TriangularLower;
-    triangular::matmul(target, lower, Accum::Replace, a, a_shape, b, b_shape, 1.0, Par::Seq);
+    let target_shape = BlockStructure::TriangularLower;
+    triangular::matmul(target, target_shape, Accum::Replace, a, a_shape, b, b_shape, 1.0, Par::Seq);
     for (row, column) in (0..n).flat_map(|row| (0..row).map(move |column| (row, column))) {
         product[column * n + row] = product[row * n + column];
     }

@@ -209,32 +209,34 @@ impl SparseFactor {
     pub fn condensed(&self, last_rows: &[usize]) -> Option<Vec<f64>> {
         let count = last_rows.len();
         let Factors::Cholesky { symbolic, values } = &self.factors else { return None };
-        let mut lower = vec![0.0; count * count];
+        let mut lower_triangle = vec![0.0; count * count];
         for LastEntry { matrix_index, factor_index } in last_entries(symbolic, last_rows)? {
-            lower[matrix_index] = values[factor_index];
+            lower_triangle[matrix_index] = values[factor_index];
         }
-        let lower = MatRef::from_row_major_slice(&lower, count, count);
+        let lower_triangle = MatRef::from_row_major_slice(&lower_triangle, count, count);
         let shapes = [BlockStructure::TriangularLower, BlockStructure::TriangularUpper];
-        Some(symmetric_product([lower, lower.transpose()], shapes))
+        Some(symmetric_product([lower_triangle, lower_triangle.transpose()], shapes))
     }
 
-    /// Factor of a matrix that differs only on `last_rows`, where its condensed matrix is `condensed`.
+    /// Factor of a matrix that differs only on `last_rows`, where its condensed matrix is `condensed_matrix`.
     ///
-    /// `condensed`: row-major; only the lower triangle is read. `None` where [`SparseFactor::condensed`] returns
-    /// `None`, and for a condensed matrix that is not positive definite.
-    pub fn with_condensed(mut self, last_rows: &[usize], condensed: &[f64]) -> Option<Self> {
+    /// `condensed_matrix`: row-major; only the lower triangle is read. `None` where [`SparseFactor::condensed`] returns
+    /// `None`, if the pattern of this factor lacks entries of the last rows, and for a condensed matrix that is not
+    /// positive definite.
+    pub fn with_condensed(mut self, last_rows: &[usize], condensed_matrix: &[f64]) -> Option<Self> {
         let count = last_rows.len();
         let Factors::Cholesky { symbolic, values } = &mut self.factors else {
             return None;
         };
-        let lower = MatRef::from_row_major_slice(condensed, count, count).llt(Side::Lower).ok()?;
+        let cholesky =
+            MatRef::from_row_major_slice(condensed_matrix, count, count).llt(Side::Lower).ok()?;
         let entries = last_entries(symbolic, last_rows)?;
         // The new factor may need entries outside the pattern of this factor.
         if 2 * entries.len() != count * (count + 1) {
             return None;
         }
         for LastEntry { matrix_index, factor_index } in entries {
-            values[factor_index] = lower.L()[(matrix_index / count, matrix_index % count)];
+            values[factor_index] = cholesky.L()[(matrix_index / count, matrix_index % count)];
         }
         Some(self)
     }

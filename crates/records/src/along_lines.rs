@@ -209,7 +209,10 @@ impl SeriesInLines {
     fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
         let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
         if let Some(card_number) = card.card_number {
-            if self.previous_card_number.is_some_and(|previous| previous >= card_number) {
+            if self
+                .previous_card_number
+                .is_some_and(|previous_number| previous_number >= card_number)
+            {
                 return Err(not_in_format(line));
             }
             self.previous_card_number = Some(card_number);

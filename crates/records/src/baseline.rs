@@ -100,7 +100,7 @@ enum FitQuantity {
 impl Baseline {
     /// Returns the treated samples.
     pub(super) fn apply(self, samples: &[f64]) -> Result<Vec<f64>> {
-        let newmark = BaselineFit {
+        let newmark_fit = BaselineFit {
             term_count: 3,
             starts_from_zero: false,
             minimized_quantity: FitQuantity::Velocity,
@@ -110,15 +110,15 @@ impl Baseline {
         let fit = match self {
             Self::None => return Ok(samples.to_vec()),
             Self::RemoveMean => {
-                BaselineFit { term_count: 1, zero_end_quantities: end_velocity_only, ..newmark }
+                BaselineFit { term_count: 1, zero_end_quantities: end_velocity_only, ..newmark_fit }
             }
-            Self::NewmarkParabola => newmark,
+            Self::NewmarkParabola => newmark_fit,
             Self::VelocityPolynomial { degree } => {
                 check_degree(degree, 1, "between 1 and 8")?;
                 BaselineFit {
                     term_count: degree,
                     zero_end_quantities: end_velocity_only,
-                    ..newmark
+                    ..newmark_fit
                 }
             }
             Self::DisplacementPolynomial { degree } => {
@@ -126,7 +126,7 @@ impl Baseline {
                 BaselineFit {
                     term_count: degree - 1,
                     minimized_quantity: FitQuantity::Displacement,
-                    ..newmark
+                    ..newmark_fit
                 }
             }
             Self::RestToRest { degree } => {
@@ -135,7 +135,7 @@ impl Baseline {
                     term_count: degree - 1,
                     starts_from_zero: true,
                     zero_end_quantities: &[FitQuantity::Velocity, FitQuantity::Displacement],
-                    ..newmark
+                    ..newmark_fit
                 }
             }
         };
@@ -173,13 +173,13 @@ impl BaselineFit {
             .map(|acceleration| FitIntegrals::new(step, acceleration, self.minimized_quantity))
             .collect();
         let coefficients = self.solve(&integrals)?;
-        let mut treated = Vec::with_capacity(samples.len());
+        let mut treated_samples = Vec::with_capacity(samples.len());
         for (index, sample) in samples.iter().enumerate() {
             let correction: f64 =
                 coefficients.iter().zip(&basis).map(|(c, phi)| c * phi[index]).sum();
-            treated.push(sample - peak * correction);
+            treated_samples.push(sample - peak * correction);
         }
-        Ok(treated)
+        Ok(treated_samples)
     }
 
     /// Legendre polynomial on [0, 1] at the samples, times t if `starts_from_zero`.
@@ -202,9 +202,9 @@ impl BaselineFit {
         // The last column is the right-hand side.
         let mut rows = vec![vec![0.0; order + 1]; order];
         for i in 0..term_count {
-            for (j, other) in integrals.iter().enumerate() {
+            for (j, other_integrals) in integrals.iter().enumerate() {
                 let column = if j == term_count { order } else { j };
-                rows[i][column] = integrals[i].product(other);
+                rows[i][column] = integrals[i].product(other_integrals);
             }
             for (k, &quantity) in self.zero_end_quantities.iter().enumerate() {
                 rows[i][term_count + k] = integrals[i].at_end(quantity);
@@ -221,13 +221,13 @@ impl BaselineFit {
 
 /// Legendre polynomial on [−1, 1], by its three-term recurrence.
 fn legendre(degree: usize, x: f64) -> f64 {
-    let mut previous = 0.0;
+    let mut previous_value = 0.0;
     let mut value = 1.0;
     for n in 0..degree {
         let n = n as f64;
-        let next = ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0);
-        previous = value;
-        value = next;
+        let next_value = ((2.0 * n + 1.0) * x * value - n * previous_value) / (n + 1.0);
+        previous_value = value;
+        value = next_value;
     }
     value
 }

@@ -11,10 +11,12 @@ use crate::text::decimal::finite;
 const SECONDS_LIMIT: f64 = 61.0;
 /// Minutes in a day.
 const MINUTES_PER_DAY: i64 = 1440;
-/// Number of decimals of a second from which binary rounding hides the last digit.
-const MAX_TIME_DECIMALS: i32 = 12;
+/// Smallest number of decimals of a second whose last digit binary rounding hides.
+const UNRESOLVED_TIME_DECIMALS: i32 = 12;
 
-/// Reads a column of seconds or times of day as seconds since its first time.
+/// Reads a column of times: seconds as printed, or times of day.
+///
+/// Times of day become seconds since the start of the first time's minute.
 #[derive(Default)]
 pub(super) struct Clock {
     /// Minute of the day of the first time.
@@ -39,7 +41,7 @@ impl Clock {
         Some(time)
     }
 
-    /// Seconds since the first time, for a time of day.
+    /// Seconds from the start of the first time's minute to a time of day.
     fn time_of_day(&mut self, field: &str) -> Option<f64> {
         // Minutes are counted as whole numbers, so that the seconds keep their digits.
         let time_text = field.rsplit([' ', 'T']).next()?;
@@ -60,7 +62,7 @@ impl Clock {
     pub(super) fn resolution(&self) -> Option<f64> {
         let decimals = i32::try_from(self.max_decimals)
             .ok()
-            .filter(|&decimals| decimals < MAX_TIME_DECIMALS)?;
+            .filter(|&decimals| decimals < UNRESOLVED_TIME_DECIMALS)?;
         (!self.has_exponent).then(|| 10.0_f64.powi(-decimals))
     }
 }
@@ -73,10 +75,10 @@ fn two_digits(text: &str) -> Option<i64> {
 
 /// Largest difference of a time from equal steps, relative to the step.
 ///
-/// Wide enough for times printed with two digits of the step.
+/// Wide enough for times printed with three digits of the step.
 const TIME_STEP_TOLERANCE: f64 = 0.01;
 /// Smallest step, in units of the times' last digit, whose inequality rounding explains.
-const MIN_ROUNDED_STEP_DIGITS: f64 = 3.0;
+const MIN_STEP_IN_LAST_DIGITS: f64 = 3.0;
 /// Relative tolerance of a comparison with the unit of the last digit.
 const DIGIT_COMPARISON_TOLERANCE: f64 = 1e-6;
 
@@ -153,9 +155,9 @@ impl TimeColumn {
             min_step = min_step.min(pair[1] - pair[0]);
             max_step = max_step.max(pair[1] - pair[0]);
         }
-        // Either two times have the same last digit, or each step has several units of the last digit.
+        // Either two successive times are equal, or each step has several units of the last digit.
         let has_equal_times = mean_step > 0.0 && min_step == 0.0 && resolution < 1.0;
-        let has_coarse_steps = mean_step > MIN_ROUNDED_STEP_DIGITS * resolution;
+        let has_coarse_steps = mean_step > MIN_STEP_IN_LAST_DIGITS * resolution;
         if !(has_equal_times || has_coarse_steps) || max_step - min_step > tolerance {
             return None;
         }
@@ -171,12 +173,12 @@ impl TimeColumn {
     }
 }
 
-/// Fault of a time step (s) that is not as needed.
+/// Fault of a time step (s) that violates the requirement `needed`.
 fn wrong_step(time_step: f64, needed: String) -> FileFault {
     FileFault::value("time step", format!("{} s", rounded_decimal(time_step)), needed)
 }
 
-/// Rounds to twelve digits: differences of printed decimals are decimals.
+/// Rounds to twelve digits, which removes the binary rounding of differences between printed numbers.
 fn rounded_decimal(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
@@ -194,9 +196,10 @@ mod tests {
             assert!((time - expected).abs() < 1e-12, "{time} {expected}");
         }
         assert_eq!(clock.resolution(), Some(0.01));
-        for bad in ["12:00", "1:2:3:4", "12:00:x", "12:00:-1", "12:+1:10", "12:00:99", ":", "a:b:c"]
+        for invalid_field in
+            ["12:00", "1:2:3:4", "12:00:x", "12:00:-1", "12:+1:10", "12:00:99", ":", "a:b:c"]
         {
-            assert_eq!(Clock::default().read(bad), None, "{bad}");
+            assert_eq!(Clock::default().read(invalid_field), None, "{invalid_field}");
         }
     }
 }

@@ -136,14 +136,14 @@ mod tests {
 
     #[test]
     fn titles_of_times_name_units() {
-        let seconds = "t|time (s)|time[sec]|Zeit|time_s|TIME (SEC)|t (corrected)|s|t / s|Time, s|t (sec.)|S|T|\
+        let titles_in_seconds = "t|time (s)|time[sec]|Zeit|time_s|TIME (SEC)|t (corrected)|s|t / s|Time, s|t (sec.)|S|T|\
             time (hh:mm:ss)|hh:mm:ss|\"time (s)\"|t [s] (UTC)";
-        for title in seconds.split('|') {
+        for title in titles_in_seconds.split('|') {
             assert_eq!(check_time(title), Ok(()), "{title}");
         }
-        let others = "time(ms)|t [msec]|time_ms|time (min)|t (g)|a (cm/s2)|ms|t / ms|cm/s2|Time, ms|h|\"ms\"|\
+        let other_titles = "time(ms)|t [msec]|time_ms|time (min)|t (g)|a (cm/s2)|ms|t / ms|cm/s2|Time, ms|h|\"ms\"|\
             t (milliseconds)|t (µs)|sample";
-        for title in others.split('|') {
+        for title in other_titles.split('|') {
             assert!(check_time(title).is_err(), "{title}");
         }
     }

@@ -84,18 +84,18 @@ impl Record {
         let needed = "from 1 to 8";
         require(quantity, f64::from(order), (1..=MAX_FILTER_ORDER).contains(&order), needed)?;
         let quiet_time = PAD_LENGTH_FACTOR * f64::from(order) / corner;
-        let padded = self.padded(quiet_time, quiet_time)?;
+        let padded_record = self.padded(quiet_time, quiet_time)?;
         // The transform is circular: only the quiet pads wrap around.
-        let transform_length = padded.len().next_power_of_two();
+        let transform_length = padded_record.len().next_power_of_two();
         let frequency_step = 1.0 / (transform_length as f64 * self.time_step());
         let exponent = f64::from(2 * order);
-        let mut coefficients = spectrum(padded.accelerations(), transform_length)?;
+        let mut coefficients = spectrum(padded_record.accelerations(), transform_length)?;
         for (k, value) in coefficients.iter_mut().enumerate() {
             *value /= 1.0 + frequency_ratio(k as f64 * frequency_step).powf(exponent);
         }
-        let mut filtered = signal(coefficients, transform_length)?;
-        filtered.truncate(padded.len());
-        Self::new(self.time_step(), filtered)
+        let mut filtered_samples = signal(coefficients, transform_length)?;
+        filtered_samples.truncate(padded_record.len());
+        Self::new(self.time_step(), filtered_samples)
     }
 
     /// Tapers the first `beginning` and the last `end` seconds.
@@ -125,13 +125,13 @@ impl Record {
             beginning + end <= duration * (1.0 + TAPER_SUM_TOLERANCE),
             needed,
         )?;
-        let mut tapered = Vec::with_capacity(self.len());
+        let mut tapered_samples = Vec::with_capacity(self.len());
         for (k, value) in self.accelerations().iter().enumerate() {
             let time = k as f64 * self.time_step();
             let beginning_weight = cosine_rise(time, beginning);
-            tapered.push(value * beginning_weight * cosine_rise(duration - time, end));
+            tapered_samples.push(value * beginning_weight * cosine_rise(duration - time, end));
         }
-        Self::new(self.time_step(), tapered)
+        Self::new(self.time_step(), tapered_samples)
     }
 }
 
@@ -161,8 +161,8 @@ pub(super) fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<V
     let transform = RealPlanner::new().plan_fft_inverse(length);
     let mut signal = transform.make_output_vec();
     spectrum[0].im = 0.0;
-    if let Some(highest) = spectrum.last_mut() {
-        highest.im = 0.0;
+    if let Some(last_coefficient) = spectrum.last_mut() {
+        last_coefficient.im = 0.0;
     }
     transform.process(&mut spectrum, &mut signal).map_err(|_| failed_transform(length))?;
     let scale = 1.0 / length as f64;

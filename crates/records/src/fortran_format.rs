@@ -280,8 +280,9 @@ mod tests {
         assert_eq!(columns.fields("12345678"), Some(vec!["1234", "5678"]));
         assert_eq!(columns.fields("   1-2.312"), Some(vec!["1", "-2.3", "12"]));
         assert_eq!(columns.fields(""), Some(vec![]));
-        for other in ["1 2 3", "1234        1", "123456781234 ", "é", "2.125", "1.25512"] {
-            assert_eq!(columns.fields(other), None, "{other}");
+        for unmatched_line in ["1 2 3", "1234        1", "123456781234 ", "é", "2.125", "1.25512"]
+        {
+            assert_eq!(columns.fields(unmatched_line), None, "{unmatched_line}");
         }
     }
 
@@ -299,8 +300,10 @@ mod tests {
             Some((vec![-0.276_388, -0.272_017], Some(2)))
         );
         assert_eq!(read(" 0.276388               12"), Some((vec![0.276_388], Some(12))));
-        for other in ["-0.276388-0.2720170.1", "-0.276388-0.272017 1 2", "-10.000000-10.055655"] {
-            assert_eq!(read(other), None, "{other}");
+        for unmatched_line in
+            ["-0.276388-0.2720170.1", "-0.276388-0.272017 1 2", "-10.000000-10.055655"]
+        {
+            assert_eq!(read(unmatched_line), None, "{unmatched_line}");
         }
     }
 

@@ -27,10 +27,10 @@ impl Record {
         let trailing_count =
             self.quiet_sample_count("quiet time after the record", trailing_time)?;
         check_sample_memory((leading_count + self.len() + trailing_count) as f64)?;
-        let mut padded = vec![0.0; leading_count];
-        padded.extend_from_slice(self.accelerations());
-        padded.resize(padded.len() + trailing_count, 0.0);
-        Self::new(self.time_step(), padded)
+        let mut padded_samples = vec![0.0; leading_count];
+        padded_samples.extend_from_slice(self.accelerations());
+        padded_samples.resize(padded_samples.len() + trailing_count, 0.0);
+        Self::new(self.time_step(), padded_samples)
     }
 
     /// Number of samples of a quiet time (s).
@@ -49,7 +49,8 @@ impl Record {
     /// `PlaneWave::field_from_horizontal` computes displacements.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) if a value is not finite.
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if a sample of the transform is not finite,
+    /// [`Error::Input`](crate::Error::Input) for a velocity or displacement.
     pub fn hilbert_transform(&self) -> Result<Self> {
         Self::new(self.time_step(), hilbert(self.accelerations(), 0)?)
     }

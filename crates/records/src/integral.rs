@@ -15,13 +15,14 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Motion after the time `elapsed` (s), while the acceleration changes at the rate `jerk` (m/s³).
-    pub(super) fn after(self, elapsed: f64, jerk: f64) -> Self {
+    /// Motion after `elapsed_time` (s), while the acceleration changes at the rate `jerk` (m/s³).
+    pub(super) fn after(self, elapsed_time: f64, jerk: f64) -> Self {
         let Self { acceleration: a, velocity: v, displacement: u } = self;
         Self {
-            acceleration: a + jerk * elapsed,
-            velocity: v + elapsed * (a + elapsed * jerk / 2.0),
-            displacement: u + elapsed * (v + elapsed * (a / 2.0 + elapsed * jerk / 6.0)),
+            acceleration: a + jerk * elapsed_time,
+            velocity: v + elapsed_time * (a + elapsed_time * jerk / 2.0),
+            displacement: u + elapsed_time
+                * (v + elapsed_time * (a / 2.0 + elapsed_time * jerk / 6.0)),
         }
     }
 }

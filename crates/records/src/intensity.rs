@@ -17,12 +17,12 @@ impl Record {
             let a = start.acceleration;
             let v = start.velocity;
             // The velocity has an extreme where the acceleration vanishes.
-            for elapsed in self.roots_in_step(a, jerk, 0.0) {
-                velocity = velocity.max(start.after(elapsed, jerk).velocity.abs());
+            for elapsed_time in self.roots_in_step(a, jerk, 0.0) {
+                velocity = velocity.max(start.after(elapsed_time, jerk).velocity.abs());
             }
             // The displacement has an extreme where the velocity vanishes.
-            for elapsed in self.roots_in_step(v, a, jerk / 2.0) {
-                displacement = displacement.max(start.after(elapsed, jerk).displacement.abs());
+            for elapsed_time in self.roots_in_step(v, a, jerk / 2.0) {
+                displacement = displacement.max(start.after(elapsed_time, jerk).displacement.abs());
             }
         }
         Motion { acceleration: self.peak_acceleration(), velocity, displacement }

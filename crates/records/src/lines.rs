@@ -340,8 +340,8 @@ mod tests {
         let mut values = Vec::new();
         push_numbers(" -.12E-03-3.4e+02+5 6.-7.0", &mut values).unwrap();
         assert_eq!(values, [-0.12e-3, -3.4e2, 5.0, 6.0, -7.0]);
-        for bad in ["1--2", "1.2.3", "x", "-", "1E", "1-", "nan", "1e400"] {
-            assert!(push_numbers(bad, &mut values).is_err(), "{bad}");
+        for invalid_line in ["1--2", "1.2.3", "x", "-", "1E", "1-", "nan", "1e400"] {
+            assert!(push_numbers(invalid_line, &mut values).is_err(), "{invalid_line}");
         }
     }
 }

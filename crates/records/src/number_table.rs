@@ -67,7 +67,7 @@ impl NumberTable {
         (steps_are_equal && is_linear).then_some(step)
     }
 
-    /// The first column with equal steps; `None` if no column has them, or all.
+    /// The first column with equal steps; `None` if no column has them, or if all have.
     pub(super) fn equal_step_column(&self) -> Option<EqualStepColumn> {
         let steps: Vec<Option<f64>> =
             (0..self.column_count).map(|column| self.equal_step(column)).collect();
@@ -92,7 +92,7 @@ impl NumberTable {
             let line_sum: f64 = previous_line
                 .iter()
                 .zip(line)
-                .map(|(previous, value)| squared_difference(*previous, *value))
+                .map(|(previous_value, value)| squared_difference(*previous_value, *value))
                 .sum();
             column_sum += line_sum / column_count as f64;
         }
@@ -173,14 +173,19 @@ mod tests {
             assert!(series.continues_along_lines(), "{columns}");
             assert_eq!(series.equal_step_column(), None, "{columns}");
             // The same signal in all columns, and another one in each.
-            let same = table(40, |line, _| wave(line as f64), columns);
-            assert!(!same.continues_along_lines(), "{columns}");
-            let other = table(40, |line, column| wave(line as f64 + 2.9 * column as f64), columns);
-            assert!(!other.continues_along_lines(), "{columns}");
+            let equal_columns = table(40, |line, _| wave(line as f64), columns);
+            assert!(!equal_columns.continues_along_lines(), "{columns}");
+            let shifted_columns =
+                table(40, |line, column| wave(line as f64 + 2.9 * column as f64), columns);
+            assert!(!shifted_columns.continues_along_lines(), "{columns}");
             // Columns at another level.
-            let level = table(40, |line, column| wave(line as f64) + 9.0 * column as f64, columns);
-            assert!(level.jumps_over_line_ends() && !series.jumps_over_line_ends(), "{columns}");
-            assert!(!same.jumps_over_line_ends(), "{columns}");
+            let offset_columns =
+                table(40, |line, column| wave(line as f64) + 9.0 * column as f64, columns);
+            assert!(
+                offset_columns.jumps_over_line_ends() && !series.jumps_over_line_ends(),
+                "{columns}"
+            );
+            assert!(!equal_columns.jumps_over_line_ends(), "{columns}");
         }
     }
 
@@ -191,8 +196,8 @@ mod tests {
         let zeros = times_and_sine(|line| 0.0 * line);
         assert_eq!(zeros.equal_step_column(), Some(equal_step_column(1, 0.0)));
         // 128 a second, printed to 1 ms.
-        let rounded = times_and_sine(|line| (line / 0.128).round() * 1e-3);
-        assert_eq!(rounded.equal_step_column().map(|column| column.number), Some(1));
+        let rounded_times = times_and_sine(|line| (line / 0.128).round() * 1e-3);
+        assert_eq!(rounded_times.equal_step_column().map(|column| column.number), Some(1));
         // A ramp has equal steps in all columns.
         let ramp = table(20, |line, column| (8 * line + column) as f64, 8);
         assert_eq!(ramp.equal_step_column(), None);

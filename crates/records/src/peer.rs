@@ -140,15 +140,15 @@ fn acceleration_in_g(line: &str) -> Option<bool> {
 ///
 /// A number, a word or a missing separator may state one. Numbers of a filter do not, nor does gravity in brackets.
 fn has_factor(text: &str) -> bool {
-    let text = text.split_once("FILTER").map_or(text, |(before, _)| before).trim();
-    let bracket = text.strip_prefix('(').and_then(|inner| inner.split_once(')'));
+    let text = text.split_once("FILTER").map_or(text, |(text_before, _)| text_before).trim();
+    let bracket = text.strip_prefix('(').and_then(|text_inside| text_inside.split_once(')'));
     if let Some((bracketed_text, text_after)) = bracket {
         let value = bracketed_text.split_whitespace().next().and_then(finite);
         return !value.is_some_and(is_gravity) || has_factor(text_after);
     }
     let is_separate = text.is_empty() || text.starts_with(['.', ',', ';', ')']);
     // The number of points is read elsewhere.
-    let text = text.split_once("NPTS").map_or(text, |(before, _)| before);
+    let text = text.split_once("NPTS").map_or(text, |(text_before, _)| text_before);
     !is_separate
         || text.contains(|sign: char| sign.is_ascii_digit() || matches!(sign, '%' | '*'))
         || mentions_factor(text)
@@ -190,7 +190,8 @@ fn mentions_factor(text: &str) -> bool {
 
 /// Whether `word` is a word of `line`.
 fn has_word(line: &str, word: &str) -> bool {
-    line.split(|character: char| !character.is_alphanumeric()).any(|found| found == word)
+    line.split(|character: char| !character.is_alphanumeric())
+        .any(|line_word| line_word == word)
 }
 
 /// Number of samples and time step in the last line of a header.

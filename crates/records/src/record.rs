@@ -171,7 +171,8 @@ impl Record {
     /// Record with all samples multiplied by `factor`, which may be negative.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) if the factor or a product is not finite.
+    /// [`Error::Input`](crate::Error::Input) if the factor, or a velocity or displacement of the new record, is not
+    /// finite; [`Error::NotFinite`](crate::Error::NotFinite) for a sample of the new record.
     pub fn scaled(&self, factor: f64) -> Result<Self> {
         finite("scale factor of the record", factor)?;
         Self::new(self.step, self.acceleration.iter().map(|a| a * factor).collect())

@@ -236,8 +236,8 @@ mod tests {
                 assert_eq!(AccelerationUnit::named(name), Some(unit), "{name}");
             }
         }
-        let others = "|m|s|ms|m/s|m/s3|mg|mgal|g2|MS-2|MS2|mss|cms|m s|gal/s|km/s2|m/s2/s|ins2|gallery|1 g|m/min2";
-        for name in others.split('|') {
+        let other_names = "|m|s|ms|m/s|m/s3|mg|mgal|g2|MS-2|MS2|mss|cms|m s|gal/s|km/s2|m/s2/s|ins2|gallery|1 g|m/min2";
+        for name in other_names.split('|') {
             assert_eq!(AccelerationUnit::named(name), None, "{name}");
         }
     }
@@ -249,9 +249,9 @@ mod tests {
         for text in units.split('|') {
             assert!(is_unit(text), "{text}");
         }
-        let others = "|NS|EW|UD|S|N|V|H|H/V|N/S|H1|G1|S2|MS2|Z|up|ch 1|1|50g|2g|filtered|corrected|360|90 deg|5 m|\
+        let other_texts = "|NS|EW|UD|S|N|V|H|H/V|N/S|H1|G1|S2|MS2|Z|up|ch 1|1|50g|2g|filtered|corrected|360|90 deg|5 m|\
             HNE|/|e g|hh:mm:ss|x|US";
-        for text in others.split('|') {
+        for text in other_texts.split('|') {
             assert!(!is_unit(text), "{text}");
         }
     }

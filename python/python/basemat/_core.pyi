@@ -60,6 +60,9 @@ _Baseline: TypeAlias = Literal[
     "displacement_polynomial",
     "rest_to_rest",
 ]
+_AbrahamsonModel: TypeAlias = Literal[
+    "hard_rock_horizontal", "hard_rock_vertical", "soil_horizontal", "soil_vertical"
+]
 _CurveBound: TypeAlias = Literal["mean", "upper"]
 _Wave: TypeAlias = Literal["shear", "pressure"]
 _ControlPoint: TypeAlias = Literal["outcrop", "within"]
@@ -625,6 +628,8 @@ class TrenchGround(Ground):
     ``pressure_at_rest``: K₀, the ratio of the pressure on the walls at rest to the vertical pressure of the soil; ν/(1
     − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of the
     width (m) of the backfill, its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given.
+    ``water_table``: a `WaterTable` that presses on base and walls; pressures of the soil are then effective, and densities
+    below it those of saturated soil; none unless given.
     ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
     `ElasticGround`, and have its defaults unless given.
     """
@@ -636,6 +641,7 @@ class TrenchGround(Ground):
         *,
         pressure_at_rest: float | None = None,
         backfill: tuple[float, Soil] | tuple[float, Soil, DampingLaw] | None = None,
+        water_table: WaterTable | None = None,
         history: _History = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
@@ -935,6 +941,52 @@ class Joint:
         """Gap of the unloaded structure, m."""
 
 @disjoint_base
+class Coherence:
+    """Coherence Γ between the ground motions at two points: the correlation of their Fourier coefficients at a frequency,
+    without the delay of a wave that passes. A `LucoWong`, an `AbrahamsonCoherence`, or a function (`CoherenceFn`).
+    """
+
+    def between(self, frequency: float, first: Sequence[float], second: Sequence[float]) -> float:
+        """Coherence of the motions at the points ``first`` and ``second`` (x and y, m) at a ``frequency`` (Hz), a number."""
+
+@final
+class LucoWong(Coherence):
+    """Coherence of Luco and Wong (1986): Γ = exp(−(α ω d/c)²) at a distance d, with ω = 2π times the frequency.
+
+    ``alpha``: the parameter α, a number, 0 or more. ``shear_wave_speed``: speed c of shear waves in the soil, m/s.
+    """
+
+    def __new__(cls, alpha: float, shear_wave_speed: float) -> Self: ...
+
+@final
+class AbrahamsonCoherence(Coherence):
+    """Plane-wave coherence of Abrahamson (2007), up to distances of 150 m.
+
+    ``model``: "hard_rock_horizontal", "hard_rock_vertical", "soil_horizontal" (soil with shear waves of 180 to 290 m/s,
+    from frequencies up to 20 Hz) or "soil_vertical". Its matrices can have negative eigenvalues: give ``clipped=True`` to
+    `Incoherence`.
+    """
+
+    def __new__(cls, model: _AbrahamsonModel) -> Self: ...
+
+@final
+class CoherenceFn(Coherence):
+    """A coherence that a function defines: give ``between`` or ``of_separation``.
+
+    ``between``: a function ``(frequency, first, second)`` of a frequency (Hz) and two points (tuples of x and y, m).
+    ``of_separation``: a function ``(frequency, separation)`` of the vector from one point to the other (tuple of x and y,
+    m), with the same value for the opposite vector; few of its values are needed for cells on a lattice. The functions
+    return the coherence, a number from −1 to 1. They are None unless given.
+    """
+
+    def __new__(
+        cls,
+        between: Callable[[float, tuple[float, float], tuple[float, float]], float] | None = None,
+        *,
+        of_separation: Callable[[float, tuple[float, float]], float] | None = None,
+    ) -> Self: ...
+
+@disjoint_base
 class FreeField:
     """Motion of the ground's surface without the structure: a `Record`, a wave, or a function (`free_field`). Until t = 0
     the ground is at rest.
@@ -946,6 +998,55 @@ class FreeField:
         """Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s)."""
     def velocity(self, x: float, time: float) -> list[float]:
         """Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s)."""
+
+@final
+class Incoherence:
+    """Incoherence of the ground motion under a base; `motion` makes an `IncoherentMotion` of records.
+
+    ``coherence``: a `Coherence` of the motions at two points. ``vertical``: that of the vertical motion; the same unless
+    given. ``apparent_velocity`` (m/s) and ``azimuth`` (rad, counter-clockwise from x as seen from above; 0 by default): of a
+    wave that passes, which delays each element; all elements move at once unless given. ``reference``: the point
+    (x and y, m) that moves as the records; the middle of the base unless given. ``bandwidth``: interval between frequencies
+    with independent phases, Hz; 0.5 by default. ``seed``: number of the sample; 0 by default. The same seed gives the same
+    motion on every machine. ``clipped``: whether negative eigenvalues of the coherence are replaced by zero instead of being
+    errors; False by default.
+    """
+
+    def __new__(
+        cls,
+        coherence: Coherence,
+        *,
+        vertical: Coherence | None = None,
+        apparent_velocity: float | None = None,
+        azimuth: float = 0.0,
+        reference: Sequence[float] | None = None,
+        bandwidth: float = 0.5,
+        seed: int = 0,
+        clipped: bool = False,
+    ) -> Self: ...
+    def motion(
+        self,
+        ground: Ground,
+        x: Record | None = None,
+        y: Record | None = None,
+        up: Record | None = None,
+    ) -> IncoherentMotion:
+        """The `IncoherentMotion` of the contact elements of a ``ground`` on the surface, with the records ``x`` (to the right),
+        ``y`` (away, in plan) and ``up`` (each a `Record`) at the reference point; a component is zero unless given.
+
+        The records must end at rest and begin with quiet time, 3 s or more: `Record.with_baseline` and `Record.padded`.
+        """
+
+@final
+class IncoherentMotion(FreeField):
+    """Free field that differs from element to element at random, with a given coherence: `Incoherence.motion`.
+
+    It is defined at the centres of the elements of one ground, and NaN elsewhere.
+    """
+
+    @property
+    def min_eigenvalue(self) -> float:
+        """Most negative eigenvalue of the coherence that was replaced by zero, a number; zero if none was."""
 
 @final
 class Record(FreeField):
@@ -1864,6 +1965,11 @@ class Run(Summary):
     def largest_pressure(self) -> Peak | None:
         """Largest pressure of any element, Pa, a `Peak`; None without elements."""
     @property
+    def buoyancy(self) -> float:
+        """Upward force of the water on the structure, N/m (in plan N): `WaterTable`. The weight is the effective
+        ``static_normal_force`` plus this force.
+        """
+    @property
     def shear_coefficient(self) -> float | None:
         """Ratio of the largest base shear to the weight; None if the structure has no weight."""
     @property
@@ -1886,7 +1992,7 @@ class Run(Summary):
         """Largest residual of the energy balance, relative to the largest energy; NaN without an energy balance."""
     @property
     def trials(self) -> int:
-        """Number of linear solves of the search for contact modes."""
+        """Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method."""
     @property
     def fallbacks(self) -> int:
         """Number of steps that the first search method did not solve."""
@@ -2741,6 +2847,8 @@ class InitialConditions:
             cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
             "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is
             no static state, weight and loads act from t = 0 on, as for a block that is released.
+        water_table: `WaterTable` of a base on the surface: its pressure acts up on the base from the beginning, and contact
+            is effective; none unless given.
         displacement: displacement of the n degrees of freedom at t = 0 from the static state, array of shape (n,), m
             and rad; zero unless given. The base may be displaced only if ``gravity_stage`` is "unloaded".
         velocity: velocity of the n degrees of freedom at t = 0, array of shape (n,), m/s and rad/s; zero unless given.
@@ -2751,6 +2859,7 @@ class InitialConditions:
         *,
         gravity: float | None = None,
         gravity_stage: _GravityStage = "frictionless",
+        water_table: WaterTable | None = None,
         displacement: ArrayLike | None = None,
         velocity: ArrayLike | None = None,
     ) -> Self: ...
@@ -2933,7 +3042,7 @@ class State:
         """The `EnergyBalance` since the start."""
     @property
     def trials(self) -> int:
-        """Number of linear solves of the search for contact modes."""
+        """Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method."""
     @property
     def displacement(self) -> NDArray[np.float64]:
         """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
@@ -3169,6 +3278,21 @@ class SoilStrength:
         """
     def pressures(self, vertical: float) -> list[float]:
         """Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class WaterTable:
+    """Water table: the level below which water at rest presses on a structure.
+
+    It lies ``depth`` below the surface of the ground, m; negative for water above a base on the surface, which lies below the
+    water table in reality. ``density``: of the water, kg/m³; 1000 by default.
+
+    The pressure ρ g (z − depth) at the depth z acts up on a base and inwards on walls, also on elements that are open.
+    Tractions, factors of safety and friction are then effective. Shaking and gaps do not change the pressure. For a
+    base on the surface it is given to `InitialConditions`, in a trench to `TrenchGround`.
+    """
+
+    def __new__(cls, depth: float, *, density: float = 1000.0) -> Self: ...
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
@@ -3917,9 +4041,9 @@ class FiberSection:
 
     It starts without fibres, and each method returns a section with more of them. Positions are y and z in the axes of the
     beam (m), from the line between its nodes; y points to the left of a beam seen from its first node to the second, and a
-    positive curvature stretches the fibres at negative y. Beams in the plane take no notice of z, and their areas are per
-    metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material` or a
-    `UserUniaxialMaterial`.
+    positive curvature stretches the fibres at negative y. Beams in the plane do not depend on z, and their areas are
+    per metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material`
+    or a `UserUniaxialMaterial`.
     """
 
     def __new__(cls) -> Self: ...
@@ -5052,6 +5176,13 @@ def _merge_cases(
 ) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]: ...
 
 def _collect_warnings(collect: bool) -> list[str]: ...
+
+def mean_coherence(coherence: Coherence, frequency: float, ground: Ground) -> NDArray[np.float64]:
+    """Coherence between the means of the motion over the contact elements of a ``ground``: array of shape (elements, elements),
+    ratios.
+
+    It is the mean of the ``coherence`` (`Coherence`) at a ``frequency`` (Hz) over all pairs of points in two elements.
+    """
 
 def free_field(
     *,

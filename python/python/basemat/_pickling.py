@@ -29,6 +29,7 @@ _RETURNING = (
     (_core.Plan, "without_overhang"),
     (_core.PlaneWave, "reversed"),
     (_core.InclinedWave, "field"),
+    (_core.Incoherence, "motion"),
     (_core.SoilColumn, "equivalent_linear"),
     (_core.EquivalentLinear, "profile"),
     (_core.StrainCurves, "iwan"),

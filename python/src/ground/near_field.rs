@@ -57,8 +57,8 @@ impl PyNearField {
             near_field = near_field.with_strength_profile(move |depth| {
                 // A strength that is no number is an error of the core, in place of which the exception is raised.
                 call_user_code(f64::NAN, |py| {
-                    let returned = function.bind(py).call1((depth,))?;
-                    extract_returned("strength_profile", &returned)
+                    let returned_value = function.bind(py).call1((depth,))?;
+                    extract_returned("strength_profile", &returned_value)
                 })
             });
         }
@@ -90,7 +90,7 @@ impl PyNearField {
         let elements = ground.trench_elements().elements();
         let base_count = elements.iter().filter(|element| is_base_element(element)).count();
         let wall_count = (elements.len() - base_count) / 2;
-        // The objects of Python remember how they were made.
+        // The objects of Python store the arguments of their construction.
         let elements = py
             .get_type::<PyTrench>()
             .call1((left, right, trench.depth()))?

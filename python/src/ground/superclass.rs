@@ -30,6 +30,11 @@ impl PyGround {
         let elements = ground.elements().to_vec();
         Ok(Self { make: Arc::new(move || Ok(Box::new(make()?))), elements })
     }
+
+    /// The contact elements.
+    pub(crate) fn contact_elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
 }
 
 #[pymethods]

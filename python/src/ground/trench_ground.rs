@@ -17,7 +17,7 @@ use crate::error::{OrRaise, WithOption};
 use crate::interface::PyEarthPressure;
 use crate::list_arguments::{ListOf, type_error};
 use crate::profile::{Profile, PyDampingLaw, law_or_elastic};
-use crate::soil::{PySoil, PySoilStrength};
+use crate::soil::{PySoil, PySoilStrength, PyWaterTable};
 use crate::ticker::with_progress;
 
 /// A damping law that several grounds read.
@@ -80,6 +80,8 @@ extracts!(BackfillArguments, object => {
 /// ``pressure_at_rest``: K₀, the ratio of the pressure on the walls at rest to the vertical pressure of the soil; ν/(1
 /// − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of the
 /// width (m) of the backfill, its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given.
+/// ``water_table``: a `WaterTable` that presses on base and walls; pressures of the soil are then effective, and densities
+/// below it those of saturated soil; none unless given.
 /// ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
 /// `ElasticGround`, and have its defaults unless given.
 #[pyclass(name = "TrenchGround", module = "basemat", extends = PyGround, frozen)]
@@ -90,12 +92,13 @@ pub(crate) struct PyTrenchGround {
 #[pymethods]
 impl PyTrenchGround {
     #[new]
-    #[pyo3(signature = (soil, elements, *, pressure_at_rest=None, backfill=None, history="auto", history_tolerance=None, history_memory=None, stages=None, kernel_file=None, kernels=None))]
+    #[pyo3(signature = (soil, elements, *, pressure_at_rest=None, backfill=None, water_table=None, history="auto", history_tolerance=None, history_memory=None, stages=None, kernel_file=None, kernels=None))]
     fn new(
         soil: Profile,
         elements: Bound<'_, PyTrenchElements>,
         pressure_at_rest: Option<f64>,
         backfill: Option<BackfillArguments>,
+        water_table: Option<&Bound<'_, PyWaterTable>>,
         history: &str,
         history_tolerance: Option<f64>,
         #[pyo3(from_py_with = whole_numbers)] history_memory: Option<usize>,
@@ -106,6 +109,7 @@ impl PyTrenchGround {
         let options = history_options(history, history_tolerance, history_memory)?;
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
+        let water_table = water_table.map(|water| water.get().0);
         let elements = elements.get().0.clone();
         let make = move || {
             TrenchGround::new(soil.0.clone(), elements.clone())
@@ -113,6 +117,7 @@ impl PyTrenchGround {
                 .with(backfill.as_ref(), |ground, backfill| {
                     ground.with_backfill(backfill.width, backfill.soil.0, backfill.damping.clone())
                 })
+                .with(water_table, TrenchGround::with_water_table)
                 .and_then(|ground| ground.with_history(options))
                 .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
                 .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))

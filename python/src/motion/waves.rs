@@ -54,7 +54,7 @@ pub(super) fn latest_end<const N: usize>(records: [Option<&Record>; N]) -> Optio
 }
 
 /// A copy of the record, if there is one.
-fn cloned_record(record: Option<&Bound<'_, PyRecord>>) -> Option<Record> {
+pub(super) fn cloned_record(record: Option<&Bound<'_, PyRecord>>) -> Option<Record> {
     record.map(|record| Record::clone(&record.get().0))
 }
 

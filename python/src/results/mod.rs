@@ -9,6 +9,7 @@ mod run;
 mod series;
 mod shape;
 mod summary;
+mod weight;
 
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use interaction::{PyInteraction, PySystemMode};

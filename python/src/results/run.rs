@@ -149,12 +149,6 @@ impl PyRun {
         self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
     }
 
-    /// Ratio of the largest base shear to the weight; None if the structure has no weight.
-    #[getter]
-    fn shear_coefficient(&self) -> Option<f64> {
-        self.run.shear_coefficient()
-    }
-
     /// Each foundation separately: list of `Summary`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PySummary> {
@@ -191,7 +185,7 @@ impl PyRun {
         self.run.energy_error
     }
 
-    /// Number of linear solves of the search for contact modes.
+    /// Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method.
     #[getter]
     fn trials(&self) -> usize {
         self.run.trials

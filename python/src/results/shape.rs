@@ -95,7 +95,7 @@ pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<
         return mapped_points(&surface_shape, [0.0, -with_walls.depth], Ok).and_then(new_shape);
     }
     if let Ok(model) = object.cast::<PyReducedModel>() {
-        let recovery = model.get().reduced.recovery();
+        let recovery = model.get().model.recovery();
         let full_shape = shape(model.get().structure.bind(py), height)?;
         return mapped_points(&full_shape, [0.0; 2], |row| recovery.row(row)).and_then(new_shape);
     }
@@ -208,11 +208,11 @@ impl PyDeformedShape {
         height: Option<BoxHeights>,
         joints: Option<ListOf<'_, PyJoint>>,
     ) -> PyResult<Self> {
-        let mut drawn = Self::from(shape_of(structure, height.as_ref())?);
+        let mut drawn_shape = Self::from(shape_of(structure, height.as_ref())?);
         for joint in joints.iter().flat_map(|joints| joints.iter()) {
-            drawn.shape = drawn.shape.with_joint(&joint.get().core(None)?);
+            drawn_shape.shape = drawn_shape.shape.with_joint(&joint.get().core(None)?);
         }
-        Ok(drawn)
+        Ok(drawn_shape)
     }
 
     /// Shape by its ``points``: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space, x,

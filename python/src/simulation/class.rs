@@ -310,14 +310,14 @@ impl PySimulation {
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
         let owner = slf.get();
-        let remaining = build::run_step_count(
+        let remaining_steps = build::run_step_count(
             slf.py(),
             &*owner.lock()?,
             owner.motion_duration,
             steps,
             duration,
         )?;
-        Ok(PySteps { simulation: slf.into_any().unbind(), remaining })
+        Ok(PySteps { simulation: slf.into_any().unbind(), remaining_steps })
     }
 
     /// Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.

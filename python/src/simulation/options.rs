@@ -3,6 +3,7 @@
 use basemat::contact::ContactSearch;
 use basemat::coupled::{Coordinates, GravityStage, SimulationBuilder};
 use basemat::results::Serviceability;
+use basemat::soil::WaterTable;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -11,6 +12,7 @@ use super::PyTimeScheme;
 use super::build::coordinates;
 use crate::array::{Numbers, whole_numbers};
 use crate::error::OrRaise;
+use crate::soil::PyWaterTable;
 
 /// Weight and motion at the start of a simulation.
 ///
@@ -22,6 +24,8 @@ use crate::error::OrRaise;
 ///         cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
 ///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is
 ///         no static state, weight and loads act from t = 0 on, as for a block that is released.
+///     water_table: `WaterTable` of a base on the surface: its pressure acts up on the base from the beginning, and contact
+///         is effective; none unless given.
 ///     displacement: displacement of the n degrees of freedom at t = 0 from the static state, array of shape (n,), m
 ///         and rad; zero unless given. The base may be displaced only if ``gravity_stage`` is "unloaded".
 ///     velocity: velocity of the n degrees of freedom at t = 0, array of shape (n,), m/s and rad/s; zero unless given.
@@ -30,6 +34,7 @@ use crate::error::OrRaise;
 pub(crate) struct PyInitialConditions {
     gravity: Option<f64>,
     gravity_stage: GravityStage,
+    water_table: Option<WaterTable>,
     displacement: Option<Vec<f64>>,
     velocity: Option<Vec<f64>>,
 }
@@ -37,16 +42,18 @@ pub(crate) struct PyInitialConditions {
 #[pymethods]
 impl PyInitialConditions {
     #[new]
-    #[pyo3(signature = (*, gravity=None, gravity_stage="frictionless", displacement=None, velocity=None))]
+    #[pyo3(signature = (*, gravity=None, gravity_stage="frictionless", water_table=None, displacement=None, velocity=None))]
     fn new(
         gravity: Option<f64>,
         gravity_stage: &str,
+        water_table: Option<&Bound<'_, PyWaterTable>>,
         displacement: Option<Numbers>,
         velocity: Option<Numbers>,
     ) -> PyResult<Self> {
         Ok(Self {
             gravity,
             gravity_stage: gravity_stage.parse().or_raise()?,
+            water_table: water_table.map(|water| water.get().0),
             displacement: displacement.map(|numbers| numbers.0),
             velocity: velocity.map(|numbers| numbers.0),
         })
@@ -188,6 +195,7 @@ impl Options {
         with_options!(
             builder,
             gravity(initial.gravity),
+            water_table(initial.water_table),
             initial_displacement(initial.displacement.clone()),
             initial_velocity(initial.velocity.clone()),
             scheme(scheme.transpose()?),
@@ -212,7 +220,7 @@ const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
     (
         "initial",
         "InitialConditions",
-        &["gravity", "gravity_stage", "initial_displacement", "initial_velocity"],
+        &["gravity", "gravity_stage", "water_table", "initial_displacement", "initial_velocity"],
     ),
     (
         "solver",

@@ -48,9 +48,9 @@ impl RunReporter {
     /// Records and reports the state at the end of a step; `Break` ends the run.
     pub(super) fn update(&mut self, state: &State) -> ControlFlow<()> {
         self.steps_done += 1;
-        let recorded =
+        let recording_result =
             self.time_series.as_mut().map_or(Ok(()), |series| series.record(state).or_raise());
-        match recorded.and_then(|()| self.call_observer(state)) {
+        match recording_result.and_then(|()| self.call_observer(state)) {
             Ok(flow) => flow,
             Err(error) => {
                 self.exception = Some(error);

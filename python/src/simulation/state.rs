@@ -146,7 +146,7 @@ impl PyState {
         PyEnergyBalance(self.0.energy_balance)
     }
 
-    /// Number of linear solves of the search for contact modes.
+    /// Number of trials of the search for contact modes: linear solutions, sweeps and iterations of Newton's method.
     #[getter]
     fn trials(&self) -> usize {
         self.0.trials
@@ -243,7 +243,7 @@ impl PyState {
 pub(crate) struct PySteps {
     /// Simulation, which has a method `step`.
     pub(super) simulation: Py<PyAny>,
-    pub(super) remaining: usize,
+    pub(super) remaining_steps: usize,
 }
 
 #[pymethods]
@@ -253,17 +253,17 @@ impl PySteps {
     }
 
     fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
-        if self.remaining == 0 {
+        if self.remaining_steps == 0 {
             return Ok(None);
         }
         py.check_signals()?;
         let state = self.simulation.call_method0(py, "step")?;
-        self.remaining -= 1;
+        self.remaining_steps -= 1;
         Ok(Some(state))
     }
 
     fn __len__(&self) -> usize {
-        self.remaining
+        self.remaining_steps
     }
 }
 

@@ -60,7 +60,7 @@ impl PyRayleighDamping {
 /// these modes replaces the damping of the structure, if given.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel {
-    pub(crate) reduced: Arc<ReducedModel>,
+    pub(crate) model: Arc<ReducedModel>,
     /// The full structure.
     pub(crate) structure: Py<PyAny>,
 }
@@ -78,36 +78,36 @@ impl PyReducedModel {
         let py = structure.py();
         let full_structure = structure_recipe(&structure)?().or_raise()?;
         let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
-        let reduced = py.detach(move || {
+        let reduced_model = py.detach(move || {
             reduction
                 .reduce(full_structure)
                 .with(damping_ratio, ReducedModel::with_damping_ratio)
         });
-        let reduced = Arc::new(reduced.or_raise()?);
+        let reduced_model = Arc::new(reduced_model.or_raise()?);
         let superclass = PyStructure::from_structure(SharedStructure {
-            structure: Arc::clone(&reduced),
+            structure: Arc::clone(&reduced_model),
             dof_names: None,
         });
-        let model = Self { reduced, structure: structure.unbind() };
+        let model = Self { model: reduced_model, structure: structure.unbind() };
         Ok(PyClassInitializer::from(superclass).add_subclass(model))
     }
 
     /// Frequencies of the modes: array of shape (modes,), Hz.
     #[getter]
     fn frequencies(&self) -> Array {
-        self.reduced.frequencies().into()
+        self.model.frequencies().into()
     }
 
     /// A ``row`` of the full structure as a `DofCombination` of the reduced structure, for a probe or a load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
-        row.1.check("the row", self.reduced.recovery().full_dofs())?;
-        Ok(self.reduced.recovery().row(row.0).or_raise()?.into())
+        row.1.check("the row", self.model.recovery().full_dofs())?;
+        Ok(self.model.recovery().row(row.0).or_raise()?.into())
     }
 
     /// Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
     /// ``reduced`` one, array of shape (dofs,).
     fn full(&self, reduced: Numbers) -> PyResult<Array> {
-        self.reduced.recovery().full(&reduced.0).or_raise().map(Array::from)
+        self.model.recovery().full(&reduced.0).or_raise().map(Array::from)
     }
 }
 

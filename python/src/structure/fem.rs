@@ -118,8 +118,8 @@ impl PyFemModel {
             })
         } else {
             // Each simulation has separate internal variables.
-            let undeformed = Arc::clone(&model);
-            PyStructure::new(move || Ok(FemModel::clone(&undeformed)))
+            let undeformed_model = Arc::clone(&model);
+            PyStructure::new(move || Ok(FemModel::clone(&undeformed_model)))
         };
         Ok(PyClassInitializer::from(superclass).add_subclass(Self(model)))
     }

@@ -17,9 +17,9 @@ use crate::names::choice;
 ///
 /// It starts without fibres, and each method returns a section with more of them. Positions are y and z in the axes of the
 /// beam (m), from the line between its nodes; y points to the left of a beam seen from its first node to the second, and a
-/// positive curvature stretches the fibres at negative y. Beams in the plane take no notice of z, and their areas are per
-/// metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material` or a
-/// `UserUniaxialMaterial`.
+/// positive curvature stretches the fibres at negative y. Beams in the plane do not depend on z, and their areas are
+/// per metre of thickness. A ``material`` is a `Concrete`, `BilinearSteel`, `MenegottoPinto`, a linear elastic `Material`
+/// or a `UserUniaxialMaterial`.
 #[pyclass(name = "FiberSection", module = "basemat", frozen, dict)]
 pub(crate) struct PyFiberSection(pub(super) FiberSection);
 

@@ -16,8 +16,8 @@ use crate::list_arguments::type_error;
 
 /// A mesh in space from a file of Gmsh.
 ///
-/// It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
-/// or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
+/// It has points, lines, triangles, quadrilaterals and hexahedra; z points up. ``path``: a file of format 4.1 or 2.2,
+/// text or binary. Nodes closer than ``merge_within`` (m) are merged; without it no nodes are merged.
 #[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
 

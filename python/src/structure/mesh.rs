@@ -146,8 +146,8 @@ impl PyMesh {
     /// If an element would have the same node twice, or two elements the same nodes, it raises an error and the mesh is
     /// unchanged.
     fn merge_nodes(&mut self, tolerance: f64) -> PyResult<(usize, Vec<usize>)> {
-        let merged = self.0.merge_nodes(tolerance).or_raise()?;
-        Ok((merged.count, merged.indices))
+        let merge_result = self.0.merge_nodes(tolerance).or_raise()?;
+        Ok((merge_result.count, merge_result.indices))
     }
 
     /// Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m.
@@ -311,14 +311,15 @@ impl PyMesh {
     /// freedom, node by node in the directions that it has; N/m, N and N·m.
     fn element_stiffness(&self, element: Count) -> PyResult<Rows> {
         let element_count = self.0.elements().len();
-        let found = self.0.elements().nth(element.0).ok_or_else(|| {
+        let element_entry = self.0.elements().nth(element.0).ok_or_else(|| {
             let number = element.0;
             input_error(format!("there is no element {number} among {element_count} of the mesh"))
         })?;
-        let order = found.order();
+        let order = element_entry.order();
         let mut matrix = vec![0.0; order * order];
-        let coordinates: Vec<_> = found.nodes().iter().map(|&node| self.0.nodes()[node]).collect();
-        found.stiffness(&coordinates, &mut matrix);
+        let coordinates: Vec<_> =
+            element_entry.nodes().iter().map(|&node| self.0.nodes()[node]).collect();
+        element_entry.stiffness(&coordinates, &mut matrix);
         Ok(Rows(matrix.chunks_exact(order).map(<[f64]>::to_vec).collect()))
     }
 

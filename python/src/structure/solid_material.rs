@@ -186,11 +186,11 @@ extracts!(SolidList, object => {
     for entry in object.try_iter()? {
         let entry = entry?;
         // Neighbouring entries that are the same object share its material.
-        let shared = match (&previous, materials.last()) {
+        let material = match (&previous, materials.last()) {
             (Some(previous), Some(material)) if previous.is(&entry) => material.clone(),
             _ => entry.extract::<SolidLike>()?.0,
         };
-        materials.push(shared);
+        materials.push(material);
         previous = Some(entry);
     }
     Ok(Self(materials))

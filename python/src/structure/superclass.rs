@@ -51,8 +51,8 @@ fn inner_structure<'py>(object: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py
     if let Ok(structure) = object.cast::<PyStructure>() {
         return Ok(Some(structure.clone()));
     }
-    let inner = object.getattr_opt(INNER_STRUCTURE)?;
-    Ok(inner.and_then(|inner| inner.cast_into::<PyStructure>().ok()))
+    let inner_object = object.getattr_opt(INNER_STRUCTURE)?;
+    Ok(inner_object.and_then(|inner_object| inner_object.cast_into::<PyStructure>().ok()))
 }
 
 /// The recipe of a structure of this package, or of one written in Python.

@@ -2,17 +2,17 @@
 
 use std::path::PathBuf;
 
-use super::earth_pressure;
+use super::earth_pressure::{self, SoilAndWater};
 use super::soil::TrenchSoil;
 use super::source::TrenchSource;
 use super::trench::TrenchElements;
 use crate::bem::layered::Stages;
 use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround, WeightsSource};
-use crate::error::{Observer, Result, not_negative, positive, same_length};
+use crate::error::{Observer, Result, not_negative, positive, require, same_length};
 use crate::geometry::ContactLayout;
 use crate::history::{HistoryChoice, HistoryOptions};
 use crate::interface::{EarthPressure, InterfaceLaw};
-use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
+use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength, WaterTable};
 
 /// Soil around a trench: profile, contact elements and backfill.
 ///
@@ -57,6 +57,7 @@ pub struct TrenchGround {
     source: TrenchSource,
     /// K₀ of all soils; `None`: ν/(1 − ν) of each soil.
     k0: Option<f64>,
+    water: Option<WaterTable>,
     /// Runge–Kutta stages since the last [`Ground::prepare`].
     prepared_stages: Option<Stages>,
     ground: WeightsGround,
@@ -75,7 +76,7 @@ impl TrenchGround {
         let soil = TrenchSoil::new(profile.into(), elements)?;
         let source = TrenchSource { soil, stages: None, file: None };
         let ground = WeightsGround::with_unions(source.clone(), contact_elements, None);
-        Ok(Self { source, k0: None, prepared_stages: None, ground })
+        Ok(Self { source, k0: None, water: None, prepared_stages: None, ground })
     }
 
     /// The ground with another source.
@@ -110,6 +111,53 @@ impl TrenchGround {
     pub fn with_pressure_at_rest(self, ratio: f64) -> Result<Self> {
         let ratio = not_negative("pressure at rest over the vertical pressure", ratio)?;
         Ok(Self { k0: Some(ratio), ..self })
+    }
+
+    /// Adds a water table: the soil's pressures below it are effective.
+    ///
+    /// The water presses on base and walls of the structure during the whole run, also where these are open. Pressures at
+    /// rest and limits of [`interfaces`](Self::interfaces) follow from the weight of the soil under buoyancy. Densities
+    /// below the water table are those of saturated soil. Waves are those of the soil as given: water does not flow.
+    ///
+    /// ```
+    /// use basemat::bem::embedded::{Trench, TrenchGround};
+    /// use basemat::coupled::Face;
+    /// use basemat::prelude::*;
+    /// use basemat::soil::WaterTable;
+    /// use basemat::structure::WithWalls;
+    ///
+    /// let elements = Trench::new(-6.0..6.0, 5.0)?.elements(2, 4)?;
+    /// let soil = Soil::from_shear_wave_speed(200.0, 0.33, 2000.0)?;
+    /// let ground = TrenchGround::new(soil, elements)?.with_pressure_at_rest(0.5)?;
+    /// let simulation = Simulation::builder(0.01)
+    ///     .structure(WithWalls::new(RigidBlock::new(12.0, 20.0, 900.0)?, 5.0)?)
+    ///     .ground(ground.with_water_table(WaterTable::at_depth(0.0)?)?)
+    ///     .interface(Coulomb::new(0.5)?)
+    ///     .build()?;
+    /// // On each wall K₀ (ρ − ρ_w) g d²/2, on the base the weight less the buoyancy.
+    /// let wall = simulation.state().face(Face::LeftWall);
+    /// assert!((wall.thrust / (0.5 * 1000.0 * STANDARD_GRAVITY * 12.5) - 1.0).abs() < 1e-12);
+    /// let effective_weight = (900.0 * 20.0 - 1000.0 * 5.0) * STANDARD_GRAVITY * 12.0;
+    /// assert!((simulation.state().normal_force / effective_weight - 1.0).abs() < 1e-9);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for water above the surface, and for a soil or backfill that is lighter than the
+    /// water.
+    pub fn with_water_table(self, water: WaterTable) -> Result<Self> {
+        let quantity = "depth of a water table around a trench";
+        require(quantity, water.depth(), water.depth() >= 0.0, "zero or more")?;
+        for soil in self.soil().soils() {
+            let is_heavier = soil.density() > water.density();
+            require(
+                "density of the soil under water",
+                soil.density(),
+                is_heavier,
+                "above the water's",
+            )?;
+        }
+        Ok(Self { water: Some(water), ..self })
     }
 
     /// Sets the number of Runge–Kutta stages.
@@ -206,7 +254,7 @@ impl TrenchGround {
             let soil_count = if self.has_backfill() { 1 } else { self.profile().soils().count() };
             same_length("list of soil strengths", strengths.len(), soil_count)?;
         }
-        earth_pressure::wall_laws(self.soil(), strengths, gravity, self.k0)
+        earth_pressure::wall_laws(self.soil_and_water(), strengths, gravity, self.k0)
     }
 
     /// Soil beside and below the trench.
@@ -226,6 +274,10 @@ impl TrenchGround {
 
     pub(super) fn soil(&self) -> &TrenchSoil {
         &self.source.soil
+    }
+
+    fn soil_and_water(&self) -> SoilAndWater<'_> {
+        SoilAndWater { soil: self.soil(), water: self.water }
     }
 }
 
@@ -257,9 +309,13 @@ impl Ground for TrenchGround {
         GroundDescription {
             soils: self.soil().soils().collect(),
             identity: self.soil().identity(),
-            pressure_at_rest: earth_pressure::pressures_at_rest(self.soil(), self.k0),
-            depth_of_pressure_at_rest: earth_pressure::resultant_depths(self.soil(), self.k0),
-            mass_above: earth_pressure::masses_above(self.soil()),
+            pressure_at_rest: earth_pressure::pressures_at_rest(self.soil_and_water(), self.k0),
+            depth_of_pressure_at_rest: earth_pressure::resultant_depths(
+                self.soil_and_water(),
+                self.k0,
+            ),
+            mass_above: earth_pressure::masses_above(self.soil_and_water()),
+            water_table: self.water,
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

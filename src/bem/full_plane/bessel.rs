@@ -79,19 +79,19 @@ pub(super) fn bessel_series(z: Complex64, is_mean: bool) -> BesselSeries {
     let mut sums = BesselSeries::default();
     let mut digamma = -EULER_GAMMA;
     for k in 0..SERIES_TERM_COUNT {
-        let next = (k + 1) as f64;
+        let term_number = (k + 1) as f64;
         let mut scale = power;
         let mut logarithm = log;
         if is_mean {
             // ∫₀¹ x^{2k} ln(xz/2) dx = (ln(z/2) − 1/(2k+1))/(2k+1)
-            let odd = (2 * k + 1) as f64;
-            scale = power / odd;
-            logarithm = log - 1.0 / odd;
+            let odd_number = (2 * k + 1) as f64;
+            scale = power / odd_number;
+            logarithm = log - 1.0 / odd_number;
         }
         sums.k0 += scale * (digamma - logarithm);
-        sums.kappa += scale / next * (0.5 * logarithm - 0.5 * digamma - 0.25 / next);
-        digamma += 1.0 / next;
-        power *= q / (next * next);
+        sums.kappa += scale / term_number * (0.5 * logarithm - 0.5 * digamma - 0.25 / term_number);
+        digamma += 1.0 / term_number;
+        power *= q / (term_number * term_number);
     }
     sums
 }
@@ -132,19 +132,19 @@ mod tests {
         let k1 = besselk_seq(0.0, z, 2, Scaling::Unscaled).unwrap().values[1];
         assert!((kappa - (k1 / z - 1.0 / (z * z))).norm() < 1e-14);
         let small_argument = Complex64::new(3e-9, 1e-9);
-        let leading = 0.5 * (0.5 * small_argument).ln() + 0.5 * EULER_GAMMA - 0.25;
-        assert!((modified_bessel(small_argument, true).quotient - leading).norm() < 1e-14);
+        let leading_terms = 0.5 * (0.5 * small_argument).ln() + 0.5 * EULER_GAMMA - 0.25;
+        assert!((modified_bessel(small_argument, true).quotient - leading_terms).norm() < 1e-14);
     }
 
     /// Means over [0, z] and [0, z/2] against a Gauss rule from z/2 to z, away from the logarithm.
     #[test]
     fn means_are_integrals() {
         let z = Complex64::new(0.9, 1.1);
-        let whole = bessel_series(z, true);
+        let whole_mean = bessel_series(z, true);
         let half = bessel_series(0.5 * z, true);
         let rule = crate::linalg::gauss::largest_rule();
-        let mut k0 = whole.k0 * z - half.k0 * 0.5 * z;
-        let mut kappa = whole.kappa * z - half.kappa * 0.5 * z;
+        let mut k0 = whole_mean.k0 * z - half.k0 * 0.5 * z;
+        let mut kappa = whole_mean.kappa * z - half.kappa * 0.5 * z;
         for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
             let value = bessel_series(z * (0.75 + 0.25 * node), false);
             k0 -= value.k0 * z * (0.25 * weight);

@@ -112,8 +112,8 @@ impl BlockTransform {
             self.forward_transform(real, spectrum, &mut buffers.scratch);
         }
         buffers.outputs.fill(Complex::default());
-        for begin in (0..frequency_count).step_by(FREQUENCY_TILE_SIZE) {
-            let tile = begin..(begin + FREQUENCY_TILE_SIZE).min(frequency_count);
+        for start in (0..frequency_count).step_by(FREQUENCY_TILE_SIZE) {
+            let tile = start..(start + FREQUENCY_TILE_SIZE).min(frequency_count);
             for link in links {
                 let spectrum = &self.spectra[link.series_index];
                 if spectrum.is_empty() {

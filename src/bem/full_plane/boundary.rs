@@ -7,7 +7,7 @@ use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout, check_order};
 use crate::linalg::DenseFactor;
 
 /// Largest difference of lengths that counts as rounding, relative to the length of an element.
-const RELATIVE_TOLERANCE: f64 = 1e-9;
+const LENGTH_TOLERANCE_RATIO: f64 = 1e-9;
 
 /// Largest number of elements in a gap: this number already exceeds the memory limit.
 const MAX_GAP_ELEMENTS: f64 = 1e6;
@@ -46,7 +46,7 @@ impl Boundary {
     /// elements of the adjacent strip. Elements of about this length fill the gaps between strips.
     ///
     /// # Errors
-    /// [`Error::Size`] for no strips, [`Error::Input`] for strips out of order or too many elements.
+    /// [`Error::Size`] for no strips, [`Error::Input`] for strips out of order, [`Error::Memory`] for too many elements.
     pub fn flat(strips: &[Strip], free_count: usize) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
@@ -65,7 +65,7 @@ impl Boundary {
                 nodes.push(begin);
                 let length = mean_element_length(&strips[k - 1]).max(mean_element_length(strip));
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "≥ 0")]
-                let gap_count = ((end - begin) / length - RELATIVE_TOLERANCE)
+                let gap_count = ((end - begin) / length - LENGTH_TOLERANCE_RATIO)
                     .ceil()
                     .clamp(0.0, MAX_GAP_ELEMENTS) as usize;
                 for k in 1..gap_count {
@@ -108,7 +108,7 @@ impl Boundary {
                 bound: segments.len(),
             })?;
             let rise = (segment.to[1] - segment.from[1]).abs();
-            let is_horizontal = rise <= RELATIVE_TOLERANCE * segment.length();
+            let is_horizontal = rise <= LENGTH_TOLERANCE_RATIO * segment.length();
             let needed = "none: contact elements are horizontal";
             require("rise of a contact element", rise, is_horizontal, needed)?;
             contact_elements.push(ContactElement::new(segment.from[0], segment.to[0]));
@@ -184,7 +184,7 @@ impl Boundary {
     pub fn is_flat(&self) -> bool {
         let surface_z = self.segments[0].from[1];
         self.segments.iter().all(|segment| {
-            let tolerance = RELATIVE_TOLERANCE * segment.length();
+            let tolerance = LENGTH_TOLERANCE_RATIO * segment.length();
             (segment.from[1] - surface_z).abs() <= tolerance
                 && (segment.to[1] - surface_z).abs() <= tolerance
                 && segment.to[0] > segment.from[0]

@@ -283,7 +283,7 @@ mod tests {
         let kernel = TimeKernel::new(soil, &segments, 0.4).unwrap();
         let loaded = [true, true, false, true, true, true, true, true];
         let mut history = BoundaryHistory::new(Box::new(kernel.clone()), &loaded);
-        let mut past: Vec<[Vec<f64>; 2]> = Vec::new();
+        let mut past_inputs: Vec<[Vec<f64>; 2]> = Vec::new();
         let mut coefficients = vec![];
         for lag in 0..400 {
             let mut g = vec![0.0; 64];
@@ -295,7 +295,7 @@ mod tests {
         for n in 0..400 {
             history.evaluate(&mut computed).unwrap();
             let mut expected = [0.0; 8];
-            for (m, [u, t]) in past.iter().enumerate() {
+            for (m, [u, t]) in past_inputs.iter().enumerate() {
                 let lag = &coefficients[n - m];
                 crate::linalg::dense_multiply_add(&lag[0], 1.0, t, &mut expected);
                 crate::linalg::dense_multiply_add(&lag[1], -1.0, u, &mut expected);
@@ -311,7 +311,7 @@ mod tests {
                 t.push(if is_loaded { (2.3 * phase).sin() } else { 0.0 });
             }
             history.push(&u, &t);
-            past.push([u, t]);
+            past_inputs.push([u, t]);
         }
         assert_eq!(history.steps(), 400);
     }

@@ -86,8 +86,9 @@ impl ConvolutionQuadrature {
     /// in which an S wave crosses the boundary. Pairs with the same view are evaluated once.
     ///
     /// # Errors
-    /// [`Error::Input`] for a time step or an element's length that is not finite and above zero, or for
-    /// coordinates that are not finite; [`Error::Size`] without elements.
+    /// [`Error::Input`] for a time step or an element's length that is not finite and above zero, for coordinates
+    /// that are not finite, or if an S wave needs 1e5 steps or more across the boundary; [`Error::Size`] without
+    /// elements.
     pub fn new(soil: Soil, segments: &[Segment], time_step: f64, method: CqMethod) -> Result<Self> {
         positive("time step", time_step)?;
         if segments.is_empty() {

@@ -68,7 +68,7 @@ pub struct FullPlaneGround {
     stable_time_step: Option<f64>,
     /// Whether there are both a motion of the scene and an incident field.
     has_two_motions: Cell<bool>,
-    prepared: Option<PreparedBoundary>,
+    prepared_boundary: Option<PreparedBoundary>,
 }
 
 short_debug! {
@@ -77,13 +77,13 @@ short_debug! {
     soil: self.soil,
     segments: self.boundary.segments().len(),
     elements: self.boundary.contact().len(),
-    prepared: self.prepared.is_some(),
+    prepared: self.prepared_boundary.is_some(),
 }
 
 impl FullPlaneGround {
     /// Ground of one strip of equal elements on a flat surface.
     ///
-    /// The strip has `count` elements over `range` (m), and `free` traction-free elements of the same length
+    /// The strip has `count` elements over `range` (m), and `free_count` traction-free elements of the same length
     /// on either side (the paper has 5).
     ///
     /// # Errors
@@ -92,9 +92,9 @@ impl FullPlaneGround {
         soil: Soil,
         range: std::ops::Range<f64>,
         count: usize,
-        free: usize,
+        free_count: usize,
     ) -> Result<Self> {
-        let boundary = Boundary::flat(&[Strip::uniform(range, count)?], free)?;
+        let boundary = Boundary::flat(&[Strip::uniform(range, count)?], free_count)?;
         Ok(Self::new(soil, boundary))
     }
 
@@ -114,7 +114,7 @@ impl FullPlaneGround {
             may_grow: false,
             stable_time_step: None,
             has_two_motions: Cell::new(false),
-            prepared: None,
+            prepared_boundary: None,
         }
     }
 
@@ -222,7 +222,9 @@ impl FullPlaneGround {
     ///
     /// They are relative to the incident field, and empty before [`Ground::prepare`].
     pub fn displacement(&self) -> &[f64] {
-        self.prepared.as_ref().map_or(&[], |prepared| &prepared.displacement)
+        self.prepared_boundary
+            .as_ref()
+            .map_or(&[], |prepared_boundary| &prepared_boundary.displacement)
     }
 }
 
@@ -248,10 +250,10 @@ impl Ground for FullPlaneGround {
         let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
         self.check_growth(kernel.as_ref(), time_step)?;
         let has_incident_field = self.incident.is_some();
-        let mut prepared =
+        let mut prepared_boundary =
             PreparedBoundary::new(&self.boundary, kernel, time_step, has_incident_field)?;
-        prepared.history.prepare(steps.unwrap_or(0))?;
-        self.prepared = Some(prepared);
+        prepared_boundary.history.prepare(steps.unwrap_or(0))?;
+        self.prepared_boundary = Some(prepared_boundary);
         self.has_two_motions.set(false);
         Ok(())
     }
@@ -263,15 +265,19 @@ impl Ground for FullPlaneGround {
 
     /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
+        let Some(prepared_boundary) = &self.prepared_boundary else {
+            return Err(NOT_PREPARED);
+        };
         let contact_layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len());
         same_length("step compliance", matrix.len(), contact_layout.matrix_len())?;
-        self.boundary.compliance(&prepared.contact_compliance.columns, matrix);
+        self.boundary.compliance(&prepared_boundary.contact_compliance.columns, matrix);
         Ok(())
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
+        let Some(prepared_boundary) = &mut self.prepared_boundary else {
+            return Err(NOT_PREPARED);
+        };
         if self.has_two_motions.get() {
             return Err(TWO_GROUND_MOTIONS);
         }
@@ -281,21 +287,21 @@ impl Ground for FullPlaneGround {
             displacement.len(),
             contact_rows.clone().count(),
         )?;
-        prepared.update_history_displacement(&self.boundary, self.incident.as_deref())?;
+        prepared_boundary.update_history_displacement(&self.boundary, self.incident.as_deref())?;
         for (value, row) in displacement.iter_mut().zip(contact_rows) {
-            *value = prepared.history_displacement[row];
+            *value = prepared_boundary.history_displacement[row];
         }
         Ok(())
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        if let Some(prepared) = &mut self.prepared {
+        if let Some(prepared_boundary) = &mut self.prepared_boundary {
             // If this fails, the next history fails in the same way.
-            if prepared
+            if prepared_boundary
                 .update_history_displacement(&self.boundary, self.incident.as_deref())
                 .is_ok()
             {
-                prepared.commit(&self.boundary, traction);
+                prepared_boundary.commit(&self.boundary, traction);
             }
         }
     }

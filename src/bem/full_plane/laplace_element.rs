@@ -92,17 +92,17 @@ pub(super) fn integrate(plane: &LaplacePlane, view: &ElementView) -> ViewBlock {
 /// The series of the logarithm is integrated exactly, the remaining interval by pieces.
 fn add_self_integrals(plane: &LaplacePlane, line: &BoundaryLine, block: &mut ViewBlock) {
     let end = line.high;
-    let near = end.min(MAX_SERIES_ARGUMENT / plane.shear.norm());
+    let series_end = end.min(MAX_SERIES_ARGUMENT / plane.shear.norm());
     let pressure_weight = plane.weights[0];
     let shear_weight = plane.weights[1];
-    let shear = bessel_series(plane.shear * near, true);
-    let pressure = bessel_series(plane.pressure * near, true);
+    let shear = bessel_series(plane.shear * series_end, true);
+    let pressure = bessel_series(plane.pressure * series_end, true);
     let mut psi =
-        near * (shear_weight * (shear.k0 + shear.kappa) - pressure_weight * pressure.kappa);
-    let mut chi = near
+        series_end * (shear_weight * (shear.k0 + shear.kappa) - pressure_weight * pressure.kappa);
+    let mut chi = series_end
         * (shear_weight * (shear.k0 + 2.0 * shear.kappa)
             - pressure_weight * (pressure.k0 + 2.0 * pressure.kappa));
-    add_pieces(near, end, 0.0, plane, |xi, weight| {
+    add_pieces(series_end, end, 0.0, plane, |xi, weight| {
         let radial = plane.radial(xi);
         psi += radial.psi * weight;
         chi += radial.chi * weight;
@@ -165,8 +165,8 @@ const RULE_EXPONENT: f64 = 16.118;
 fn exponential_ellipse_size(q: f64) -> f64 {
     let mut error = std::f64::consts::PI;
     for n in 1..=MAX_EXPONENTIAL_POINTS {
-        let even = f64::from(2 * n);
-        error *= q * q / (4.0 * even * (even - 1.0));
+        let even_number = f64::from(2 * n);
+        error *= q * q / (4.0 * even_number * (even_number - 1.0));
         if error < RULE_TOLERANCE {
             return (RULE_EXPONENT / f64::from(n)).cosh();
         }

@@ -144,8 +144,8 @@ fn segment_view(point: [f64; 2], element: &Segment, is_self: bool) -> SegmentVie
 
 /// Components (x, z) of a block in the axes (d, n).
 fn rotate_block(block: [[f64; 2]; 2], axes: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let mut rotated = [[0.0; 2]; 2];
-    for (i, row) in rotated.iter_mut().enumerate() {
+    let mut rotated_block = [[0.0; 2]; 2];
+    for (i, row) in rotated_block.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {
             for a in 0..2 {
                 for b in 0..2 {
@@ -154,5 +154,5 @@ fn rotate_block(block: [[f64; 2]; 2], axes: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
             }
         }
     }
-    rotated
+    rotated_block
 }

@@ -81,7 +81,7 @@ fn smooth_rules(
     waves: &WaveConstants,
     ends: [f64; 2],
     h: f64,
-    begin: f64,
+    start: f64,
     end: f64,
 ) -> Option<SmoothRules> {
     let max_distance = ends[0].abs().max(ends[1].abs()).hypot(h);
@@ -99,16 +99,16 @@ fn smooth_rules(
         if c * end <= min_distance {
             break;
         }
-        if c * begin <= max_distance {
+        if c * start <= max_distance {
             return None;
         }
         passed_waves = waves_after_front;
-        let front = ((c * begin - h.abs()) * (c * begin + h.abs())).sqrt();
+        let front = ((c * start - h.abs()) * (c * start + h.abs())).sqrt();
         for point in [front, -front] {
             let ellipse_size = gauss::ellipse_size([point, 0.0], ends[0], ends[1]);
             space_ellipse_size = space_ellipse_size.min(ellipse_size);
         }
-        let ellipse_size = gauss::ellipse_size([max_distance / c, 0.0], begin, end);
+        let ellipse_size = gauss::ellipse_size([max_distance / c, 0.0], start, end);
         time_ellipse_size = time_ellipse_size.min(ellipse_size);
     }
     if passed_waves == PassedWaves::Pressure {

@@ -201,11 +201,12 @@ impl<'a> BoundarySymbol<'a> {
             let lag = interpolation_lag(first_late_lag, k);
             let x = first_late_lag / lag as f64;
             for (entry, exact) in self.scaled_lag(lag)?.iter().enumerate() {
-                let mut interpolated = 0.0;
+                let mut interpolated_value = 0.0;
                 for p in (0..TAIL_POWERS).rev() {
-                    interpolated = interpolated * x + self.late_coefficients[p * stride + entry];
+                    interpolated_value =
+                        interpolated_value * x + self.late_coefficients[p * stride + entry];
                 }
-                error = error.max((interpolated - exact).abs());
+                error = error.max((interpolated_value - exact).abs());
             }
         }
         // Converts back to (Gⁿ, Hⁿ) = Σ c_p (N/n)^p /N, with G unscaled.

@@ -26,19 +26,19 @@ const LAST_STEP: i32 = 32;
 
 /// Lag of the Chebyshev point `k`; the lag is between two points for a `k` between two integers.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "n ≥ N")]
-pub(super) fn interpolation_lag(first: f64, k: f64) -> usize {
+pub(super) fn interpolation_lag(first_lag: f64, k: f64) -> usize {
     let point = 0.5 + 0.5 * (PI * (k + 0.5) / TAIL_POWERS as f64).cos();
-    (first / point).ceil() as usize
+    (first_lag / point).ceil() as usize
 }
 
 /// Σ_{n≥first} ζⁿ (first/n)^p for p = 1 … [`TAIL_POWERS`].
-pub(super) fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; TAIL_POWERS] {
+pub(super) fn tail_sums(zeta: Complex64, first_lag: f64) -> [Complex64; TAIL_POWERS] {
     let mut sums = [Complex64::default(); TAIL_POWERS];
-    let factor = (zeta.ln() * first).exp() * LOGARITHM_STEP;
+    let factor = (zeta.ln() * first_lag).exp() * LOGARITHM_STEP;
     for k in FIRST_STEP..=LAST_STEP {
         let y = (LOGARITHM_STEP * f64::from(k)).exp();
         // dy = y d(ln y)
-        let mut term = factor * (-y).exp() * y / (1.0 - zeta * (-y / first).exp());
+        let mut term = factor * (-y).exp() * y / (1.0 - zeta * (-y / first_lag).exp());
         for (p, sum) in sums.iter_mut().enumerate() {
             *sum += term;
             term *= y / (p + 1) as f64;
@@ -66,8 +66,8 @@ mod tests {
         }
         // On the circle: Σ_{n≥1} ζⁿ/n = −ln(1−ζ).
         let zeta = Complex64::from_polar(1.0, 0.3);
-        let early: Complex64 = (1..64).map(|n| zeta.powi(n) / f64::from(n)).sum();
-        let sum = early + tail_sums(zeta, 64.0)[0] / 64.0;
+        let early_sum: Complex64 = (1..64).map(|n| zeta.powi(n) / f64::from(n)).sum();
+        let sum = early_sum + tail_sums(zeta, 64.0)[0] / 64.0;
         assert!((sum + (1.0 - zeta).ln()).norm() < 1e-13);
     }
 }

@@ -60,9 +60,9 @@ impl TimeKernel {
     /// Kernel for a soil, elements and steps of `time_step` seconds.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Input`](crate::Error::Input) for an
-    /// element without length, an element that passes through the midpoint of another, or an invalid time
-    /// step.
+    /// [`Error::Size`](crate::Error::Size) for no elements, [`Error::Memory`](crate::Error::Memory) for too many,
+    /// [`Error::Input`](crate::Error::Input) for an element without length, an element that passes through the
+    /// midpoint of another, or an invalid time step.
     pub fn new(soil: Soil, segments: &[Segment], time_step: f64) -> Result<Self> {
         check_segments(segments)?;
         positive("time step", time_step)?;
@@ -118,12 +118,12 @@ impl TimeKernel {
 
     /// Integrals of one element over the step at `lag`, in its axes.
     fn lag_integrals(&self, ends: [f64; 2], h: f64, lag: usize) -> SegmentIntegrals {
-        let begin = lag as f64 * self.time_step;
+        let start = lag as f64 * self.time_step;
         let end = (lag as f64 + 1.0) * self.time_step;
         if let Some(rule) = self.subelements {
-            return self.subelement_integrals(ends, h, [begin, end], rule);
+            return self.subelement_integrals(ends, h, [start, end], rule);
         }
-        self.exact_integrals(ends, h, [begin, end])
+        self.exact_integrals(ends, h, [start, end])
     }
 
     /// Integrals between two times after the load began.

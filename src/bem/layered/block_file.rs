@@ -144,11 +144,11 @@ fn read_contents(
         check_sum.add(u64::from_le_bytes(*word));
     }
     if check_sum.value() != u64::from_le_bytes(*stored_check_sum) {
-        return Err(damaged());
+        return Err(damage_fault());
     }
     let mut numbers = data.iter().map(|word| f64::from_le_bytes(*word));
     if !numbers.clone().all(f64::is_finite) {
-        return Err(damaged());
+        return Err(damage_fault());
     }
     Ok(divide_into_blocks(&mut numbers, block_count, component_count * class_count))
 }
@@ -185,7 +185,7 @@ fn wrong_length(found: u64, needed: Option<u64>) -> FileFault {
 }
 
 /// Fault of a file whose check sum differs.
-fn damaged() -> FileFault {
+fn damage_fault() -> FileFault {
     FileFault::Damaged { quantity: "file".into() }
 }
 

@@ -7,7 +7,7 @@
 //! | 0, 1 | "BASEMATK", format |
 //! | 2 | fingerprint of the kernel |
 //! | 3, 4 | numbers of classes of pairs and of blocks |
-//! | from 5 | convolution weights: by block, class, component (zz, xx, zx), lag |
+//! | from 5 | convolution weights: by block, class, component, lag |
 //! | last | check sum of all previous words |
 //!
 //! The fingerprint is a hash of all bits of the mobility at the points of the passivity check, of time step, stages,
@@ -71,7 +71,7 @@ impl BlockStore {
     }
 
     /// Part of a range of blocks from the first missing block on.
-    pub(crate) fn missing(&self, range: Range<usize>) -> Range<usize> {
+    pub(crate) fn missing_blocks(&self, range: Range<usize>) -> Range<usize> {
         let stored_count =
             range.clone().take_while(|block_index| self.has_block(*block_index)).count();
         range.start + stored_count..range.end

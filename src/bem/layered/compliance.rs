@@ -185,9 +185,9 @@ impl LayeredCompliance {
     /// Surface compliance at the wavenumber `k` > 0, 1/m.
     pub(crate) fn at(&mut self, k: f64) -> SurfaceCompliance {
         let decay_exponent = self.find_roots(k);
-        let last = self.roots.len() - 1;
+        let last_index = self.roots.len() - 1;
         let mut top = self.lowest_state(k, decay_exponent);
-        for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
+        for (layer, roots) in self.layers[..last_index].iter().zip(&self.roots).rev() {
             let z = top.stress.times_inverse(top.displacement);
             if layer.is_thin(k) {
                 top = layer
@@ -226,22 +226,22 @@ impl LayeredCompliance {
 
     /// Displacements and stresses at the top of the lowest layer that affects the surface.
     fn lowest_state(&self, k: f64, decay_exponent: f64) -> PlaneState {
-        let last = self.roots.len() - 1;
-        let lowest = &self.layers[last];
+        let last_index = self.roots.len() - 1;
+        let lowest_layer = &self.layers[last_index];
         // A layer whose bottom does not affect the surface is a half-plane.
         let is_half_plane =
-            lowest.thickness.is_infinite() || decay_exponent > OPAQUE_DECAY_EXPONENT;
-        if !is_half_plane && lowest.is_thin(k) {
+            lowest_layer.thickness.is_infinite() || decay_exponent > OPAQUE_DECAY_EXPONENT;
+        if !is_half_plane && lowest_layer.is_thin(k) {
             let rigid_bottom =
                 PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
-            return lowest.top_state(k, rigid_bottom);
+            return lowest_layer.top_state(k, rigid_bottom);
         }
-        let waves = LayerWaves::new(lowest, k, self.roots[last]);
+        let waves = LayerWaves::new(lowest_layer, k, self.roots[last_index]);
         if is_half_plane {
             return waves.down;
         }
         let reflection = waves.up().displacement.solve(waves.down.displacement).negative();
-        waves.top_state(lowest, reflection)
+        waves.top_state(lowest_layer, reflection)
     }
 
     /// Transverse compliance `C_tt` = 1/Z at the wavenumber of the last evaluation, m/Pa.
@@ -340,11 +340,11 @@ impl LayerWaves {
 
     /// Displacements and stresses at the layer's top for the reflection matrix R at its bottom.
     fn top_state(&self, layer: &LaplaceLayer, reflection: Square) -> PlaneState {
-        let returned = self.transfer(layer.thickness).reflected(reflection);
+        let returned_waves = self.transfer(layer.thickness).reflected(reflection);
         let up = self.up();
         PlaneState {
-            displacement: self.down.displacement.plus(up.displacement.times(returned)),
-            stress: self.down.stress.plus(up.stress.times(returned)),
+            displacement: self.down.displacement.plus(up.displacement.times(returned_waves)),
+            stress: self.down.stress.plus(up.stress.times(returned_waves)),
         }
     }
 
@@ -354,7 +354,7 @@ impl LayerWaves {
         let x = self.root_difference.scale(-h);
         if x.squared_modulus() > PHI_SERIES_LIMIT_SQUARED {
             let shear = self.beta.scale(-h).exp();
-            return Transfer { pressure, shear, mixed: (pressure - shear) / self.root_difference };
+            return Transfer { pressure, shear, g: (pressure - shear) / self.root_difference };
         }
         // e^(−βh) = e^(−αh) eˣ, with eˣ from the series of φ₁(x) = (eˣ − 1)/x.
         let mut phi = Complex::real(1.0);
@@ -362,7 +362,7 @@ impl LayerWaves {
             phi = Complex::real(1.0) + (phi * x).scale(1.0 / f64::from(n));
         }
         let shear = pressure * (Complex::real(1.0) + x * phi);
-        Transfer { pressure, shear, mixed: (pressure * phi).scale(h) }
+        Transfer { pressure, shear, g: (pressure * phi).scale(h) }
     }
 }
 
@@ -373,7 +373,7 @@ struct Transfer {
     /// Decay e^(−βh).
     shear: Complex,
     /// Entry g, m.
-    mixed: Complex,
+    g: Complex,
 }
 
 impl Transfer {
@@ -382,16 +382,16 @@ impl Transfer {
         let Square([a, b, c, d]) = r;
         // Λ R.
         let product = [
-            self.pressure * a - self.mixed * c,
-            self.pressure * b - self.mixed * d,
+            self.pressure * a - self.g * c,
+            self.pressure * b - self.g * d,
             self.shear * c,
             self.shear * d,
         ];
         Square([
             product[0] * self.pressure,
-            product[1] * self.shear - product[0] * self.mixed,
+            product[1] * self.shear - product[0] * self.g,
             product[2] * self.pressure,
-            product[3] * self.shear - product[2] * self.mixed,
+            product[3] * self.shear - product[2] * self.g,
         ])
     }
 }

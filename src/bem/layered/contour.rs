@@ -235,8 +235,10 @@ fn is_resolved<const KINDS: usize>(
         }
         class_magnitudes.push(min_magnitude);
     }
-    let [.., next_to_last, last] = &rows_by_degree[..] else { return false };
-    next_to_last.iter().zip(*last).zip(self_pairs).all(|((one, two), classes)| {
+    let [.., next_to_last_row, last_row] = &rows_by_degree[..] else {
+        return false;
+    };
+    next_to_last_row.iter().zip(*last_row).zip(self_pairs).all(|((one, two), classes)| {
         let magnitudes = classes.map(|class| class_magnitudes[class]);
         let max_sum = limit * magnitudes.iter().product::<f64>().sqrt();
         one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= max_sum)

@@ -92,9 +92,9 @@ pub(crate) fn last_coefficients<const N: usize>(
 /// Largest allowed errors of the integral over a panel.
 struct MaxErrors {
     /// Error on panels wider than the narrowest.
-    wide: f64,
+    wide_panel: f64,
     /// Error on the narrowest panels and their halves.
-    narrow: f64,
+    narrow_panel: f64,
 }
 
 impl Wavenumbers {
@@ -113,7 +113,8 @@ impl Wavenumbers {
             loop {
                 let start_and_width = self.forms.start_and_width(panel);
                 let is_narrow = panel.level == 0;
-                let max_error = if is_narrow { max_errors.narrow } else { max_errors.wide };
+                let max_error =
+                    if is_narrow { max_errors.narrow_panel } else { max_errors.wide_panel };
                 if self.is_resolved(&samples, start_and_width, max_error) {
                     use_panel(panel, PanelResult::Samples(&samples));
                 } else if is_narrow {
@@ -139,10 +140,10 @@ impl Wavenumbers {
         stack: &mut Vec<Panel>,
         mut use_panel: impl FnMut(Panel),
     ) {
-        let widest = panel_count_step(panel_count);
-        let level = widest.ilog2();
+        let panel_step = panel_count_step(panel_count);
+        let level = panel_step.ilog2();
         stack.clear();
-        stack.extend((0..panel_count / widest).rev().map(|index| Panel { level, index }));
+        stack.extend((0..panel_count / panel_step).rev().map(|index| Panel { level, index }));
         while let Some(panel) = stack.pop() {
             let start = self.forms.start_and_width(panel)[0];
             // Near k = 0 the four waves of a wide panel nearly cancel.
@@ -175,8 +176,8 @@ impl Wavenumbers {
         });
         buffers.evaluation_count += PANEL_POINTS * buffers.samples.len();
         MaxErrors {
-            wide: self.tolerance * integral_magnitude,
-            narrow: self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_magnitude,
+            wide_panel: self.tolerance * integral_magnitude,
+            narrow_panel: self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_magnitude,
         }
     }
 

@@ -98,9 +98,9 @@ impl Stages {
             let continuous_value =
                 -z.ln() + Complex::new(0.0, std::f64::consts::TAU * index as f64);
             let distances = roots.map(|root| (root - continuous_value).squared_modulus());
-            let nearest =
+            let nearest_index =
                 (index..self.count()).min_by(|&a, &b| distances[a].total_cmp(&distances[b]));
-            roots.swap(index, nearest.unwrap_or(index));
+            roots.swap(index, nearest_index.unwrap_or(index));
         }
         roots.into_iter().take(self.count()).map(move |lambda| {
             let slope = derivative(q, lambda) - z * derivative(p, lambda);
@@ -299,11 +299,11 @@ mod tests {
         {
             let theta: f64 = 0.05;
             let CirclePoint { z, one_less_z } = on_circle(0.0, theta);
-            let smallest = stages
+            let smallest_node = stages
                 .nodes(z, one_less_z)
                 .min_by(|a, b| a.lambda.squared_modulus().total_cmp(&b.lambda.squared_modulus()))
                 .unwrap();
-            let error = (smallest.lambda - Complex::new(0.0, -theta)).abs();
+            let error = (smallest_node.lambda - Complex::new(0.0, -theta)).abs();
             assert!(
                 (error / (constant * theta.powi(order)) - 1.0).abs() < 0.1,
                 "{stages:?} {error:e}"

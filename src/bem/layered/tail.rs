@@ -259,9 +259,9 @@ mod tests {
     #[test]
     fn panel_counts_are_rounded_up_by_at_most_an_eighth() {
         for n in 1..5000 {
-            let rounded = rounded_panel_count(n);
-            assert!(rounded >= n && rounded <= n + n / 8, "{n} {rounded}");
-            assert_eq!(rounded_panel_count(rounded), rounded);
+            let rounded_count = rounded_panel_count(n);
+            assert!(rounded_count >= n && rounded_count <= n + n / 8, "{n} {rounded_count}");
+            assert_eq!(rounded_panel_count(rounded_count), rounded_count);
         }
     }
 }

@@ -32,11 +32,11 @@ pub(in crate::bem) fn on_threads<T: Send, W: Default>(
         let mut workspace = W::default();
         while !is_stopped.load(Ordering::Relaxed) {
             // The queue stays valid if a thread panics.
-            let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((index, item)) = next else { break };
+            let next_item = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((index, item)) = next_item else { break };
             compute(&mut workspace, item).map_err(|error| (index, error))?;
-            let completed = completed_count.fetch_add(1, Ordering::Relaxed) + 1;
-            report(completed).map_err(|error| (index, error))?;
+            let new_count = completed_count.fetch_add(1, Ordering::Relaxed) + 1;
+            report(new_count).map_err(|error| (index, error))?;
         }
         Ok(())
     };
@@ -110,7 +110,7 @@ mod tests {
         Ok(())
     }
 
-    fn stop_after_three(completed: usize) -> Result<()> {
-        positive("remaining items", 3.0 - completed as f64).map(|_| ())
+    fn stop_after_three(completed_count: usize) -> Result<()> {
+        positive("remaining items", 3.0 - completed_count as f64).map(|_| ())
     }
 }

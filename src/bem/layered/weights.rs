@@ -97,31 +97,31 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         })
     }
 
-    /// Error unless the blocks up to the last of the `missing` blocks fit into memory.
-    fn check_memory(&self, missing: &Range<usize>) -> Result<()> {
-        if missing.is_empty() {
+    /// Error unless the blocks up to the last of `missing_blocks` fit into memory.
+    fn check_memory(&self, missing_blocks: &Range<usize>) -> Result<()> {
+        if missing_blocks.is_empty() {
             return Ok(());
         }
-        let last_lag = LagBlock::last_lag(missing.end - 1) as f64;
-        let memory_bytes = self.quadrature.memory_bytes(missing.end);
+        let last_lag = LagBlock::last_lag(missing_blocks.end - 1) as f64;
+        let memory_bytes = self.quadrature.memory_bytes(missing_blocks.end);
         Ok(memory::check("lags of a layered ground", last_lag, memory_bytes)?)
     }
 
     /// Computes the missing blocks up to `last_lag`.
     fn compute(&self, last_lag: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let last = block_index(last_lag.max(1))?;
-        let missing = self.blocks.missing(0..last + 1);
-        self.check_memory(&missing)?;
+        let last_index = block_index(last_lag.max(1))?;
+        let missing_blocks = self.blocks.missing_blocks(0..last_index + 1);
+        self.check_memory(&missing_blocks)?;
         // The numbers are upper limits: with panels of the circle, a long block needs far fewer samples.
-        let mut sample_counts = vec![0; last + 1];
-        for index in missing {
+        let mut sample_counts = vec![0; last_index + 1];
+        for index in missing_blocks {
             sample_counts[index] = self.quadrature.max_samples(index);
         }
         let total_count = I::PASSIVITY_POINTS + sample_counts.iter().sum::<usize>();
         let mut progress =
             ProgressReporter::new("convolution weights of layered ground", total_count, observer);
         let fingerprint = self.check_passivity(&mut progress)?;
-        let is_complete = self.blocks.missing(0..last + 1).is_empty();
+        let is_complete = self.blocks.missing_blocks(0..last_index + 1).is_empty();
         let mut completed_count = I::PASSIVITY_POINTS;
         progress.reach(completed_count)?;
         for (index, sample_count) in sample_counts.into_iter().enumerate() {

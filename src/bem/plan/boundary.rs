@@ -151,8 +151,8 @@ impl ShiftedEdge {
 
     /// Largest allowed fraction of an extension, with which the edge loses at most half its length.
     fn allowed_fraction(&self, extension: f64, max_extension: f64) -> f64 {
-        let allowed = if extension < 0.0 { 0.5 * self.length } else { max_extension };
-        allowed / extension.abs()
+        let allowed_extension = if extension < 0.0 { 0.5 * self.length } else { max_extension };
+        allowed_extension / extension.abs()
     }
 }
 
@@ -209,9 +209,9 @@ fn corners(points: &PointIndex, line: &[usize]) -> Option<Vec<Point>> {
     let mut corners = vec![line_points[start]];
     for k in 1..line_points.len() {
         let point = line_points[(start + k) % line_points.len()];
-        let next = line_points[(start + k + 1) % line_points.len()];
+        let next_point = line_points[(start + k + 1) % line_points.len()];
         let last_corner = corners[corners.len() - 1];
-        if points.position_on_edge([last_corner, next], point).is_none() {
+        if points.position_on_edge([last_corner, next_point], point).is_none() {
             corners.push(point);
         }
     }

@@ -55,7 +55,7 @@ pub struct Plan {
     shorter_side_cells: usize,
     /// Contact element of each cell; `None` if each cell is one element.
     pub(super) cell_elements: Option<Vec<usize>>,
-    /// Contact element of each cell at the outline; empty if no cell is cut.
+    /// Contact element of each cell; empty if no cell is cut.
     pub(super) cut_cells: Vec<CutCell>,
 }
 
@@ -63,7 +63,7 @@ impl Plan {
     /// Plan of a rectangle (m), with `cells` along its shorter side.
     ///
     /// # Errors
-    /// As for [`Plan::on_faces`].
+    /// [`Error::Input`] for an empty range; as for [`Plan::on_faces`].
     pub fn rectangle(x: Range<f64>, y: Range<f64>, cells: usize) -> Result<Self> {
         positive("length of a mat along x", x.end - x.start)?;
         positive("length of a mat along y", y.end - y.start)?;

@@ -47,7 +47,7 @@ const BAND_NODE_COUNT: usize = 16;
 /// Smallest product of wavenumber and shorter side of a cell for which the rule is accurate.
 ///
 /// Branch points of the path add an error of e^(−2π√(kR)/[`PATH_STEP_FACTOR`]).
-const MIN_WAVENUMBER_SIDE: f64 = 16.0;
+const MIN_WAVENUMBER_TIMES_SIDE: f64 = 16.0;
 
 /// Form factors of a lattice at large wavenumbers, as waves from corners of cells.
 #[derive(Debug)]
@@ -80,7 +80,7 @@ pub(super) struct WaveBuffers {
 impl CornerWaves {
     /// Smallest wavenumber at which the waves are accurate to rounding, 1/m.
     pub(super) fn min_wavenumber(lattice: &Lattice) -> f64 {
-        MIN_WAVENUMBER_SIDE / lattice.shorter_side()
+        MIN_WAVENUMBER_TIMES_SIDE / lattice.shorter_side()
     }
 
     /// Waves from `first_wavenumber` up to `last_wavenumber`, 1/m.
@@ -385,7 +385,7 @@ mod tests {
                 waves.fill_forms(&wavenumbers, &mut buffers);
                 // Forms of a row or column decrease like k⁻³.
                 let scale = (pitch[0] * pitch[1]).powi(2)
-                    * (wavenumber_ratio * MIN_WAVENUMBER_SIDE).powi(-3);
+                    * (wavenumber_ratio * MIN_WAVENUMBER_TIMES_SIDE).powi(-3);
                 let rows = buffers.values.chunks_exact(FORM_COUNT * waves.classes.len());
                 for (k, row) in wavenumbers.into_iter().zip(rows) {
                     for (computed, expected) in row.iter().zip(means.at(k)) {

@@ -245,9 +245,9 @@ mod tests {
     /// Two mats side by side, and a third mat whose rows end between the rows of the two.
     #[test]
     fn cells_of_a_mat_follow_one_another() {
-        let sorted = sort_by_mat(&cells("##.###.#.....##.", 4));
+        let sorted_cells = sort_by_mat(&cells("##.###.#.....##.", 4));
         let expected = [[0, 0], [1, 0], [0, 1], [1, 1], [3, 0], [3, 1], [1, 3], [2, 3]];
-        assert_eq!(sorted, expected);
+        assert_eq!(sorted_cells, expected);
         // A ring and cells that share corners are one mat.
         for text in ["####.##.", "#..##..#"] {
             let cells = cells(text, 3);
@@ -257,7 +257,7 @@ mod tests {
 
     /// Cells marked by `#` in rows of `columns` characters.
     fn cells(text: &str, columns: usize) -> Vec<[usize; 2]> {
-        let marked = text.bytes().enumerate().filter(|(_, mark)| *mark == b'#');
-        marked.map(|(index, _)| [index % columns, index / columns]).collect()
+        let marked_cells = text.bytes().enumerate().filter(|(_, mark)| *mark == b'#');
+        marked_cells.map(|(index, _)| [index % columns, index / columns]).collect()
     }
 }

@@ -33,9 +33,9 @@ const MIN_K_PER_ROOT: f64 = 2.5;
 /// Largest change of a form's phase over a panel, rad, which 16 Gauss points resolve to rounding.
 const PANEL_PHASE: f64 = 16.0;
 /// Smallest product of K and the shorter side of a cell, beyond which static forms are small.
-const MIN_K_SIDE: f64 = 8.0;
+const MIN_K_TIMES_SIDE: f64 = 8.0;
 /// Product of K* and the shorter side of a cell for |√q₂| = 2/side, with which the error beyond K* is small.
-const TABLE_END_SIDE: f64 = 64.0;
+const TABLE_END_TIMES_SIDE: f64 = 64.0;
 /// Smallest ratio of K* to |√q₂|, for a fast decay of the series beyond K*.
 const MIN_END_PER_ROOT: f64 = 4.0;
 /// Smallest ratio of K* to the largest K, so that sums beyond K have panels over which to decrease to zero.
@@ -116,7 +116,7 @@ pub(super) struct FormTable {
     pub(super) rule: Rule,
     /// Legendre polynomials at the Gauss points.
     pub(super) polynomials: Vec<[f64; LEGENDRE_DEGREES]>,
-    tabulated: OnceLock<TabulatedForms>,
+    tabulated_forms: OnceLock<TabulatedForms>,
     /// Legendre coefficients of a panel.
     legendre: Vec<OnceLock<FormRows>>,
     /// Smallest K at which the bottom of the top layer does not affect the surface, 1/m.
@@ -180,7 +180,7 @@ impl FormTable {
             panel_width,
             rule: Rule::new(PANEL_POINTS),
             polynomials: vec![],
-            tabulated: OnceLock::new(),
+            tabulated_forms: OnceLock::new(),
             legendre: vec![],
             top_layer_wavenumber,
             panel_count: 0,
@@ -190,11 +190,12 @@ impl FormTable {
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let side = lattice.shorter_side();
         let cell_count = (lattice.counts[0] * lattice.counts[1]) as f64;
-        let max_k = (MIN_K_SIDE / side).max(top_layer_wavenumber).max(MIN_K_PER_ROOT * max_root);
+        let max_k =
+            (MIN_K_TIMES_SIDE / side).max(top_layer_wavenumber).max(MIN_K_PER_ROOT * max_root);
         // The error beyond K* is about q₂ K*⁻⁵. Compliances decrease like 1/|√q₂| from |√q₂| = 2/side on.
         let relative_root = 0.5 * max_root * side;
         let exponent = if relative_root < 1.0 { 0.4 } else { 0.6 };
-        let accurate_end = TABLE_END_SIDE / side * relative_root.powf(exponent);
+        let accurate_end = TABLE_END_TIMES_SIDE / side * relative_root.powf(exponent);
         let table_end = accurate_end.max(MIN_END_PER_ROOT * max_root).max(MIN_END_PER_K * max_k);
         let direct_end = direct_panel_count as f64 * panel_width;
         table.check_operations(table_end, direct_end, cell_count)?;
@@ -231,7 +232,7 @@ impl FormTable {
 
     /// Number of panels up to K for a |√q₂|.
     pub(super) fn panels_to_k(&self, root: f64) -> usize {
-        let resolved_wavenumber = MIN_K_SIDE / self.lattice.shorter_side();
+        let resolved_wavenumber = MIN_K_TIMES_SIDE / self.lattice.shorter_side();
         let min_k = resolved_wavenumber.max(self.top_layer_wavenumber).max(MIN_K_PER_ROOT * root);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let count = (min_k / self.panel_width).ceil() as usize;
@@ -263,7 +264,7 @@ impl FormTable {
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
     pub(super) fn tabulate(&self, progress: &mut ProgressReporter) -> Result<()> {
-        if self.tabulated.get().is_some() {
+        if self.tabulated_forms.get().is_some() {
             return Ok(());
         }
         let class_count = self.class_count;
@@ -272,7 +273,7 @@ impl FormTable {
         let panels_to_k = self.panels_to_k(0.0)..=self.max_panels_to_k();
         let max_panels_to_k = *panels_to_k.end();
         let values = FormRows::new(max_panels_to_k * PANEL_POINTS, class_count);
-        let mut tabulated = TabulatedForms { values, tails: vec![] };
+        let mut tabulated_forms = TabulatedForms { values, tails: vec![] };
         let mut sums = FormRows::new(TAIL_TERMS, class_count);
         // The factor of the sums decreases to zero towards K*, because an abrupt end would cause oscillations.
         let fade_start = self.panel_width * max_panels_to_k.max(self.panel_count / 2) as f64;
@@ -283,7 +284,7 @@ impl FormTable {
             for (i, (node, point_values)) in self.rule.nodes.iter().zip(rows).enumerate() {
                 let k = self.wavenumber(panel, *node);
                 if panel < max_panels_to_k {
-                    tabulated.values.set(panel * PANEL_POINTS + i, point_values);
+                    tabulated_forms.values.set(panel * PANEL_POINTS + i, point_values);
                 }
                 let removed_fraction = smooth_step((k - fade_start) / (fade_end - fade_start));
                 let mut weight = 0.5 * self.panel_width * self.rule.weights[i];
@@ -296,12 +297,12 @@ impl FormTable {
             }
             if panels_to_k.contains(&panel) && rounded_panel_count(panel) == panel {
                 let forms = sums.forms.clone();
-                tabulated.tails.push((panel, FormRows { forms, class_count }));
+                tabulated_forms.tails.push((panel, FormRows { forms, class_count }));
             }
         })?;
-        self.add_removed_parts(&sums, &removed_integrals, &mut tabulated.tails);
+        self.add_removed_parts(&sums, &removed_integrals, &mut tabulated_forms.tails);
         // If another thread has stored the table first, both tables are equal.
-        let _ = self.tabulated.set(tabulated);
+        let _ = self.tabulated_forms.set(tabulated_forms);
         Ok(())
     }
 
@@ -340,14 +341,14 @@ impl FormTable {
         let panels: Vec<_> = (0..self.panel_count).rev().collect();
         let mut batch_values = vec![vec![]; PANEL_BATCH_SIZE];
         for batch in panels.chunks(PANEL_BATCH_SIZE) {
-            let fill = |forms: &mut Option<_>, (panel, values): (&usize, &mut Vec<f64>)| {
+            let fill_panel = |forms: &mut Option<_>, (panel, values): (&usize, &mut Vec<f64>)| {
                 let panel_forms = forms.get_or_insert_with(|| PanelForms::new(self));
                 values.clear();
                 values.extend_from_slice(panel_forms.forms(*panel, &self.rule.nodes));
                 Ok(())
             };
             let jobs = batch.iter().zip(&mut batch_values);
-            on_threads(thread_count(), jobs, fill, |_| progress.reach(0))?;
+            on_threads(thread_count(), jobs, fill_panel, |_| progress.reach(0))?;
             for (panel, values) in batch.iter().zip(&batch_values) {
                 use_panel(*panel, values);
             }
@@ -356,8 +357,8 @@ impl FormTable {
     }
 
     /// Forms at all points, and integrals beyond `panel_count` panels; `None` before [`FormTable::tabulate`].
-    pub(super) fn tabulated(&self, panel_count: usize) -> Option<[&FormRows; 2]> {
-        let TabulatedForms { values, tails } = self.tabulated.get()?;
+    pub(super) fn tabulated_forms(&self, panel_count: usize) -> Option<[&FormRows; 2]> {
+        let TabulatedForms { values, tails } = self.tabulated_forms.get()?;
         let (_, tail) = tails.iter().find(|(count, _)| *count == panel_count)?;
         Some([values, tail])
     }

@@ -331,11 +331,11 @@ mod tests {
                     }
                 }
             }
-            let whole = integrals(pitch, offset);
-            for (computed, expected) in whole.iter().zip(sums) {
+            let whole_integrals = integrals(pitch, offset);
+            for (computed, expected) in whole_integrals.iter().zip(sums) {
                 assert!((computed - expected).abs() < 1e-14, "{offset:?} {computed} {expected}");
             }
-            assert!((whole[0] - whole[1] - whole[2]).abs() < 1e-15);
+            assert!((whole_integrals[0] - whole_integrals[1] - whole_integrals[2]).abs() < 1e-15);
         }
         let unit_square = integrals([1.0, 1.0], [0, 0]);
         let expected = 4.0 * (1.0_f64.asinh() - (2.0_f64.sqrt() - 1.0) / 3.0);

@@ -71,7 +71,8 @@ const MATRIX_ENTRY_COUNT: usize = RIGID_MOTION_COUNT * RIGID_MOTION_COUNT;
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
+/// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite;
+/// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers; [`PlanError::CoarseCells`]
 /// for less than six cells per wavelength of shear waves in the top layer;
 /// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) without damping at a frequency at which guided
 /// waves begin; [`GroundError::TooFine`](crate::bem::GroundError::TooFine) for a top layer that is too thin relative to the mat;

@@ -206,7 +206,7 @@ impl CellIntegrals {
         let series = kernel_series(top.a2);
         let top_compliance = top.modulus.inverse();
         let panel_count = self.table.panels_to_k(ground.root());
-        let Some([values, tail]) = self.table.tabulated(panel_count) else {
+        let Some([values, tail]) = self.table.tabulated_forms(panel_count) else {
             let width = self.table.panel_width;
             let span = self.table.span();
             let wavenumber = panel_count as f64 * width;

@@ -139,23 +139,23 @@ pub(super) fn assign_cells(
     for (index, cell_mat) in cell_mats.iter_mut().enumerate() {
         let cell = [index % grid.counts[0], index / grid.counts[0]];
         let mut largest_mat = 0;
-        let mut largest =
+        let mut largest_part =
             MatCell { cell, shifted_part: CellPart::EMPTY_PART, inside_fraction: 0.0 };
         for (mat, area) in areas.iter_mut().enumerate() {
             let shifted_part = shifted_regions[mat].part(cell);
             if !shifted_part.is_empty() {
                 let inside_fraction = regions[mat].part(cell).area;
                 *area += inside_fraction;
-                if shifted_part.area > largest.shifted_part.area {
+                if shifted_part.area > largest_part.shifted_part.area {
                     largest_mat = mat;
-                    largest = MatCell { cell, shifted_part, inside_fraction };
+                    largest_part = MatCell { cell, shifted_part, inside_fraction };
                 }
             }
         }
-        let largest_area = largest.shifted_part.area;
+        let largest_area = largest_part.shifted_part.area;
         *cell_mat = (largest_area >= MIN_MEMBER_FRACTION).then_some(largest_mat);
         if largest_area >= MIN_INSIDE_FRACTION {
-            mat_cells[largest_mat].push(largest);
+            mat_cells[largest_mat].push(largest_part);
         }
     }
     let has_cut_cells = mat_cells.iter().flatten().any(|mat_cell| mat_cell.shifted_part.is_cut());

@@ -6,7 +6,8 @@
 //!
 //! e_pᵀ F e_q = |G| Σ χ(h) `F`_(p, hq)
 //!
-//! A rectangle needs only four systems for a quarter of the cells. With unions, p and q are elements.
+//! A rectangle needs only four systems, each with a quarter of the unknowns, or eight if the components are not all
+//! coupled. With elements of several cells, p and q are elements.
 
 use basemat_fourier::num_complex::Complex64;
 
@@ -22,7 +23,7 @@ const MIRROR_TOLERANCE: f64 = 1e-9;
 /// Memory per entry of the matrix of a sector, bytes: two matrices of complex numbers, one of them factored.
 const BYTES_PER_SECTOR_ENTRY: f64 = 32.0;
 
-/// Reflection of a plan in x, in y, or in both, which maps the plan to itself.
+/// Reflection in x, in y, in both, or in none, which maps the plan to itself.
 #[derive(Debug)]
 struct Reflection {
     /// Whether x and whether y change their sign.
@@ -362,10 +363,11 @@ mod tests {
             integrals.compliance(&profile, s, &mut workspace, &mut values).unwrap();
             let sectors = Sectors::new(&plan);
             assert_eq!(sectors.group.len(), group_order, "{plan:?}");
-            let unreduced = Sectors::with_reflections(&plan, &[[false; 2]]);
+            let sectors_without_symmetry = Sectors::with_reflections(&plan, &[[false; 2]]);
             for coupled_components in [&[&[0, 1, 2][..]][..], &[&[0], &[1, 2]]] {
                 let computed = sectors.stiffness(&values, coupled_components).unwrap();
-                let expected = unreduced.stiffness(&values, coupled_components).unwrap();
+                let expected =
+                    sectors_without_symmetry.stiffness(&values, coupled_components).unwrap();
                 for (a, b) in computed.iter().flatten().zip(expected.iter().flatten()) {
                     assert!((*a - *b).abs() < 1e-11, "{plan:?} {a:?} {b:?}");
                 }

@@ -30,13 +30,13 @@ const WEIGHT_ROUNDING: f64 = 1e-12;
 ///
 /// Without gravity it is the state without forces. The function commits this state to the structure's internal
 /// variables. `shared_compliance` receives the compliance of the condensed structure, or otherwise of a linear
-/// structure. If the condensed structure has no static state, `condensed` becomes `None`, and the state of the whole
+/// structure. If the condensed structure has no static state, `condensation` becomes `None`, and the state of the whole
 /// structure is computed. A structure with P–Δ that buckles on its ground is an error in every gravity stage, since it
 /// would overturn during the run.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,
-    condensed: &mut Option<Condensed>,
+    condensation: &mut Option<Condensed>,
     shared_compliance: &RefCell<Option<Compliance>>,
 ) -> Result<StaticState> {
     let mut state = StaticState::weightless(assembled.base.layout(), assembled.dofs());
@@ -54,7 +54,7 @@ pub(crate) fn solve(
             shared_compliance,
             may_shorten_increments: true,
         };
-        let condensed_state = condensed.as_ref().and_then(|condensed| {
+        let condensed_state = condensation.as_ref().and_then(|condensed| {
             let forces = [condensed.weight.as_slice(), &condensed.load];
             let mut state =
                 state_under_loads(parts, &condensed.assembled, ground, laws, forces).ok()?;
@@ -64,7 +64,7 @@ pub(crate) fn solve(
             Some(state)
         });
         if condensed_state.is_none() {
-            *condensed = None;
+            *condensation = None;
             *shared_compliance.borrow_mut() = None;
         }
         let is_soil_alone =
@@ -84,8 +84,8 @@ pub(crate) fn solve(
         let laws = &parts.builder.laws;
         let grounded =
             GroundedStructure { assembled, structure, ground_compliance: &ground_compliance, laws };
-        let condensed_structure = condensed.as_ref().map(|condensed| &condensed.assembled);
-        buckling::check(grounded, condensed_structure, &state)?;
+        let condensed_assembled = condensation.as_ref().map(|condensed| &condensed.assembled);
+        buckling::check(grounded, condensed_assembled, &state)?;
     }
     if parts.builder.has_static_loads()
         && let Some(force) = parts.structure.nonlinear_mut()
@@ -159,11 +159,11 @@ pub(super) fn loaded_state(
         jump_offset: &gaps,
         shared_compliance: &RefCell::default(),
         may_shorten_increments: true,
-        prescribed: None,
+        prescribed_displacement: None,
     };
     let forces: Vec<f64> = weight.iter().zip(&load).map(|(w, f)| w + f).collect();
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
-    let found = if forces.iter().all(|force| *force == 0.0) {
+    let (state, contacts) = if forces.iter().all(|force| *force == 0.0) {
         let mut state = StaticState::weightless(assembled.base.layout(), assembled.dofs());
         open_gaps(&mut state, &assembled.base, laws);
         let contacts = unloaded_contacts(laws, &state)?;
@@ -176,15 +176,15 @@ pub(super) fn loaded_state(
     if has_p_delta && !is_fixed_base(parts.ground.as_ref()) {
         let structure = parts.structure.as_ref();
         let grounded = GroundedStructure { assembled, structure, ground_compliance, laws };
-        buckling::check(grounded, None, &found.0)?;
+        buckling::check(grounded, None, &state)?;
     }
     if let Some(force) = parts.structure.nonlinear_mut() {
-        force.commit(&found.0.displacement);
+        force.commit(&state.displacement);
     }
-    Ok(LoadedState { state: found.0, contacts: found.1, forces })
+    Ok(LoadedState { state, contacts, forces })
 }
 
-/// A static state, and what further loads begin from.
+/// A static state, with the contacts from which further loads act.
 pub(super) struct LoadedState {
     pub(super) state: StaticState,
     pub(super) contacts: PreviousContacts,
@@ -193,18 +193,18 @@ pub(super) struct LoadedState {
 }
 
 /// Forces on the degrees of freedom at t = 0, N.
-struct StaticLoads {
+pub(super) struct StaticLoads {
     /// Load that the structure defines.
     structure_load: Vec<f64>,
-    /// Weight, including the loads that are applied with it.
-    weight: Vec<f64>,
+    /// Weight, including the loads and the water that are applied with it.
+    pub(super) weight: Vec<f64>,
     /// All other loads.
     load: Vec<f64>,
 }
 
 impl StaticLoads {
     /// Collects the loads of structure and builder at t = 0.
-    fn new(parts: &Parts, assembled: &Assembled) -> Result<Self> {
+    pub(super) fn new(parts: &Parts, assembled: &Assembled) -> Result<Self> {
         let Parts { structure, builder, .. } = parts;
         let dofs = assembled.dofs();
         let mut structure_load = vec![0.0; dofs];
@@ -224,6 +224,7 @@ impl StaticLoads {
                 }
             }
         }
+        weight.iter_mut().zip(&parts.water_force).for_each(|(sum, force)| *sum += force);
         for external_load in &builder.loads {
             let force = external_load.value(0.0);
             let sum = if external_load.is_weight() { &mut weight } else { &mut load };
@@ -279,7 +280,7 @@ pub(crate) fn state_under_loads(
         jump_offset: &gaps,
         shared_compliance: ground.shared_compliance,
         may_shorten_increments: ground.may_shorten_increments,
-        prescribed: None,
+        prescribed_displacement: None,
     };
     let has_walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
     let is_backfilled =

@@ -40,17 +40,17 @@ impl Subspace<'_> {
         let terms = self.extended_terms(&overlaps, &inertia, block_size, min_length);
         let total_count = vector_count + block_size;
         let extended_count = terms.len() / total_count;
-        let projected = |k: usize, border: &[f64], zero_columns: usize| {
-            let matrix = bordered(&self.projected[k], border, total_count, zero_columns);
+        let projected_matrix = |k: usize, border: &[f64], zero_columns: usize| {
+            let matrix = bordered(&self.projected_matrices[k], border, total_count, zero_columns);
             row_products(&row_products(&terms, &matrix, total_count), &terms, total_count)
         };
-        let matrices = if let Some(proportional) = self.proportional {
-            let border = self.stiffness_border(&overlaps, &inertia, first, c, proportional);
-            let stiffness = projected(1, &border, self.translation_count);
-            [proportional_damping(&stiffness, extended_count, proportional), stiffness]
+        let matrices = if let Some(damping_factors) = self.damping_factors {
+            let border = self.stiffness_border(&overlaps, &inertia, first, c, damping_factors);
+            let stiffness = projected_matrix(1, &border, self.translation_count);
+            [proportional_damping(&stiffness, extended_count, damping_factors), stiffness]
         } else {
-            let damping = projected(0, &self.border(0, block), 0);
-            [damping, projected(1, &self.border(1, block), self.translation_count)]
+            let damping = projected_matrix(0, &self.border(0, block), 0);
+            [damping, projected_matrix(1, &self.border(1, block), self.translation_count)]
         };
         let products = [products, &row_products(block, rows, order)].concat();
         let mut extended_products = vec![0.0; extended_count * row_count];
@@ -95,7 +95,7 @@ impl Subspace<'_> {
         &self,
         overlaps: &[f64],
         inertia: &[f64],
-        first: usize,
+        first_index: usize,
         c: &SchemeCoefficients,
         [beta, alpha]: [f64; 2],
     ) -> Vec<f64> {
@@ -109,12 +109,12 @@ impl Subspace<'_> {
         for row in 0..block_size {
             for vector in 0..total_count {
                 let (force_product, mass_product) = if vector < vector_count {
-                    let is_loaded = vector == first + row;
+                    let is_loaded = vector == first_index + row;
                     (f64::from(u8::from(is_loaded)), overlaps[row * vector_count + vector])
                 } else {
                     let column = vector - vector_count;
                     (
-                        overlaps[column * vector_count + first + row],
+                        overlaps[column * vector_count + first_index + row],
                         inertia[row * block_size + column],
                     )
                 };
@@ -175,21 +175,22 @@ mod tests {
         let rows: Vec<f64> = [wave(11), wave(13)].into_iter().flatten().collect();
         for is_proportional in [true, false] {
             let mut space = Subspace::new([&mass, &damping, &stiffness], vec![1.0; n], 0.0);
-            assert!(space.proportional.is_some());
+            assert!(space.damping_factors.is_some());
             if !is_proportional {
                 // The general method must give the same result.
-                space.proportional = None;
+                space.damping_factors = None;
             }
             space.extend((1..4).flat_map(wave).collect(), 1e-7);
-            let first = space.count();
+            let first_index = space.count();
             space.extend((4..10).flat_map(wave).collect(), 1e-7);
-            let mut block: Vec<f64> = space.momenta(first).iter().map(|f| 6.0 * f).collect();
+            let mut block: Vec<f64> = space.momenta(first_index).iter().map(|f| 6.0 * f).collect();
             factor.solve_many(&mut block);
             let products = space.products(0, &rows);
             // Longer than one of the directions, which is therefore omitted.
             let min_length = 0.04;
-            let predicted =
-                space.extended_ritz((&block, first), &c, (&products, &rows), min_length).unwrap();
+            let predicted_modes = space
+                .extended_ritz((&block, first_index), &c, (&products, &rows), min_length)
+                .unwrap();
             space.extend_by_length(block, min_length);
             assert!((11..16).contains(&space.count()), "{}", space.count());
             let expected = space.ritz().unwrap();
@@ -199,12 +200,15 @@ mod tests {
                 assert_eq!(a.len(), b.len());
                 assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < tolerance), "{a:?} for {b:?}");
             };
-            assert_close(&predicted.0.stiffness, &expected.stiffness);
-            assert_close(&predicted.0.damping, &expected.damping);
+            assert_close(&predicted_modes.0.stiffness, &expected.stiffness);
+            assert_close(&predicted_modes.0.damping, &expected.damping);
             let squares = |modes: &RitzModes, products: &[f64]| -> Vec<f64> {
                 Subspace::modal_rows(modes, products).iter().map(|value| value * value).collect()
             };
-            assert_close(&squares(&predicted.0, &predicted.1), &squares(&expected, &products));
+            assert_close(
+                &squares(&predicted_modes.0, &predicted_modes.1),
+                &squares(&expected, &products),
+            );
         }
     }
 }

@@ -17,12 +17,12 @@ use crate::structure::{SpringSupportedBase, max_diagonal_stiffness};
 pub(super) struct FixedBaseResults {
     /// Period on a fixed base, s.
     pub(super) period: f64,
-    /// Returns an error for a mechanism.
+    /// An error if the structure is a mechanism.
     pub(super) mechanism_check: Result<()>,
     /// Input of reduced coordinates; `None` for other coordinates.
     pub(super) responses: Option<FixedBaseResponses>,
     /// The structure condensed on its base, if that is flexible and eliminated last.
-    pub(super) condensed: Option<Condensed>,
+    pub(super) condensation: Option<Condensed>,
 }
 
 impl FixedBaseResults {
@@ -41,12 +41,12 @@ impl FixedBaseResults {
         let is_reduced = matches!(parts.builder.coordinates, Coordinates::Reduced { .. });
         let responses = is_reduced.then(|| FixedBaseResponses::new(assembled, &fixed_factor));
         let is_condensed = assembled.base.is_flexible() && !is_fixed_base(parts.ground.as_ref());
-        let condensed = if is_condensed {
+        let condensation = if is_condensed {
             Condensed::new(assembled, fixed_factor, || at_rest::weight_and_load(parts, assembled))?
         } else {
             None
         };
-        Ok(Self { period, mechanism_check, responses, condensed })
+        Ok(Self { period, mechanism_check, responses, condensation })
     }
 
     /// The stiffness, with or without a shift, if the static state's factor is positive definite.
@@ -58,7 +58,7 @@ impl FixedBaseResults {
         let stiffness = shifted_stiffness?.positive_definite()?;
         // For a condensed structure the factor is that of the condensed stiffness. The remaining part of K, which has
         // been factored with a fixed base, is positive definite too.
-        Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
+        Some(if self.condensation.is_some() { &assembled.stiffness } else { stiffness })
     }
 
     /// Moves the input of reduced coordinates out of `self`; `None` for other coordinates.
@@ -69,12 +69,13 @@ impl FixedBaseResults {
         assembled: &Assembled,
         shifted_stiffness: Option<Rc<ShiftedStiffnessFactor>>,
     ) -> Option<(FixedBaseResponses, Option<Rc<ShiftedStiffnessFactor>>)> {
-        let condensed = self.condensed.take();
+        let condensation = self.condensation.take();
         let responses = self.responses.take()?;
-        let Some(condensed) = condensed else {
+        let Some(condensation) = condensation else {
             return Some((responses, shifted_stiffness));
         };
-        let expanded = shifted_stiffness.and_then(|factor| factor.expanded(assembled, condensed));
+        let expanded =
+            shifted_stiffness.and_then(|factor| factor.expanded(assembled, condensation));
         Some((responses, expanded.map(Rc::new)))
     }
 }

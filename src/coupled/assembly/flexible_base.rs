@@ -42,7 +42,7 @@ const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
 const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
 /// Relative difference of shapes on n and 2n elements that is an error.
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
-/// Smallest p in ρ ~ nᵖ at which more elements n help; solids: 0.
+/// Smallest p in ρ ~ nᵖ at which more elements n help; p is 0 for solids.
 const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
 /// Largest exponent p in ρ ~ nᵖ, for beams and plates.
 const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
@@ -57,32 +57,32 @@ const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Warning of a flexible base with too few elements, if there are too few.
 ///
-/// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the condensed
-/// structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no computation.
+/// `condensation` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the
+/// condensed structure, or else of the whole structure, if it has been computed. A rigid base needs no computation.
 pub(super) fn check(
     parts: &Parts,
-    (assembled, condensed): (&Assembled, Option<&Condensed>),
+    (assembled, condensation): (&Assembled, Option<&Condensed>),
     static_state: &StaticState,
     shared_compliance: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
     if !assembled.base.is_flexible() || is_fixed_base(parts.ground.as_ref()) {
         return Ok(None);
     }
-    let Some(condensed) = condensed else {
+    let Some(condensation) = condensation else {
         let refine = |base: &_| RefinedBase::new(parts, base);
         let [weight, load] = at_rest::weight_and_load(parts, assembled)?;
-        let loaded = LoadedStructure { assembled, weight: &weight, load: &load };
-        return check_structure(parts, loaded, static_state, shared_compliance, refine);
+        let structure = LoadedStructure { assembled, weight: &weight, load: &load };
+        return check_structure(parts, structure, static_state, shared_compliance, refine);
     };
     let mut condensed_state = static_state.clone();
-    condensed_state.displacement = condensed.base_displacement(&static_state.displacement);
+    condensed_state.displacement = condensation.base_displacement(&static_state.displacement);
     let refine = |base: &_| {
-        RefinedBase::new(parts, base)
-            .map(|refined| RefinedBase { base: condensed.condensed_base(&refined.base), ..refined })
+        let refined = RefinedBase::new(parts, base)?;
+        Some(RefinedBase { base: condensation.condensed_base(&refined.base), ..refined })
     };
-    let Condensed { assembled, weight, load, .. } = condensed;
-    let loaded = LoadedStructure { assembled, weight, load };
-    check_structure(parts, loaded, &condensed_state, shared_compliance, refine)
+    let Condensed { assembled, weight, load, .. } = condensation;
+    let structure = LoadedStructure { assembled, weight, load };
+    check_structure(parts, structure, &condensed_state, shared_compliance, refine)
 }
 
 /// A structure with its weight and its other loads at t = 0, N.
@@ -96,12 +96,12 @@ struct LoadedStructure<'a> {
 /// Checks a structure, whole or condensed on its base, under its weight and loads at t = 0.
 fn check_structure(
     parts: &Parts,
-    loaded: LoadedStructure<'_>,
+    structure: LoadedStructure<'_>,
     static_state: &StaticState,
     shared_compliance: &RefCell<Option<Compliance>>,
     refine: impl Fn(&PlacedBase) -> Option<RefinedBase>,
 ) -> Result<Option<Warning>> {
-    let assembled = loaded.assembled;
+    let assembled = structure.assembled;
     let base = &assembled.base;
     let ground_compliance = at_rest::static_compliance(parts, base)?;
     let ground = StaticGround::for_comparison(&ground_compliance, shared_compliance);
@@ -117,21 +117,22 @@ fn check_structure(
     let mut face = shape.face;
     let mut exponent = MAX_REFINEMENT_EXPONENT;
     let mut difference = None;
-    if let Some(refined) = if has_single_element { halves } else { refine(base) } {
-        let RefinedBase { base: refined_base, ground_compliance } = refined;
+    if let Some(refinement) = if has_single_element { halves } else { refine(base) } {
+        let RefinedBase { base: refined_base, ground_compliance } = refinement;
         let compliance = Compliance::new(factor, &refined_base, &ground_compliance)?;
         let shared_compliance = RefCell::new(Some(compliance));
         let refined_ground = StaticGround::for_comparison(&ground_compliance, &shared_compliance);
         // If no soft shape remains after halving the elements, the refined base is sufficient.
         let refined_shape = ZeroMeanShape::softest(assembled, &refined_base, refined_ground, None);
-        exponent = refined_shape.map_or(MAX_REFINEMENT_EXPONENT, |refined| {
-            (refined.stiffness_ratio / shape.stiffness_ratio).log2()
+        exponent = refined_shape.map_or(MAX_REFINEMENT_EXPONENT, |refined_shape| {
+            (refined_shape.stiffness_ratio / shape.stiffness_ratio).log2()
         });
         if parts.builder.has_static_loads() && parts.joints.is_empty() {
             let refined_assembled = assembled.with_base(refined_base);
-            let refined = LoadedStructure { assembled: &refined_assembled, ..loaded };
-            difference =
-                shape_difference(parts, [loaded, refined], [ground, refined_ground], static_state);
+            let refined_structure = LoadedStructure { assembled: &refined_assembled, ..structure };
+            let structures = [structure, refined_structure];
+            let grounds = [ground, refined_ground];
+            difference = shape_difference(parts, structures, grounds, static_state);
         }
     }
     let is_inaccurate = difference.is_some_and(|(_, value)| value > WARNING_SHAPE_DIFFERENCE);
@@ -365,15 +366,15 @@ mod tests {
         let mut parts = parts()?;
         let structure = parts.structure.as_ref();
         let (assembled, fixed_factor) = Assembled::new(structure, &parts.elements, &[])?;
-        let condensed = FixedBaseResults::new(&parts, &assembled, fixed_factor)?.condensed;
-        assert!(condensed.is_some());
-        let results = [condensed, None].map(|mut condensed| {
+        let condensation = FixedBaseResults::new(&parts, &assembled, fixed_factor)?.condensation;
+        assert!(condensation.is_some());
+        let results = [condensation, None].map(|mut condensation| {
             let shared = RefCell::default();
-            let is_condensed = condensed.is_some();
-            let at_rest = at_rest::solve(&mut parts, &assembled, &mut condensed, &shared).unwrap();
-            assert_eq!(condensed.is_some(), is_condensed);
-            match check(&parts, (&assembled, condensed.as_ref()), &at_rest, &shared) {
-                Err(Error::CoarseBase(error)) => (error.needed, error.difference.unwrap(), at_rest),
+            let is_condensed = condensation.is_some();
+            let state = at_rest::solve(&mut parts, &assembled, &mut condensation, &shared).unwrap();
+            assert_eq!(condensation.is_some(), is_condensed);
+            match check(&parts, (&assembled, condensation.as_ref()), &state, &shared) {
+                Err(Error::CoarseBase(error)) => (error.needed, error.difference.unwrap(), state),
                 other => panic!("{other:?}"),
             }
         });

@@ -146,8 +146,8 @@ impl<'a> Reduction<'a> {
     ) -> Subspace<'m> {
         let translations = self.assembled.influence.part_vectors(self.assembled.dofs());
         let mut space = Subspace::new(matrices, translations, rounding);
-        if let Some(proportional) = self.damping_without_p_delta {
-            space = space.with_proportional_damping(proportional);
+        if let Some(damping_factors) = self.damping_without_p_delta {
+            space = space.with_proportional_damping(damping_factors);
         }
         space.extend(self.fixed_base.rotations.clone(), FINAL_MIN_NEW_FRACTION);
         space
@@ -161,14 +161,14 @@ impl<'a> Reduction<'a> {
     ) -> Result<ModalBasis> {
         let mut space = self.rigid_motion_space(matrices, 0.0);
         space.extend(self.initial_motions.clone(), FINAL_MIN_NEW_FRACTION);
-        let rows = &self.rows.all;
+        let rows = &self.rows.all_rows;
         self.shifted_stiffness.take();
         let effective = self.effective_factor()?;
-        let shifted = self
+        let shifted_factors = self
             .shifts()
             .map(|shift| self.factor_of_sum(shift * shift, 1.0))
             .collect::<Result<Vec<_>>>()?;
-        let factors: Vec<_> = std::iter::once(&*effective).chain(&shifted).collect();
+        let factors: Vec<_> = std::iter::once(&*effective).chain(&shifted_factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         let mut products = Vec::new();
         let mut min_fraction =
@@ -193,11 +193,11 @@ impl<'a> Reduction<'a> {
             if let Some(previous) = &previous_responses {
                 changes.push(responses.difference(previous, tolerance));
             }
-            if changes.next() <= tolerance || space.count() == self.assembled.dofs() {
+            if changes.next_change() <= tolerance || space.count() == self.assembled.dofs() {
                 return self.basis_with_damping(space, &modes, &factors, tolerance);
             }
             let remaining_rounds = i32::try_from(MAX_KRYLOV_ROUNDS - round).unwrap_or(0);
-            let final_change = changes.next() * changes.ratio.powi(remaining_rounds);
+            let final_change = changes.next_change() * changes.change_ratio.powi(remaining_rounds);
             if 2 * round >= MAX_KRYLOV_ROUNDS && final_change > tolerance {
                 break;
             }
@@ -206,7 +206,7 @@ impl<'a> Reduction<'a> {
         let vector_count = space.count();
         let remedy =
             format!("with {vector_count} vectors; damping in proportion to stiffness helps");
-        Err(inaccurate(changes.next(), tolerance, remedy))
+        Err(accuracy_error(changes.next_change(), tolerance, remedy))
     }
 
     /// Factors K_eff; a damping that is proportional but for P–Δ is made proportional.
@@ -298,7 +298,7 @@ fn add_powers(
 }
 
 /// Error for reduced coordinates that do not reach a tolerance.
-pub(super) fn inaccurate(reached: f64, tolerance: f64, remedy: String) -> Error {
+pub(super) fn accuracy_error(reached: f64, tolerance: f64, remedy: String) -> Error {
     let quantity = "response of reduced coordinates to tractions";
     Error::Accuracy { quantity, reached, tolerance, remedy }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::coupled::assembly::krylov::{
-    FINAL_MIN_NEW_FRACTION, MIN_NEW_FRACTION, Reduction, inaccurate,
+    FINAL_MIN_NEW_FRACTION, MIN_NEW_FRACTION, Reduction, accuracy_error,
 };
 use crate::coupled::assembly::step_response::{ResponseChanges, StepResponses};
 use crate::coupled::assembly::subspace::{RitzModes, Subspace};
@@ -89,30 +89,30 @@ impl Reduction<'_> {
     ) -> Result<ModalBasis> {
         let rounding = ORTHOGONALITY_ROUNDING_FACTOR * tolerance * tolerance;
         let mut space = self.rigid_motion_space(matrices, rounding);
-        let rows = &self.rows.all;
+        let rows = &self.rows.all_rows;
         let c = self.coefficients;
         let mut block = space.balanced(rows.clone());
         space.extend(self.initial_motions.clone(), FINAL_MIN_NEW_FRACTION);
         let scheme_shift = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
         let mut frequency_limit = first_frequency_limit(scheme_shift, tolerance);
-        let mut previous: Option<(StepResponses, RitzModes)> = None;
+        let mut previous_round: Option<(StepResponses, RitzModes)> = None;
         let mut converged: Option<RitzModes> = None;
         let mut products = Vec::new();
         let mut effective = None;
         let mut changes = ResponseChanges::none();
         // Index of the first vector of the last extension.
-        let mut first_new = 0;
+        let mut first_new_vector = 0;
         let mut min_length = OMITTED_LENGTH_FACTOR * tolerance.sqrt();
         for round in 0..MAX_MODE_ROUNDS {
             // The second round adds only a power of K_eff, for the comparison with the first.
             if round != 1 {
-                let shifted =
+                let shifted_factor =
                     self.add_modes(&mut space, frequency_limit, scheme_shift, tolerance)?;
-                let Some(shifted) = shifted else { break };
+                let Some(shifted_factor) = shifted_factor else { break };
                 frequency_limit *= FREQUENCY_LIMIT_GROWTH;
                 if round == 0 {
-                    first_new = add_static_responses(shifted, &mut space, block);
-                    block = space.inertia(first_new, c.acceleration[0]);
+                    first_new_vector = add_static_responses(shifted_factor, &mut space, block);
+                    block = space.inertia(first_new_vector, c.acceleration[0]);
                     effective = Some(self.effective_factor()?);
                 }
             }
@@ -123,30 +123,34 @@ impl Reduction<'_> {
                 space.extend_products(&mut products, rows);
                 min_length *= self.probe_length_factor(&space, &products)?;
             }
-            if let Some((previous_responses, previous_modes)) = previous.take() {
+            if let Some((previous_responses, previous_modes)) = previous_round.take() {
                 space.extend_products(&mut products, rows);
-                let (modes, extended_products) =
-                    space.extended_ritz((&block, first_new), c, (&products, rows), min_length)?;
+                let (modes, extended_products) = space.extended_ritz(
+                    (&block, first_new_vector),
+                    c,
+                    (&products, rows),
+                    min_length,
+                )?;
                 let responses = self.smooth_responses(&modes, &extended_products);
                 changes.push(responses.difference(&previous_responses, tolerance));
-                if changes.last <= tolerance {
+                if changes.last_change <= tolerance {
                     converged = Some(previous_modes);
                     break;
                 }
             }
-            first_new = space.count();
+            first_new_vector = space.count();
             space.extend_by_length(block, min_length);
-            block = space.inertia(first_new, c.acceleration[0]);
+            block = space.inertia(first_new_vector, c.acceleration[0]);
             let modes = space.ritz()?;
-            if changes.next() <= tolerance || space.count() == self.assembled.dofs() {
+            if changes.next_change() <= tolerance || space.count() == self.assembled.dofs() {
                 converged = Some(modes);
                 break;
             }
             space.extend_products(&mut products, rows);
-            previous = Some((self.smooth_responses(&modes, &products), modes));
+            previous_round = Some((self.smooth_responses(&modes, &products), modes));
         }
         let Some(modes) = converged else {
-            return Err(self.slow_convergence(space.count(), changes.last, tolerance));
+            return Err(self.slow_convergence(space.count(), changes.last_change, tolerance));
         };
         self.basis_of_modes(space, &modes, effective.as_deref(), scheme_shift, tolerance)
     }
@@ -158,7 +162,7 @@ impl Reduction<'_> {
             "with {vector_count} vectors for {force_count} forces; with more than 99 forces, section forces of stiff \
              structures do not converge below it: use a tolerance of 1e-4, omit such probes, or use the degrees of freedom"
         );
-        inaccurate(change, tolerance, remedy)
+        accuracy_error(change, tolerance, remedy)
     }
 
     /// The modal basis in degrees of freedom.
@@ -173,8 +177,8 @@ impl Reduction<'_> {
         if self.damping_without_p_delta.is_none() {
             return Ok(space.basis(modes));
         }
-        let shifted = self.shifted_stiffness_factor(scheme_shift)?;
-        let factors: Vec<_> = effective.into_iter().chain([&shifted.factor]).collect();
+        let shifted_factor = self.shifted_stiffness_factor(scheme_shift)?;
+        let factors: Vec<_> = effective.into_iter().chain([&shifted_factor.factor]).collect();
         self.basis_with_damping(space, modes, &factors, tolerance)
     }
 
@@ -201,11 +205,11 @@ impl Reduction<'_> {
         scheme_shift: f64,
         tolerance: f64,
     ) -> Result<Option<Rc<ShiftedStiffnessFactor>>> {
-        let shifted = self.shifted_stiffness_factor(scheme_shift)?;
-        let max_eigenvalue = frequency_limit * frequency_limit + shifted.shift;
+        let shifted_factor = self.shifted_stiffness_factor(scheme_shift)?;
+        let max_eigenvalue = frequency_limit * frequency_limit + shifted_factor.shift;
         let max_residual = MODE_RESIDUAL_FACTOR * tolerance.sqrt();
         let modes = lowest_modes(
-            &shifted.factor,
+            &shifted_factor.factor,
             &self.assembled.mass,
             MAX_VIBRATION_MODES,
             Some(ModeLimit { eigenvalue: max_eigenvalue, residual_tolerance: max_residual }),
@@ -214,7 +218,7 @@ impl Reduction<'_> {
         Ok(all_modes.map(|modes| {
             // A small new component is the error of a mode already in the basis, not a new direction: skip it.
             space.extend(modes.vectors, MIN_NEW_FRACTION);
-            shifted
+            shifted_factor
         }))
     }
 

@@ -11,6 +11,7 @@
 
 mod at_rest;
 mod backfilled;
+mod buoyancy;
 mod extended_subspace;
 mod fixed_base_results;
 mod flexible_base;
@@ -87,11 +88,16 @@ impl SimulationBuilder {
         let (assembled, fixed_factor) =
             Assembled::new(parts.structure.as_ref(), &parts.elements, &parts.joints)?;
         parts.spread_over_joints(&assembled.base);
+        buoyancy::set_water_force(&mut parts, &assembled)?;
         let mut fixed_base = FixedBaseResults::new(&parts, &assembled, fixed_factor)?;
         let shared_compliance = RefCell::default();
-        let static_state =
-            at_rest::solve(&mut parts, &assembled, &mut fixed_base.condensed, &shared_compliance)?;
-        let structures = (&assembled, fixed_base.condensed.as_ref());
+        let static_state = at_rest::solve(
+            &mut parts,
+            &assembled,
+            &mut fixed_base.condensation,
+            &shared_compliance,
+        )?;
+        let structures = (&assembled, fixed_base.condensation.as_ref());
         let coarse_base_warning =
             flexible_base::check(&parts, structures, &static_state, &shared_compliance)?;
         let shifted_stiffness =
@@ -125,6 +131,7 @@ fn start(
     operators: Operators,
     coarse_base_warning: Option<Warning>,
 ) -> Result<Simulation> {
+    let water_below_base = buoyancy::warning(&parts);
     let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } = parts;
     let mut solver = StepSolver::new(&scene, operators, builder.search);
     let mut state = State::at_rest(&scene)?;
@@ -146,6 +153,7 @@ fn start(
     Warning::add_mistakes(&mut warnings, &scene, soils, structure.as_ref(), &weight);
     warnings.extend(Warning::of_tears(tears(&structure.base())?));
     warnings.extend(coarse_base_warning);
+    warnings.extend(water_below_base);
     let pressures_above =
         wall_pressure::pressures_above(&scene, &description.mass_above, builder.gravity);
     let conditioning = conditioning(&scene, &mut solver, &state.start)?;

@@ -14,7 +14,7 @@ pub(crate) struct ResponseRows {
     /// All rows, one after the other.
     ///
     /// Loads, other forces, displacements and velocities of probes, accelerations of probes.
-    pub(crate) all: Vec<f64>,
+    pub(crate) all_rows: Vec<f64>,
     /// Number of loads, which are the first rows.
     pub(crate) load_count: usize,
     /// Number of all forces, loads included.
@@ -41,7 +41,7 @@ impl ResponseRows {
     /// Adds the builder's loads, and samples of the structure's load.
     fn add_loads(&mut self, parts: &Parts, dofs: usize, step_count: usize) -> Result<()> {
         for load in &parts.builder.loads {
-            push_nonzero(&mut self.all, dense_vector(load.row(), dofs));
+            push_nonzero(&mut self.all_rows, dense_vector(load.row(), dofs));
         }
         let duration = step_count as f64 * parts.builder.time_step;
         for sample in 0..=LOAD_INTERVAL_COUNT {
@@ -55,10 +55,10 @@ impl ResponseRows {
                 continue;
             }
             if load.iter().all(|force| force.is_finite()) {
-                push_nonzero(&mut self.all, load);
+                push_nonzero(&mut self.all_rows, load);
             }
         }
-        self.load_count = self.all.len() / dofs;
+        self.load_count = self.all_rows.len() / dofs;
         Ok(())
     }
 
@@ -71,7 +71,7 @@ impl ResponseRows {
             unit_traction[i] = 1.0;
             assembled.base.add_forces(1.0, &unit_traction, &mut force);
             unit_traction[i] = 0.0;
-            push_nonzero(&mut self.all, force);
+            push_nonzero(&mut self.all_rows, force);
         }
     }
 
@@ -83,10 +83,10 @@ impl ResponseRows {
             for motion in initial_values.chunks_exact(dofs) {
                 let mut force = vec![0.0; dofs];
                 assembled.mass.multiply_add(1.0, motion, &mut force);
-                push_nonzero(&mut self.all, force);
+                push_nonzero(&mut self.all_rows, force);
             }
         }
-        self.force_count = self.all.len() / dofs;
+        self.force_count = self.all_rows.len() / dofs;
     }
 
     /// Adds the rows of the probes: first displacements, then velocities, then accelerations.
@@ -95,12 +95,12 @@ impl ResponseRows {
         self.probes = vec![[None; 3]; probes.len()];
         for derivative in 0..3 {
             if derivative == 2 {
-                self.first_acceleration = self.all.len() / dofs;
+                self.first_acceleration = self.all_rows.len() / dofs;
             }
             for (probe, probe_rows) in probes.iter().zip(&mut self.probes) {
-                let row = self.all.len() / dofs;
+                let row = self.all_rows.len() / dofs;
                 let is_nonzero =
-                    push_nonzero(&mut self.all, dense_vector(probe.rows()[derivative], dofs));
+                    push_nonzero(&mut self.all_rows, dense_vector(probe.rows()[derivative], dofs));
                 probe_rows[derivative] = is_nonzero.then_some(row);
             }
         }

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 
 use super::at_rest::{loaded_state, static_compliance};
+use super::buoyancy::set_water_force;
 use super::flexible_base;
 use super::settled::settle;
 use crate::coupled::builder::SimulationBuilder;
@@ -77,6 +78,7 @@ impl StaticPush {
             assembled.structure_at_rest(structure).check(&mut fixed_factor)?;
         }
         parts.spread_over_joints(&assembled.base);
+        set_water_force(&mut parts, &assembled)?;
         let ground_compliance = static_compliance(&parts, &assembled.base)?;
         let start = loaded_state(&mut parts, &assembled, &ground_compliance)?;
         if parts.builder.has_static_loads() {
@@ -110,7 +112,7 @@ impl StaticPush {
     ///
     /// `displacement` is that since the undeformed structure. On an error the state stays the last one.
     pub(crate) fn advance(&mut self, displacement: f64) -> Result<()> {
-        let prescribed = PrescribedDisplacement {
+        let prescribed_displacement = PrescribedDisplacement {
             pattern: &self.pattern,
             control: &self.control,
             displacement,
@@ -125,13 +127,12 @@ impl StaticPush {
             jump_offset: &gaps,
             shared_compliance: &RefCell::default(),
             may_shorten_increments: true,
-            prescribed: Some(&prescribed),
+            prescribed_displacement: Some(&prescribed_displacement),
         };
         let laws = &self.parts.builder.laws;
         let contacts = self.contacts.clone();
-        let found = settle(&problem, laws, contacts, self.state.clone(), &self.constant_load)?;
-        self.state = found.0;
-        self.contacts = found.1;
+        (self.state, self.contacts) =
+            settle(&problem, laws, contacts, self.state.clone(), &self.constant_load)?;
         if let Some(force) = self.parts.structure.nonlinear_mut() {
             force.commit(&self.state.displacement);
         }

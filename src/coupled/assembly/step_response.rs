@@ -145,28 +145,28 @@ impl StepResponses {
 /// Changes of the responses from each round of a reduction to the next.
 pub(super) struct ResponseChanges {
     /// Relative change in the last round; infinite before the second round.
-    pub(super) last: f64,
+    pub(super) last_change: f64,
     /// Ratio of the last two changes, at most 1; it predicts the next ratio.
-    pub(super) ratio: f64,
+    pub(super) change_ratio: f64,
 }
 
 impl ResponseChanges {
     /// No change so far.
     pub(super) fn none() -> Self {
-        Self { last: f64::INFINITY, ratio: 1.0 }
+        Self { last_change: f64::INFINITY, change_ratio: 1.0 }
     }
 
     /// Stores the change in another round.
     pub(super) fn push(&mut self, change: f64) {
-        if self.last.is_finite() {
-            self.ratio = (change / self.last).clamp(MIN_CHANGE_RATIO, 1.0);
+        if self.last_change.is_finite() {
+            self.change_ratio = (change / self.last_change).clamp(MIN_CHANGE_RATIO, 1.0);
         }
-        self.last = change;
+        self.last_change = change;
     }
 
     /// Predicted change in the next round, at the ratio of the last two changes.
-    pub(super) fn next(&self) -> f64 {
-        self.last * self.ratio
+    pub(super) fn next_change(&self) -> f64 {
+        self.last_change * self.change_ratio
     }
 }
 
@@ -197,8 +197,8 @@ fn largest_difference(
         if change.is_infinite() {
             return f64::INFINITY;
         }
-        let relative = if change > 0.0 { change / (scale * rounding.max(1.0)) } else { 0.0 };
-        max_difference = max_difference.max(relative);
+        let relative_change = if change > 0.0 { change / (scale * rounding.max(1.0)) } else { 0.0 };
+        max_difference = max_difference.max(relative_change);
     }
     max_difference
 }
@@ -308,19 +308,19 @@ impl ModeStep {
         let mut state = [0.0; 3];
         let mut current_step = 0;
         step_numbers.iter().map(move |step| {
-            let mut remaining = step - current_step;
+            let mut remaining_steps = step - current_step;
             current_step = *step;
             for power in 0.. {
-                if remaining == 0 {
+                if remaining_steps == 0 {
                     break;
                 }
                 if power == powers.len() {
                     powers.push(powers[power - 1].doubled());
                 }
-                if remaining % 2 == 1 {
+                if remaining_steps % 2 == 1 {
                     state = powers[power].apply(state);
                 }
-                remaining /= 2;
+                remaining_steps /= 2;
             }
             state
         })

@@ -37,9 +37,9 @@ pub(crate) struct Subspace<'a> {
     /// Vectors V.
     pub(super) rows: OrthonormalRows<'a>,
     /// V C Vᵀ and V K Vᵀ.
-    pub(super) projected: [Vec<f64>; 2],
+    pub(super) projected_matrices: [Vec<f64>; 2],
     /// β and α of a damping βK + αM; `None` for any other damping.
-    pub(super) proportional: Option<[f64; 2]>,
+    pub(super) damping_factors: Option<[f64; 2]>,
     /// Number of rigid translations.
     pub(super) translation_count: usize,
 }
@@ -65,23 +65,28 @@ impl<'a> Subspace<'a> {
     ) -> Self {
         let matrices = [damping, stiffness];
         let rows = OrthonormalRows::new(mass, rounding);
-        let projected = [Vec::new(), Vec::new()];
+        let projected_matrices = [Vec::new(), Vec::new()];
         let undamped_coefficients = damping.is_empty().then_some([0.0; 2]);
-        let proportional =
+        let damping_factors =
             undamped_coefficients.or_else(|| proportional_factors(damping, [stiffness, mass]));
-        let mut space =
-            Self { matrices, rows, projected, proportional, translation_count: usize::MAX };
+        let mut space = Self {
+            matrices,
+            rows,
+            projected_matrices,
+            damping_factors,
+            translation_count: usize::MAX,
+        };
         space.extend(translations, MIN_TRANSLATION_REMAINDER);
         space.translation_count = space.count();
         space
     }
 
     /// Replaces a damping that couples the modes by βK + αM.
-    pub(crate) fn with_proportional_damping(mut self, proportional: [f64; 2]) -> Self {
-        if self.proportional.is_none() {
-            self.proportional = Some(proportional);
-            self.projected[0] =
-                proportional_damping(&self.projected[1], self.count(), proportional);
+    pub(crate) fn with_proportional_damping(mut self, damping_factors: [f64; 2]) -> Self {
+        if self.damping_factors.is_none() {
+            self.damping_factors = Some(damping_factors);
+            self.projected_matrices[0] =
+                proportional_damping(&self.projected_matrices[1], self.count(), damping_factors);
         }
         self
     }
@@ -96,16 +101,16 @@ impl<'a> Subspace<'a> {
         self.matrices[0].order().max(1)
     }
 
-    /// Products V M of the vectors from index `first` on.
-    pub(crate) fn momenta(&self, first: usize) -> &[f64] {
-        &self.rows.momenta()[first * self.order()..]
+    /// Products V M of the vectors from index `first_index` on.
+    pub(crate) fn momenta(&self, first_index: usize) -> &[f64] {
+        &self.rows.momenta()[first_index * self.order()..]
     }
 
-    /// Products V M of the vectors from index `first` on, times a coefficient.
+    /// Products V M of the vectors from index `first_index` on, times a coefficient.
     ///
     /// `coefficient`: that of the acceleration in the scheme.
-    pub(crate) fn inertia(&self, first: usize, coefficient: f64) -> Vec<f64> {
-        self.momenta(first).iter().map(|momentum| coefficient * momentum).collect()
+    pub(crate) fn inertia(&self, first_index: usize, coefficient: f64) -> Vec<f64> {
+        self.momenta(first_index).iter().map(|momentum| coefficient * momentum).collect()
     }
 
     /// Adds the directions of `block` of which more than `min_fraction` is outside the subspace.
@@ -126,20 +131,22 @@ impl<'a> Subspace<'a> {
     fn project(&mut self, first_new: usize) {
         let order = self.order();
         let count = self.count();
-        for k in usize::from(self.proportional.is_some())..2 {
+        for k in usize::from(self.damping_factors.is_some())..2 {
             let images = self.matrices[k].times(&self.rows.vectors()[first_new * order..]);
             let products = row_products(&images, self.rows.vectors(), order);
             let zero_columns = if k == 1 { self.translation_count } else { 0 };
-            self.projected[k] = bordered(&self.projected[k], &products, count, zero_columns);
+            self.projected_matrices[k] =
+                bordered(&self.projected_matrices[k], &products, count, zero_columns);
         }
-        if let Some(proportional) = self.proportional {
-            self.projected[0] = proportional_damping(&self.projected[1], count, proportional);
+        if let Some(damping_factors) = self.damping_factors {
+            self.projected_matrices[0] =
+                proportional_damping(&self.projected_matrices[1], count, damping_factors);
         }
     }
 
     /// The modes of the subspace.
     pub(crate) fn ritz(&self) -> Result<RitzModes> {
-        self.ritz_of(self.count(), &self.projected)
+        self.ritz_of(self.count(), &self.projected_matrices)
     }
 
     /// Modes of `count` vectors with their projected C and K; the first vectors are the translations.
@@ -208,11 +215,11 @@ impl<'a> Subspace<'a> {
         forces
     }
 
-    /// Products of the vectors from index `first` on with the rows of F.
+    /// Products of the vectors from index `first_index` on with the rows of F.
     ///
     /// One row for each vector.
-    pub(crate) fn products(&self, first: usize, rows: &[f64]) -> Vec<f64> {
-        row_products(&self.rows.vectors()[first * self.order()..], rows, self.order())
+    pub(crate) fn products(&self, first_index: usize, rows: &[f64]) -> Vec<f64> {
+        row_products(&self.rows.vectors()[first_index * self.order()..], rows, self.order())
     }
 
     /// Adds the newest vectors' products with F to those of all earlier vectors.
@@ -261,18 +268,18 @@ pub(super) fn bordered(
     zero_columns: usize,
 ) -> Vec<f64> {
     let old_count = count - rows.len() / count.max(1);
-    let mut extended = vec![0.0; count * count];
+    let mut extended_matrix = vec![0.0; count * count];
     for i in 0..old_count {
-        extended[i * count..i * count + old_count]
+        extended_matrix[i * count..i * count + old_count]
             .copy_from_slice(&matrix[i * old_count..(i + 1) * old_count]);
     }
     for (i, row) in rows.chunks_exact(count.max(1)).enumerate() {
         for (j, &value) in row.iter().enumerate().skip(zero_columns) {
-            extended[(old_count + i) * count + j] = value;
-            extended[j * count + old_count + i] = value;
+            extended_matrix[(old_count + i) * count + j] = value;
+            extended_matrix[j * count + old_count + i] = value;
         }
     }
-    extended
+    extended_matrix
 }
 
 /// Projected damping βK + αM of M-orthonormal vectors.

@@ -141,10 +141,10 @@ impl RigidBasis {
                 project(vector, &vectors);
             }
             // The vector with the largest remainder.
-            let longest = rigid_modes
+            let longest_vector = rigid_modes
                 .iter_mut()
                 .max_by(|a, b| dot(a, &product(mass, a)).total_cmp(&dot(b, &product(mass, b))))?;
-            let remainder = std::mem::replace(longest, vec![0.0; order]);
+            let remainder = std::mem::replace(longest_vector, vec![0.0; order]);
             let mut vector = MassNormalised::new(remainder, mass)?.vector;
             project(&mut vector, &vectors);
             vectors.push(MassNormalised::new(vector, mass)?);

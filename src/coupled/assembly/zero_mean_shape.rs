@@ -152,8 +152,8 @@ fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize
             energies[face.unwrap_or(0)] += modulus * point.area * value * value;
         }
     }
-    let largest = energies.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    largest.map_or(0, |(face, _)| face)
+    let largest_energy = energies.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    largest_energy.map_or(0, |(face, _)| face)
 }
 
 /// Factored matrix of springs that fix the element means.
@@ -264,23 +264,23 @@ mod tests {
                 })
                 .sum::<f64>();
         }
-        let mut direct = DenseFactor::with_capacity(n);
+        let mut direct_factor = DenseFactor::with_capacity(n);
         let mut expected = force.clone();
-        assert!(direct.factor(&with_springs, n));
-        direct.solve(&mut expected);
+        assert!(direct_factor.factor(&with_springs, n));
+        direct_factor.solve(&mut expected);
 
-        assert!(direct.factor(&stiffness, n));
+        assert!(direct_factor.factor(&stiffness, n));
         let mean = |x: &[f64], i: usize| dot(&rows[i * n..(i + 1) * n], x);
         let mut traction_responses = Vec::new();
         let mut delassus = soil.clone();
         for j in 0..mean_count {
             let mut column: Vec<f64> = rows[j * n..][..n].iter().map(|b| areas[j] * b).collect();
-            direct.solve(&mut column);
+            direct_factor.solve(&mut column);
             (0..mean_count).for_each(|i| delassus[i * mean_count + j] += mean(&column, i));
             traction_responses.extend(column);
         }
         let mut computed = force;
-        direct.solve(&mut computed);
+        direct_factor.solve(&mut computed);
         let mut traction: Vec<f64> = (0..mean_count)
             .map(|i| MEAN_SPRING_FACTOR * moduli[i] * mean(&computed, i))
             .collect();

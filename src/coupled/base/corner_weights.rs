@@ -28,14 +28,14 @@ pub(crate) fn corner_weights(corners: &[Point], p: Point) -> Vec<f64> {
     if let Some(coordinates) = face.coordinates(from_corner(p)) {
         return bilinear_weights(coordinates).into();
     }
-    let nearest = from_corner(nearest_within(corners, p));
-    if let Some(weights) = face.continued_weights(nearest, from_corner(p)) {
+    let nearest_point = from_corner(nearest_within(corners, p));
+    if let Some(weights) = face.continued_weights(nearest_point, from_corner(p)) {
         return weights.into();
     }
     let triangles = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]];
     let area = |[i, j, k]: &[usize; 3]| side([corners[*i], corners[*j]], corners[*k]).abs();
-    let largest = triangles.into_iter().max_by(|a, b| area(a).total_cmp(&area(b)));
-    let triangle = largest.unwrap_or([0, 1, 2]);
+    let largest_triangle = triangles.into_iter().max_by(|a, b| area(a).total_cmp(&area(b)));
+    let triangle = largest_triangle.unwrap_or([0, 1, 2]);
     let mut weights = vec![0.0; 4];
     for (corner, weight) in
         triangle.into_iter().zip(triangle_weights(triangle.map(|k| corners[k]), p))
@@ -102,9 +102,9 @@ impl Quadrilateral {
         None
     }
 
-    /// Weights at a point `p` outside, continued linearly from the `nearest` point of the quadrilateral.
-    fn continued_weights(&self, nearest: Point, p: Point) -> Option<[f64; 4]> {
-        let coordinates = self.coordinates_within(nearest)?;
+    /// Weights at a point `p` outside, continued linearly from the nearest point of the quadrilateral.
+    fn continued_weights(&self, nearest_point: Point, p: Point) -> Option<[f64; 4]> {
+        let coordinates = self.coordinates_within(nearest_point)?;
         let step = self.newton_step(coordinates, p)?;
         let [s_derivatives, t_derivatives] = weight_derivatives(coordinates);
         let weights = bilinear_weights(coordinates);
@@ -164,14 +164,14 @@ fn nearest_within(corners: &[Point], p: Point) -> Point {
     if areas.clone().all(|area| area >= 0.0) || areas.all(|area| area <= 0.0) {
         return p;
     }
-    let mut nearest = [f64::INFINITY; 2];
+    let mut nearest_point = [f64::INFINITY; 2];
     for edge in edges {
         let point = nearest_on_edge(edge, p);
-        if distance(p, point) < distance(p, nearest) {
-            nearest = point;
+        if distance(p, point) < distance(p, nearest_point) {
+            nearest_point = point;
         }
     }
-    nearest
+    nearest_point
 }
 
 /// The point of an edge nearest to `p`.
@@ -212,15 +212,17 @@ mod tests {
             for origin in [[0.0, 0.0], [128.0, -64.0], [4500.0, 3150.0]] {
                 let face = corners.map(|[x, y]| [x + origin[0], y + origin[1]]);
                 let point = [origin[0] + 1.6 * random() - 0.3, origin[1] + 1.6 * random() - 0.3];
-                let local = [0, 1].map(|k| face.map(|corner| corner[k] - face[0][k]));
-                let quadrilateral = Quadrilateral([1, 2, 3].map(|k| [local[0][k], local[1][k]]));
+                let local_corners = [0, 1].map(|k| face.map(|corner| corner[k] - face[0][k]));
+                let quadrilateral =
+                    Quadrilateral([1, 2, 3].map(|k| [local_corners[0][k], local_corners[1][k]]));
                 let local_point = [0, 1].map(|k| point[k] - face[0][k]);
                 continuation_count += usize::from(quadrilateral.coordinates(local_point).is_none());
                 let weights = corner_weights(&face, point);
                 let sum: f64 = weights.iter().sum();
                 assert!((sum - 1.0).abs() < 1e-9, "{face:?} {point:?} {weights:?}");
                 for k in 0..2 {
-                    let sum: f64 = weights.iter().zip(local[k]).map(|(weight, x)| weight * x).sum();
+                    let sum: f64 =
+                        weights.iter().zip(local_corners[k]).map(|(weight, x)| weight * x).sum();
                     assert!((sum - local_point[k]).abs() < 1e-9, "{face:?} {point:?} {weights:?}");
                 }
             }

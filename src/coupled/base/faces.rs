@@ -191,7 +191,7 @@ impl<'a> DividedFaces<'a> {
     ///
     /// The second result is the distance of the point from the faces, m.
     fn corner_weights(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
-        let (piece, corners, distance) = self.nearest(point);
+        let (piece, corners, distance) = self.nearest_piece(point);
         (piece.iter().copied().zip(corner_weights(&corners, point)).collect(), distance)
     }
 
@@ -233,19 +233,19 @@ impl<'a> DividedFaces<'a> {
     }
 
     /// The triangle or quadrilateral nearest to a point, its corners, and its distance, m.
-    fn nearest(&self, point: Point) -> (&[usize], Vec<Point>, f64) {
-        let mut nearest: (&[usize], Vec<Point>, f64) = (&[], Vec::new(), f64::INFINITY);
+    fn nearest_piece(&self, point: Point) -> (&[usize], Vec<Point>, f64) {
+        let mut nearest_piece: (&[usize], Vec<Point>, f64) = (&[], Vec::new(), f64::INFINITY);
         for piece in &self.pieces {
             let corners = self.corners(piece);
             let distance = distance_outside(&corners, point);
-            if distance < nearest.2 {
-                nearest = (piece, corners, distance);
+            if distance < nearest_piece.2 {
+                nearest_piece = (piece, corners, distance);
             }
             if distance == 0.0 {
                 break;
             }
         }
-        nearest
+        nearest_piece
     }
 }
 
@@ -266,8 +266,8 @@ fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
 
 /// The corners of the convex hull of some nodes, counter-clockwise.
 pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a BaseNode>) -> Vec<Point> {
-    let mut sorted: Vec<Point> = nodes.map(BaseNode::place).collect();
-    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut sorted_points: Vec<Point> = nodes.map(BaseNode::place).collect();
+    sorted_points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut hull: Vec<Point> = Vec::new();
     // Adds one side of the hull: first the lower side from left to right, then the upper side back (Andrew 1979).
     let mut add_side = |points: &mut dyn Iterator<Item = &Point>| {
@@ -283,8 +283,8 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a BaseNode>) -> Vec<Point> 
         }
         hull.pop();
     };
-    add_side(&mut sorted.iter());
-    add_side(&mut sorted.iter().rev());
+    add_side(&mut sorted_points.iter());
+    add_side(&mut sorted_points.iter().rev());
     hull
 }
 
@@ -352,11 +352,11 @@ mod tests {
     fn means_of_a_linear_field_are_exact_on_all_faces_and_beyond() {
         let field = |[x, y]: Point| 2.0 - 3.0 * x + 0.7 * y;
         let triangle = [[0.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
-        let distorted = [[0.0, 0.0], [1.0, 3.0], [5.0, 4.0], [4.0, -1.0]];
+        let distorted_quadrilateral = [[0.0, 0.0], [1.0, 3.0], [5.0, 4.0], [4.0, -1.0]];
         let pentagon = [[0.0, 0.0], [2.0, -1.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
         // Two corners on a line with the first corner.
-        let straight = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
-        for corners in [&triangle[..], &distorted, &pentagon, &straight] {
+        let straight_pentagon = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+        for corners in [&triangle[..], &distorted_quadrilateral, &pentagon, &straight_pentagon] {
             for cell in [[0.5, 1.5, 0.5, 1.0], [-0.2, 1.0, -0.3, 0.8], [2.0, 3.5, 0.4, 1.4]] {
                 let expected = field([0.5 * (cell[0] + cell[1]), 0.5 * (cell[2] + cell[3])]);
                 let computed = mean(corners, &[corners.len()], cell, field);

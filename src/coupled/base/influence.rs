@@ -119,8 +119,8 @@ impl Influence {
             return part.mean_translation(base, means);
         };
         let translation = self.base_translation(&self.parts[lower], base, means);
-        let relative = base.element_displacement(element, means);
-        [0, 1, 2].map(|k| translation[k] + sign * relative[k])
+        let relative_displacement = base.element_displacement(element, means);
+        [0, 1, 2].map(|k| translation[k] + sign * relative_displacement[k])
     }
 
     /// Sets the joints' entries of soil displacements relative to translating parts.
@@ -315,8 +315,8 @@ fn next_supported(
     // that hangs from others.
     [(0, true), (0, false), (1, false)].into_iter().find_map(|(side, needs_all)| {
         let is_complete = |label: usize| {
-            let mut below = joint_labels.iter().filter(|labels| labels[side] == label);
-            !needs_all || below.all(|labels| index(labels[1 - side]).is_some())
+            let mut joints_below = joint_labels.iter().filter(|labels| labels[side] == label);
+            !needs_all || joints_below.all(|labels| index(labels[1 - side]).is_some())
         };
         let mut joints = joint_labels.iter().zip(base.joints());
         let (labels, first_joint) = joints.find(|(labels, _)| {

@@ -8,8 +8,10 @@ use crate::structure::BaseNode;
 
 /// Distance of a node from the line of its side that counts as rounding.
 ///
-/// It is relative to the length of the line.
+/// It is relative to the length of the upper side.
 const STRAIGHTNESS_TOLERANCE: f64 = 1e-6;
+/// Length of an element at an end of a joint below which its neighbour takes it, relative to the upper side.
+const MIN_END_ELEMENT_FRACTION: f64 = 1e-6;
 
 /// Two lines of nodes of a structure, and contact elements between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +26,7 @@ pub(crate) struct JointLine {
     pub(crate) gap: f64,
 }
 
-/// A joint of a base: its elements, and its nodes among the contact nodes.
+/// A joint of a base: its line, and its elements among all contact elements.
 #[derive(Debug, Clone)]
 pub(crate) struct PlacedJoint {
     pub(crate) line: JointLine,
@@ -44,13 +46,13 @@ impl JointLine {
         at_least("list of contact elements of a joint", element_count, 1)?;
         check_count(element_count, COMPONENTS_IN_PLANE)?;
         let sides = [upper, lower];
-        let direction = checked_direction(&sides)?;
-        let span = common_span(&sides, &direction)?;
+        let upper_element = checked_upper_element(&sides)?;
+        let span = common_span(&sides, &upper_element)?;
         let ends = (0..=element_count).map(|k| {
             let fraction = k as f64 / element_count as f64;
             (1.0 - fraction) * span[0] + fraction * span[1]
         });
-        Ok(Self::with_ends(sides, &direction, ends))
+        Ok(Self::with_ends(sides, &upper_element, ends))
     }
 
     /// An element around each node of the lower side, over the length that both lines share.
@@ -59,29 +61,29 @@ impl JointLine {
     /// mean. Returns an error as [`new`](Self::new).
     pub(crate) fn around_lower_nodes(upper: Vec<BaseNode>, lower: Vec<BaseNode>) -> Result<Self> {
         let sides = [upper, lower];
-        let direction = checked_direction(&sides)?;
-        let span = common_span(&sides, &direction)?;
+        let upper_element = checked_upper_element(&sides)?;
+        let span = common_span(&sides, &upper_element)?;
         check_count(sides[1].len(), COMPONENTS_IN_PLANE)?;
-        let tolerance = STRAIGHTNESS_TOLERANCE * direction.length();
-        let coordinate = |node: &BaseNode| direction.components([node.x, 0.0, node.z])[1];
+        let min_length = MIN_END_ELEMENT_FRACTION * upper_element.length();
+        let coordinate = |node: &BaseNode| upper_element.components([node.x, 0.0, node.z])[1];
         let mut ends = vec![span[0]];
         for pair in sides[1].windows(2) {
             let middle = 0.5 * (coordinate(&pair[0]) + coordinate(&pair[1]));
-            if span[0] + tolerance < middle && middle < span[1] - tolerance {
+            if span[0] + min_length < middle && middle < span[1] - min_length {
                 ends.push(middle);
             }
         }
         ends.push(span[1]);
-        Ok(Self::with_ends(sides, &direction, ends.into_iter()))
+        Ok(Self::with_ends(sides, &upper_element, ends.into_iter()))
     }
 
-    /// Elements between these coordinates along `direction`, which is an element over the upper side.
+    /// Elements between these coordinates along `upper_element`, which lies over the upper side.
     fn with_ends(
         sides: [Vec<BaseNode>; 2],
-        direction: &ContactElement,
+        upper_element: &ContactElement,
         ends: impl Iterator<Item = f64>,
     ) -> Self {
-        let [line_start, line_end] = direction.span();
+        let [line_start, line_end] = upper_element.span();
         let first = &sides[0][0];
         let last = &sides[0][sides[0].len() - 1];
         let mut points = Vec::new();
@@ -107,7 +109,7 @@ impl JointLine {
         &self.sides
     }
 
-    /// Checks that the weights are finite, and that the structure has the degrees of freedom.
+    /// Checks that the nodes' degrees of freedom exist in the structure, with finite weights.
     pub(crate) fn check(&self, dof_count: usize) -> Result<()> {
         for row in self.sides.iter().flatten().flat_map(BaseNode::rows) {
             row.check("degree of freedom of a contact node", dof_count)?;
@@ -137,7 +139,7 @@ impl JointLine {
 }
 
 /// Element over the whole upper side; an error for too few nodes, coordinates that are not finite, or no length.
-fn checked_direction(sides: &[Vec<BaseNode>; 2]) -> Result<ContactElement> {
+fn checked_upper_element(sides: &[Vec<BaseNode>; 2]) -> Result<ContactElement> {
     for nodes in sides {
         at_least("list of contact nodes of a side of a joint", nodes.len(), 2)?;
         for node in nodes {
@@ -153,17 +155,17 @@ fn checked_direction(sides: &[Vec<BaseNode>; 2]) -> Result<ContactElement> {
     Ok(ContactElement::wall([first.x, first.z], [last.x, last.z]))
 }
 
-/// Span of the coordinates along `direction` that all sides share, m.
+/// Span of the coordinates along `upper_element` that all sides share, m.
 ///
-/// Returns an error for sides that are not straight, not parallel to `direction` (an element over the upper side), listed in
-/// the other sense, or not opposite each other.
-fn common_span(sides: &[Vec<BaseNode>; 2], direction: &ContactElement) -> Result<[f64; 2]> {
+/// Returns an error for sides that are not straight, not parallel to `upper_element` (over the upper side), listed in
+/// opposite order, or not opposite each other.
+fn common_span(sides: &[Vec<BaseNode>; 2], upper_element: &ContactElement) -> Result<[f64; 2]> {
     let first = &sides[0][0];
     let last = &sides[0][sides[0].len() - 1];
     let length = (last.x - first.x).hypot(last.z - first.z);
     let mut span = [f64::NEG_INFINITY, f64::INFINITY];
     for nodes in sides {
-        let place = |node: &BaseNode| direction.components([node.x, 0.0, node.z]);
+        let place = |node: &BaseNode| upper_element.components([node.x, 0.0, node.z]);
         let places: Vec<[f64; 3]> = nodes.iter().map(place).collect();
         for pair in places.windows(2) {
             let distance = pair[1][1] - pair[0][1];

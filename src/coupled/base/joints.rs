@@ -122,15 +122,15 @@ impl PlacedBase {
     }
 
     /// Entries of the ground's elements in a matrix of all contact components, row by row.
-    pub(crate) fn ground_matrix<'a>(&self, whole: &'a [f64]) -> Cow<'a, [f64]> {
+    pub(crate) fn ground_matrix<'a>(&self, matrix: &'a [f64]) -> Cow<'a, [f64]> {
         if self.joints.is_empty() {
-            return Cow::Borrowed(whole);
+            return Cow::Borrowed(matrix);
         }
         let ground_layout = self.elements.layout();
         let mut ground = vec![0.0; ground_layout.matrix_len()];
         for (i, row) in ground.chunks_exact_mut(ground_layout.len()).enumerate() {
-            let first = self.contact_index(i) * self.layout.len();
-            self.copy_ground_part(&whole[first..first + self.layout.len()], row);
+            let row_start = self.contact_index(i) * self.layout.len();
+            self.copy_ground_part(&matrix[row_start..row_start + self.layout.len()], row);
         }
         Cow::Owned(ground)
     }
@@ -140,13 +140,13 @@ impl PlacedBase {
         if self.joints.is_empty() {
             return ground;
         }
-        let mut whole = vec![0.0; self.layout.matrix_len()];
+        let mut matrix = vec![0.0; self.layout.matrix_len()];
         let ground_layout = self.elements.layout();
         for (i, row) in ground.chunks_exact(ground_layout.len()).enumerate() {
-            let first = self.contact_index(i) * self.layout.len();
-            self.set_ground_part(row, &mut whole[first..first + self.layout.len()]);
+            let row_start = self.contact_index(i) * self.layout.len();
+            self.set_ground_part(row, &mut matrix[row_start..row_start + self.layout.len()]);
         }
-        whole
+        matrix
     }
 }
 

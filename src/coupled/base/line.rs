@@ -127,15 +127,15 @@ impl NodesOnElement {
     /// Selects the nodes on the line of an element.
     ///
     /// Returns an error unless the nodes cover the element.
-    fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
+    pub(super) fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         // Coordinates along the element's normal and tangent.
-        let local = |node: &BaseNode| element.components([node.x, node.y, node.z]);
+        let local_coordinates = |node: &BaseNode| element.components([node.x, node.y, node.z]);
         let depth = element.components(element.center())[0];
         let tolerance = ON_ELEMENT_TOLERANCE * element.length();
-        let is_on_line = |node: &&BaseNode| (local(node)[0] - depth).abs() <= tolerance;
+        let is_on_line = |node: &&BaseNode| (local_coordinates(node)[0] - depth).abs() <= tolerance;
         let first_node = nodes.iter().position(|node| is_on_line(&node)).unwrap_or(nodes.len());
         let nodes_on_line = nodes[first_node..].iter().take_while(is_on_line);
-        let coordinates = nodes_on_line.map(|node| local(node)[1]).collect();
+        let coordinates = nodes_on_line.map(|node| local_coordinates(node)[1]).collect();
         let nodes_on_element = Self { first_node, coordinates, ends: element.span() };
         let [first, .., last] = nodes_on_element.coordinates[..] else {
             let [x, _, z] = element.center().map(number_text);
@@ -184,6 +184,24 @@ impl NodesOnElement {
                 (node, fraction * (1.0 - second_weight)),
                 (node + 1, fraction * second_weight),
             ]);
+        }
+        weights
+    }
+
+    /// Indices and weights of nodes in the integral of the displacement times a load on the element.
+    ///
+    /// `resultant`: sum of the load between two coordinates along the tangent, and the coordinate of its centroid.
+    pub(super) fn integral_weights(
+        &self,
+        resultant: impl Fn([f64; 2]) -> (f64, f64),
+    ) -> Vec<(usize, f64)> {
+        let mut weights = Vec::new();
+        for ElementPiece { node, x0, x1, start, end } in self.pieces() {
+            let (force, centroid) = resultant([start, end]);
+            // The displacement is linear over the piece.
+            let second_weight = (centroid - x0) / (x1 - x0);
+            weights
+                .extend([(node, force * (1.0 - second_weight)), (node + 1, force * second_weight)]);
         }
         weights
     }

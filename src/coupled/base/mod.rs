@@ -10,6 +10,7 @@ mod line;
 mod tears;
 pub(crate) mod transformation;
 mod uncovered;
+mod water;
 
 use std::ops::Range;
 
@@ -246,9 +247,9 @@ impl PlacedBase {
         self.areas()[self.layout().component_and_element(i)[1]]
     }
 
-    /// Writes the element means B u to `out`.
-    pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
-        self.rows.multiply(u, out);
+    /// Writes the element means B u to `means`.
+    pub(crate) fn means(&self, u: &[f64], means: &mut [f64]) {
+        self.rows.multiply(u, means);
     }
 
     /// Component `i` of the element means B u.

@@ -1,6 +1,7 @@
 //! A base in the plane: means over elements, walls, and errors.
 
 use super::*;
+use crate::soil::WaterTable;
 use crate::structure::BaseNode;
 
 fn base(nodes: Vec<BaseNode>, elements: &[ContactElement], dofs: usize) -> Result<PlacedBase> {
@@ -101,4 +102,51 @@ fn bad_bases_are_errors() {
     assert!(base(vec![node(0.0), node(0.9)], &element, 2).is_err());
     assert!(base(vec![node(0.0), node(1.0)], &element, 1).is_err());
     assert!(base(vec![node(0.0), node(1.0)], &element, 2).is_ok());
+}
+
+/// Water on walls and floor of a box: ρ h²/2 and, about the bottom, ρ h³/6 on each wall, ρ h on the floor.
+///
+/// The water table lies inside an element, and between two nodes.
+#[test]
+fn water_presses_as_a_triangle_on_walls() {
+    let (width, depth, water_depth) = (8.0, 5.0, 1.37);
+    let wall_heights = [0.0, -0.9, -2.2, -3.1, -depth];
+    let mut places: Vec<[f64; 2]> = wall_heights.iter().map(|z| [-0.5 * width, *z]).collect();
+    places.extend([-1.0, 2.5].map(|x| [x, -depth]));
+    places.extend(wall_heights.iter().rev().map(|z| [0.5 * width, *z]));
+    let node =
+        |(k, &[x, z]): (usize, &[f64; 2])| BaseNode { z, ..BaseNode::free(x, 2 * k, 2 * k + 1) };
+    let nodes: Vec<BaseNode> = places.iter().enumerate().map(node).collect();
+    let outline = [
+        [-4.0, 0.0],
+        [-4.0, -2.0],
+        [-4.0, -2.7],
+        [-4.0, -5.0],
+        [-1.5, -5.0],
+        [4.0, -5.0],
+        [4.0, -2.7],
+        [4.0, -2.0],
+        [4.0, 0.0],
+    ];
+    let elements: Vec<_> =
+        outline.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect();
+    let dofs = 2 * places.len();
+    let base = base(nodes, &elements, dofs).unwrap();
+    let water = WaterTable::at_depth(water_depth).unwrap().with_density(1030.0).unwrap();
+    let masses = base.water_masses(&water, dofs).unwrap();
+    let head = depth - water_depth;
+    for (side, sign) in [(-0.5 * width, 1.0), (0.5 * width, -1.0)] {
+        let mut thrust = 0.0;
+        let mut moment = 0.0;
+        for (k, place) in places.iter().enumerate().filter(|(_, place)| place[0] == side) {
+            thrust += sign * masses[2 * k];
+            moment += sign * masses[2 * k] * (place[1] + depth);
+        }
+        assert!((thrust / (1030.0 * head.powi(2) / 2.0) - 1.0).abs() < 1e-13, "{thrust}");
+        assert!((moment / (1030.0 * head.powi(3) / 6.0) - 1.0).abs() < 1e-13, "{moment}");
+    }
+    let uplift: f64 = masses.iter().skip(1).step_by(2).sum();
+    assert!((uplift / (1030.0 * head * width) - 1.0).abs() < 1e-13, "{uplift}");
+    let dry = WaterTable::at_depth(depth).unwrap();
+    assert_eq!(base.water_masses(&dry, dofs).unwrap(), []);
 }

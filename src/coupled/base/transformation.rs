@@ -121,17 +121,17 @@ pub(crate) enum Rows {
 }
 
 impl Rows {
-    /// Writes the values of the sums at coordinates `x` to `out`.
-    pub(crate) fn multiply(&self, x: &[f64], out: &mut [f64]) {
+    /// Writes the values of the sums at coordinates `x` to `values`.
+    pub(crate) fn multiply(&self, x: &[f64], values: &mut [f64]) {
         match self {
             Self::Sparse(rows) => {
-                for (row, value) in rows.iter().zip(out) {
+                for (row, value) in rows.iter().zip(values) {
                     *value = row.iter().map(|&(j, weight)| weight * x[j]).sum();
                 }
             }
             Self::Dense(rows) => {
-                out.fill(0.0);
-                dense_multiply_add(rows, 1.0, x, out);
+                values.fill(0.0);
+                dense_multiply_add(rows, 1.0, x, values);
             }
         }
     }

@@ -112,8 +112,8 @@ impl Assembled {
     ///
     /// The error contains the load factor.
     fn buckling(&self, structure: &dyn Structure) -> Option<Error> {
-        let loaded = LoadedStiffness::new(structure, &self.stiffness)?;
-        let factor = loaded.critical_factor(1.0, |stiffness| {
+        let loaded_stiffness = LoadedStiffness::new(structure, &self.stiffness)?;
+        let factor = loaded_stiffness.critical_factor(1.0, |stiffness| {
             check_signs(&self.base, [&self.mass, &self.damping, stiffness]).is_ok()
         })?;
         Some(StructureError::Buckling { factor }.into())

@@ -41,18 +41,18 @@ impl Condensed {
     /// `fixed_factor` is the factored K + γ NᵀN. The result is `None` unless it eliminates the base last, and for an error of
     /// `weight_and_load`, which the static state returns again.
     pub(crate) fn new(
-        whole: &Assembled,
+        whole_structure: &Assembled,
         fixed_factor: SparseFactor,
         weight_and_load: impl FnOnce() -> Result<[Vec<f64>; 2]>,
     ) -> Result<Option<Self>> {
-        let dofs = whole.base.dofs();
+        let dofs = whole_structure.base.dofs();
         let Some(mut stiffness) = fixed_factor.condensed(&dofs) else {
             return Ok(None);
         };
         let Ok(whole_forces) = weight_and_load() else { return Ok(None) };
         let order = dofs.len();
-        let whole_dofs = whole.dofs();
-        let spring = whole.base_spring_stiffness();
+        let whole_dofs = whole_structure.dofs();
+        let spring = whole_structure.base_spring_stiffness();
         let mut solutions = whole_forces.concat();
         fixed_factor.solve_many(&mut solutions);
         let mut responses = solutions.chunks_exact(whole_dofs);
@@ -65,10 +65,10 @@ impl Condensed {
             condensed_force
         });
 
-        let base = renumbered(&dofs, &whole.base);
+        let base = renumbered(&dofs, &whole_structure.base);
         let mut mass = Triplets::new(order);
-        let up = whole.influence.whole_vector(UPWARD_DIRECTION, whole_dofs);
-        let nodal_mass = whole.mass.form(&up, &up) / base.nodes().len() as f64;
+        let up = whole_structure.influence.whole_vector(UPWARD_DIRECTION, whole_dofs);
+        let nodal_mass = whole_structure.mass.form(&up, &up) / base.nodes().len() as f64;
         for row in base.nodes().iter().flat_map(BaseNode::rows) {
             mass.add_outer(row, nodal_mass);
             for &(i, row_weight) in row {
@@ -84,7 +84,7 @@ impl Condensed {
             damping: Arc::new(SparseMatrix::new("damping at the base", &Triplets::new(order))?),
             stiffness: Arc::new(SparseMatrix::from_dense(order, stiffness)),
             tangent_stiffness: None,
-            influence: Arc::new(whole.influence.converted(|vector| {
+            influence: Arc::new(whole_structure.influence.converted(|vector| {
                 let condensed_term =
                     |&(dof, r): &(usize, f64)| Some((dofs.binary_search(&dof).ok()?, r));
                 vector.iter().filter_map(condensed_term).collect()
@@ -96,13 +96,13 @@ impl Condensed {
     }
 
     /// Converts a base of the whole structure to the condensed degrees of freedom.
-    pub(crate) fn condensed_base(&self, whole: &PlacedBase) -> PlacedBase {
-        renumbered(&self.dofs, whole)
+    pub(crate) fn condensed_base(&self, whole_base: &PlacedBase) -> PlacedBase {
+        renumbered(&self.dofs, whole_base)
     }
 
     /// Entries of a displacement of the whole structure at the base.
-    pub(crate) fn base_displacement(&self, whole: &[f64]) -> Vec<f64> {
-        self.dofs.iter().map(|dof| whole[*dof]).collect()
+    pub(crate) fn base_displacement(&self, whole_displacement: &[f64]) -> Vec<f64> {
+        self.dofs.iter().map(|dof| whole_displacement[*dof]).collect()
     }
 
     /// Displacement of the whole structure under `force`, from the displacement of its base.
@@ -110,7 +110,7 @@ impl Condensed {
     /// A residual force at the base, such as rounding, remains.
     pub(crate) fn expanded(
         &self,
-        whole: &Assembled,
+        whole_structure: &Assembled,
         base_displacement: &[f64],
         force: &[f64],
     ) -> Vec<f64> {
@@ -119,7 +119,7 @@ impl Condensed {
         // In equilibrium the springs have no force. The second pass removes rounding.
         for _ in 0..2 {
             let mut correction = force.to_vec();
-            whole.stiffness.multiply_add(-1.0, &displacement, &mut correction);
+            whole_structure.stiffness.multiply_add(-1.0, &displacement, &mut correction);
             self.fixed_factor.solve_many(&mut correction);
             displacement.iter_mut().zip(&correction).for_each(|(u, d)| *u += d);
         }
@@ -129,17 +129,17 @@ impl Condensed {
     /// Factored K + εm, from the condensed matrix S + εm.
     ///
     /// `None` unless it is positive definite.
-    pub(crate) fn shifted_factor(self, condensed: &SparseMatrix) -> Option<SparseFactor> {
-        let order = condensed.order();
-        let mut dense = vec![0.0; order * order];
-        for (row, column, value) in condensed.entries() {
-            dense[row * order + column] = value;
+    pub(crate) fn shifted_factor(self, condensed_stiffness: &SparseMatrix) -> Option<SparseFactor> {
+        let order = condensed_stiffness.order();
+        let mut dense_matrix = vec![0.0; order * order];
+        for (row, column, value) in condensed_stiffness.entries() {
+            dense_matrix[row * order + column] = value;
         }
-        self.fixed_factor.with_condensed(&self.dofs, &dense)
+        self.fixed_factor.with_condensed(&self.dofs, &dense_matrix)
     }
 }
 
 /// Renumbers the degrees of freedom of a base by their indices in `dofs`.
-fn renumbered(dofs: &[usize], whole: &PlacedBase) -> PlacedBase {
-    whole.renumbered(|dof| dofs.binary_search(&dof).unwrap_or_default())
+fn renumbered(dofs: &[usize], whole_base: &PlacedBase) -> PlacedBase {
+    whole_base.renumbered(|dof| dofs.binary_search(&dof).unwrap_or_default())
 }

@@ -42,8 +42,8 @@ impl StructureAtRest<'_> {
     /// `fixed_factor` is the factored stiffness with a fixed base. For most structures it excludes a mechanism.
     pub(crate) fn check(&self, fixed_factor: &mut SparseFactor) -> Result<()> {
         let regularised = RegularisedStiffness::on_firm_springs(self).1;
-        let softest = regularised.softest_displacement(fixed_factor, &[]);
-        if softest.is_some_and(|shape| regularised.relative_work(&shape) > FIRM_WORK_RATIO) {
+        let softest_shape = regularised.softest_displacement(fixed_factor, &[]);
+        if softest_shape.is_some_and(|shape| regularised.relative_work(&shape) > FIRM_WORK_RATIO) {
             return Ok(());
         }
         self.mechanism_up_to(MAX_CERTAIN_MECHANISM_WORK_RATIO)

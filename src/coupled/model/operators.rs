@@ -22,7 +22,7 @@ pub(crate) struct Operators {
     factorization: StiffnessFactorization,
     /// K_eff⁻¹BᵀA, stored column by column.
     ///
-    /// It is not used after the tangent of a large structure has changed.
+    /// It is not used after the tangent of a large structure has changed, except on a bed of springs.
     pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
@@ -39,7 +39,7 @@ pub(crate) struct Operators {
 /// Factorization of K_eff, or its inverse if diagonal.
 pub(crate) enum StiffnessFactorization {
     Sparse(Box<SparseFactor>),
-    /// After the first change of the tangent.
+    /// Factorization that is updated in place, after the first change of the tangent.
     Changing(Box<ChangingStiffness>),
     /// Inverse of the diagonal K_eff, in modal coordinates.
     Diagonal(Vec<f64>),
@@ -70,8 +70,14 @@ impl Operators {
                 base.means(u, out);
             },
         );
-        let [unit_traction, means] = [Vec::new(), Vec::new()];
-        Ok(Self { tangent, factorization, traction_responses, delassus, unit_traction, means })
+        Ok(Self {
+            tangent,
+            factorization,
+            traction_responses,
+            delassus,
+            unit_traction: Vec::new(),
+            means: Vec::new(),
+        })
     }
 
     /// Computes the operators for another tangent.
@@ -150,7 +156,9 @@ impl Operators {
         }
     }
 
-    /// Adds the response −K_eff⁻¹BᵀAτ to tractions; `scratch` has an entry for each coordinate.
+    /// Adds the structure's response −K_eff⁻¹BᵀAτ to `displacement`.
+    ///
+    /// `scratch` has an entry for each coordinate.
     pub(crate) fn add_response(
         &mut self,
         base: &PlacedBase,
@@ -201,7 +209,7 @@ impl Operators {
 }
 
 impl StiffnessFactorization {
-    /// Factors K_eff in degrees of freedom.
+    /// Factors K_eff as a sparse matrix.
     pub(crate) fn in_dofs(
         model: &Model,
         coefficients: &SchemeCoefficients,
@@ -250,7 +258,8 @@ impl StiffnessFactorization {
 ///
 /// Returns K⁻¹BᵀA, stored column by column, and the Delassus operator G + B K⁻¹BᵀA for the compliance G of the ground.
 /// `solve` overwrites many right-hand sides, one after the other. For a diagonal G and a structure of small rank the
-/// entries of the operator are not stored. Otherwise the function returns an error if they do not fit into memory.
+/// entries of the operator are not stored. For other structures on a diagonal G it returns an error if they do not fit
+/// into memory.
 pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
     base: &PlacedBase,
@@ -284,7 +293,7 @@ fn set_unit_forces(base: &PlacedBase, unit_traction: &mut [f64], dofs: usize, fo
     }
 }
 
-/// Adds the mean displacements of the responses to tractions to the row-major operator.
+/// Adds the mean displacements due to each unit traction to the row-major `operator`.
 fn add_means(
     base: &PlacedBase,
     traction_responses: &[f64],

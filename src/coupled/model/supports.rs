@@ -226,8 +226,9 @@ struct Resistance {
 impl Resistance {
     /// Resistance of a stiffness to a translation r.
     fn new(stiffness: &SparseMatrix, translation: &[f64]) -> Self {
-        let rounded: Vec<f64> = translation.iter().map(|r| r.round()).collect();
-        let differences: Vec<f64> = translation.iter().zip(&rounded).map(|(r, s)| r - s).collect();
+        let rounded_translation: Vec<f64> = translation.iter().map(|r| r.round()).collect();
+        let differences: Vec<f64> =
+            translation.iter().zip(&rounded_translation).map(|(r, s)| r - s).collect();
         let bending = largest(&differences);
         let mut products = RowProducts::new(stiffness, translation);
         let work: f64 = translation.iter().zip(&products.forces).map(|(r, f)| r * f).sum();
@@ -235,7 +236,7 @@ impl Resistance {
             translation.iter().zip(&products.magnitudes).map(|(r, f)| (r * f).abs()).sum();
         let is_nearly_whole = bending <= MAX_ROUNDING_DISTANCE;
         if is_nearly_whole {
-            products = RowProducts::new(stiffness, &rounded);
+            products = RowProducts::new(stiffness, &rounded_translation);
         }
         let RowProducts { forces, magnitudes } = products;
         let diagonal = stiffness.diagonal();

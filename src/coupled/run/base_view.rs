@@ -48,13 +48,13 @@ impl<'a> BaseView<'a> {
         if let Some(foundation) = self.single_foundation() {
             return value(foundation);
         }
-        let mut largest: f64 = 0.0;
+        let mut largest_value: f64 = 0.0;
         for candidate in self.state.foundations.iter().map(value) {
-            if candidate.abs() > largest.abs() {
-                largest = candidate;
+            if candidate.abs() > largest_value.abs() {
+                largest_value = candidate;
             }
         }
-        largest
+        largest_value
     }
 
     /// The highest value of all foundations, with its sign, or the value of the single foundation.

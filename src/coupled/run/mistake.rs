@@ -53,6 +53,12 @@ pub enum Mistake {
          numerical damping; apply it in the middle of the step"
     )]
     FirstOrderGround,
+    /// A water table below the whole base: the water has no effect.
+    #[error("water table {depth:.2} m below the surface, below the base: the water has no effect")]
+    WaterBelowBase {
+        /// Depth of the water table below the surface, m.
+        depth: f64,
+    },
     /// A soil with impossible numbers: probably in another unit, unless the model is not to scale.
     #[error("soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
         likely_soil_units(*shear_wave_speed, *density))]

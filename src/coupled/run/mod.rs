@@ -99,6 +99,11 @@ pub struct Run {
     /// ([`SimulationBuilder::rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit)).
     #[cfg_attr(feature = "serde", serde(default))]
     pub is_overturned: bool,
+    /// Upward force of the water on the structure, N/m (in plan N): see [`WaterTable`](crate::soil::WaterTable).
+    ///
+    /// Normal forces and pressures are effective: the weight is their sum at rest plus this force.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub buoyancy: f64,
     /// The base as a whole.
     pub whole: Summary,
     /// The probes, in the order of the builder.
@@ -183,6 +188,7 @@ impl Run {
             ground_motion: GroundMotion::default(),
             time_step: resolution.time_step,
             is_overturned: false,
+            buoyancy: state.context.buoyancy,
             whole: Summary::start(state, None),
             probes: probe_extremes,
             foundations: (0..state.foundations.len())
@@ -302,6 +308,7 @@ impl Run {
         }
         self.warnings
             .extend(envelope::tension_warning(&self.envelope, self.in_plan, can_open));
+        self.warnings.extend(Warning::of_water(self));
         self.warnings.extend(wall_pressure::wall_warning(&self.envelope, pressures_above));
         self.warnings.extend_from_slice(scene_warnings);
         let is_to_scale = !scene_warnings
@@ -341,10 +348,15 @@ impl Run {
         ContactElement::any_wall(self.envelope.iter().map(|envelope| &envelope.element))
     }
 
+    /// Weight of the structure, N/m (in plan N): the normal force at the start and the buoyancy.
+    pub(crate) fn weight(&self) -> f64 {
+        self.whole.static_normal_force + self.buoyancy
+    }
+
     /// Largest horizontal force on the base over the weight; `None` without weight.
     pub fn shear_coefficient(&self) -> Option<f64> {
-        let Summary { static_normal_force, horizontal_force, .. } = &self.whole;
-        (*static_normal_force > 0.0).then(|| horizontal_force.magnitude() / static_normal_force)
+        let weight = self.weight();
+        (weight > 0.0).then(|| self.whole.horizontal_force.magnitude() / weight)
     }
 
     /// Relative growth in the last step of a response of [`Warning::RESPONSES_CHECKED_AT_END`].

@@ -30,15 +30,7 @@ impl fmt::Display for Run {
         let time_step = seconds(self.time_step);
         writeln!(f, "Run of {steps} steps of {time_step} s from t = {start:.3} s to {end:.3} s")?;
         writeln!(f, "{}", self.ground_motion)?;
-        let weight = self.whole.static_normal_force;
-        if weight > 0.0 {
-            writeln!(
-                f,
-                "Weight on the base: {:.1} {}",
-                1e-3 * weight,
-                whole_body_unit("kN/m", self.in_plan)
-            )?;
-        }
+        self.write_weight(f)?;
         writeln!(f, "\n{}", self.peak_table().text())?;
         if self.foundations.len() > 1 {
             writeln!(f, "{}", self.foundation_table().text())?;
@@ -79,6 +71,28 @@ impl fmt::Display for Run {
 }
 
 impl Run {
+    /// Writes the effective weight on the base, and under water the weight and the buoyancy.
+    fn write_weight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let effective_weight = self.whole.static_normal_force;
+        if effective_weight <= 0.0 {
+            return Ok(());
+        }
+        let unit = whole_body_unit("kN/m", self.in_plan);
+        let effective_kn = 1e-3 * effective_weight;
+        if self.buoyancy == 0.0 {
+            return writeln!(f, "Weight on the base: {effective_kn:.1} {unit}");
+        }
+        let weight = self.weight();
+        writeln!(
+            f,
+            "Weight {:.1} {unit}, buoyancy {:.1} {unit}, factor of safety against flotation {}\n\
+             Effective weight on the base: {effective_kn:.1} {unit}; pressures and factors of safety are effective",
+            1e-3 * weight,
+            1e-3 * self.buoyancy,
+            safety_text(weight / self.buoyancy)
+        )
+    }
+
     fn peak_table(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let mut rows = Vec::new();
@@ -139,8 +153,8 @@ impl Run {
                 continue;
             }
             let name = quantity.name();
-            let smallest = safety_text(peak.value);
-            write!(f, "Least {name}: {smallest} at {:.3} s", peak.time)?;
+            let smallest_text = safety_text(peak.value);
+            write!(f, "Least {name}: {smallest_text} at {:.3} s", peak.time)?;
             match quantity {
                 Quantity::OverturningSafety => writeln!(f, ", over the left or the right edge")?,
                 Quantity::OverturningSafetyAcross => {
@@ -218,8 +232,8 @@ impl Run {
                 peak.time
             )?;
             if axis == 0 {
-                let largest = self.whole.largest_slip.highest.value;
-                write!(f, "; any element {} mm", number(1e3 * largest))?;
+                let largest_slip = self.whole.largest_slip.highest.value;
+                write!(f, "; any element {} mm", number(1e3 * largest_slip))?;
             }
             writeln!(f)?;
         }
@@ -280,15 +294,15 @@ impl Run {
         let heading = ["Joint", "gap mm", "slip mm", "largest kPa", "open s", "of s"];
         let mut rows = Vec::with_capacity(self.joint_envelopes.len());
         for (joint, envelopes) in self.joint_envelopes.iter().enumerate() {
-            let largest = |value: fn(&ElementEnvelope) -> f64| {
+            let largest_value = |value: fn(&ElementEnvelope) -> f64| {
                 envelopes.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
             };
             rows.push(vec![
                 joint.to_string(),
-                number(1e3 * largest(|element| element.gap.value)),
-                number(1e3 * largest(|element| element.slip.value.abs())),
-                number(1e-3 * largest(|element| element.pressure.highest.value)),
-                format!("{:.3}", largest(|element| element.open)),
+                number(1e3 * largest_value(|element| element.gap.value)),
+                number(1e3 * largest_value(|element| element.slip.value.abs())),
+                number(1e-3 * largest_value(|element| element.pressure.highest.value)),
+                format!("{:.3}", largest_value(|element| element.open)),
                 format!("{:.3}", self.end - self.start),
             ]);
         }

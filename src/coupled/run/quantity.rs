@@ -120,7 +120,7 @@ macro_rules! quantities {
                     residual_rotation: (QUANTITY_TABLE[Quantity::BaseRotation as usize].value)(&base),
                     residual_rotation_across: (QUANTITY_TABLE[Quantity::RotationAcross as usize].value)(&base),
                     uplift: Uplift::default(),
-                    sliding: Sliding::with_capacity(RESERVED_SLIP_EVENTS),
+                    sliding: Sliding::with_capacity(RESERVED_SLIP_EVENT_COUNT),
                 }
             }
 
@@ -260,7 +260,7 @@ quantities! {
 const FIRST_QUANTITY_IN_PLAN: usize = Quantity::ShearAcross as usize;
 
 /// Number of slip events for which a run reserves memory.
-const RESERVED_SLIP_EVENTS: usize = 1000;
+const RESERVED_SLIP_EVENT_COUNT: usize = 1000;
 
 /// Extremes at the start of a run: both are the initial value.
 fn first_extremes(base: &BaseView<'_>, value: fn(&BaseView) -> f64) -> Extremes {

@@ -50,9 +50,9 @@ const FREE_VIBRATION_FRACTION: f64 = 0.85;
 /// Multiple of the ground's r above which vibrations of the contact prevail.
 const CONTACT_VIBRATION_FACTOR: f64 = 2.0;
 /// Recommended number of steps per period of a free vibration.
-const FREE_VIBRATION_STEPS: f64 = 30.0;
+const FREE_VIBRATION_STEPS_PER_PERIOD: f64 = 30.0;
 /// Recommended number of steps per period if the base shear follows the ground.
-const FOLLOWING_STEPS: f64 = 15.0;
+const FOLLOWING_STEPS_PER_PERIOD: f64 = 15.0;
 /// Largest r of the ground.
 ///
 /// The largest base shear then has an error of about 0.9 r² = 5 %.
@@ -314,7 +314,7 @@ impl Resolution {
     /// Warning of a ground motion of this frequency (Hz) if the time step does not resolve it.
     fn unresolved_motion(&self, frequency: f64) -> Option<Warning> {
         let time_step = self.time_step;
-        let needed = 1.0 / (FOLLOWING_STEPS * frequency);
+        let needed = 1.0 / (FOLLOWING_STEPS_PER_PERIOD * frequency);
         let is_unresolved = PI * frequency * time_step > MAX_FOLLOWING_RATIO;
         is_unresolved.then_some(Warning::UnresolvedMotion { frequency, time_step, needed })
     }
@@ -333,8 +333,8 @@ impl Resolution {
         if is_free || motion_warning.is_none() && is_below_contact_vibration {
             let period = PI * time_step / shear_ratio;
             let needed = match (is_coarse, is_free, self.follows_ground()) {
-                (true, true, _) => period / FREE_VIBRATION_STEPS,
-                (true, false, _) => period / FOLLOWING_STEPS,
+                (true, true, _) => period / FREE_VIBRATION_STEPS_PER_PERIOD,
+                (true, false, _) => period / FOLLOWING_STEPS_PER_PERIOD,
                 (false, _, true) => time_step * RECOMMENDED_FOLLOWED_GROUND_RATIO / ground_ratio,
                 (false, _, false) => time_step * RECOMMENDED_GROUND_RATIO / ground_ratio,
             };

@@ -102,9 +102,13 @@ mod tests {
 
     #[test]
     fn first_excess_and_margin_by_hand() {
-        let largest = Peak::default();
-        let mut check =
-            ServiceCheck { criterion: Criterion::Slip, limit: 2.0, largest, first_excess: None };
+        let no_peak = Peak::default();
+        let mut check = ServiceCheck {
+            criterion: Criterion::Slip,
+            limit: 2.0,
+            largest: no_peak,
+            first_excess: None,
+        };
         for (k, value) in [0.5, -2.0, -3.0, 2.5, -5.0, 1.0].into_iter().enumerate() {
             assert_eq!(check.is_met(), k <= 2, "{k}");
             check.update_value(value, k as f64);

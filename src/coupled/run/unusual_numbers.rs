@@ -25,7 +25,7 @@ const MATERIAL_DENSITIES: [f64; 2] = [100.0, 22_600.0];
 /// Period above which a structure is unusually slow, s.
 ///
 /// Only the tallest towers and liquid in wide tanks are slower.
-pub(super) const LONGEST_PERIOD: f64 = 8.0;
+pub(super) const MAX_USUAL_PERIOD: f64 = 8.0;
 /// Largest usual ground acceleration, m/s². Few records exceed it; the largest has about 4.5 times gravity.
 const MAX_GROUND_ACCELERATION: f64 = 2.0 * STANDARD_GRAVITY;
 /// Accelerations of a record (m/s²) that are probably in g: weaker than design motions, and not zero.
@@ -33,7 +33,7 @@ const MAX_GROUND_ACCELERATION: f64 = 2.0 * STANDARD_GRAVITY;
 /// Design motions start at 0.5 m/s², where earthquakes are rare.
 const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
 /// Usual time steps of records, s.
-const RECORD_INTERVALS: [f64; 2] = [1e-4, 0.2];
+const USUAL_RECORD_TIME_STEPS: [f64; 2] = [1e-4, 0.2];
 /// Velocity at the end of a record over the largest velocity, above which the record drifts.
 ///
 /// Records with a corrected baseline end with some per cent.
@@ -52,11 +52,11 @@ const MAX_PRESSURE_RATIO: f64 = 0.025;
 /// Smallest plausible ratio of vertical and horizontal mass; below it the smaller mass lacks floors.
 const MIN_MASS_RATIO: f64 = 0.9;
 /// Strengths of a bond (Pa) that are probably in kPa.
-const WEAK_BONDS: [f64; 2] = [0.5, 1e3];
+const WEAK_BOND_STRENGTHS: [f64; 2] = [0.5, 1e3];
 /// Largest strength of a bond that is probably in kPa, relative to the pressure under the weight.
 const MAX_WEAK_BOND_RATIO: f64 = 0.01;
 /// Friction coefficients that are probably angles in degrees or percentages.
-const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
+const UNLIKELY_FRICTION_COEFFICIENTS: [f64; 2] = [15.0, 90.0];
 /// Plausible accelerations of gravity, m/s²: the moon has 1.6, Jupiter 25.
 const GRAVITY_RANGE: [f64; 2] = [1.5, 30.0];
 /// Time step over the mean period of a record above which the steps cannot resolve the record.
@@ -139,7 +139,7 @@ impl Warning {
         let form = LawForm::of(scene.layout());
         let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), form));
         let unlikely_frictions =
-            frictions.filter(|friction| is_within(UNLIKELY_FRICTION, *friction));
+            frictions.filter(|friction| is_within(UNLIKELY_FRICTION_COEFFICIENTS, *friction));
         warnings.extend(
             unlikely_frictions
                 .reduce(f64::max)
@@ -157,7 +157,7 @@ impl Warning {
         }
         let bonds = scene.laws.iter().filter_map(|law| bond_at_rest(law.as_ref(), pressure));
         let weak_bonds = bonds.filter(|strength| {
-            is_within(WEAK_BONDS, *strength) && *strength < MAX_WEAK_BOND_RATIO * pressure
+            is_within(WEAK_BOND_STRENGTHS, *strength) && *strength < MAX_WEAK_BOND_RATIO * pressure
         });
         warnings.extend(
             weak_bonds
@@ -254,7 +254,7 @@ impl Warning {
             warnings
                 .push(Self::Mistake(Mistake::UnusualMotion { acceleration: ground_motion.peak }));
         }
-        if !is_within(RECORD_INTERVALS, time_step) {
+        if !is_within(USUAL_RECORD_TIME_STEPS, time_step) {
             warnings.push(Self::Mistake(Mistake::UnusualInterval { time_step }));
         }
         let drifts = motion.records().into_iter().filter_map(drift_velocity);

@@ -20,7 +20,7 @@ const RUNNING_WAVE_THRESHOLD: f64 = 0.1;
 /// For resolved motions the ratio is near a half.
 const MAX_HALVING_RATIO: f64 = 0.75;
 /// Number of instants at which the ground is sampled.
-const SAMPLED_INSTANTS: usize = 256;
+const SAMPLED_INSTANT_COUNT: usize = 256;
 /// Largest number of sample intervals, each half of the previous one.
 const MAX_SAMPLE_INTERVALS: usize = 12;
 
@@ -58,8 +58,8 @@ impl Sampler<'_> {
     /// Instants spread evenly over the run, independent of the time step.
     fn instants(&self) -> impl Iterator<Item = f64> {
         let start = self.times.start;
-        let interval = (self.times.end - start) / SAMPLED_INSTANTS as f64;
-        (0..SAMPLED_INSTANTS).map(move |instant| start + (instant as f64 + 0.5) * interval)
+        let interval = (self.times.end - start) / SAMPLED_INSTANT_COUNT as f64;
+        (0..SAMPLED_INSTANT_COUNT).map(move |instant| start + (instant as f64 + 0.5) * interval)
     }
 
     /// Whether the free field differs between the first element and the last.

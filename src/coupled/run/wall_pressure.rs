@@ -8,7 +8,7 @@ use crate::geometry::ContactElement;
 use crate::interface::LawForm;
 
 /// Passive over vertical pressure of soil with a friction angle of 45°: tan²(67.5°).
-const STRONG_SOIL_RATIO: f64 = 5.828_427_124_746_19;
+const STRONG_SOIL_PRESSURE_RATIO: f64 = 5.828_427_124_746_19;
 /// Fraction of a wall's thrust beyond the passive limit, above which a run warns.
 const EXCESS_FRACTION_LIMIT: f64 = 0.1;
 
@@ -59,7 +59,8 @@ pub(crate) fn wall_warning(
         for e in wall {
             let pressure = envelope[e].pressure.highest.value;
             let area = elements[e].area();
-            let force = area * (pressure - STRONG_SOIL_RATIO * pressures_above[e]).max(0.0);
+            let force =
+                area * (pressure - STRONG_SOIL_PRESSURE_RATIO * pressures_above[e]).max(0.0);
             excess_force += force;
             thrust += area * pressure;
             if force > largest_force {

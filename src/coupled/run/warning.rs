@@ -297,6 +297,20 @@ pub enum Warning {
         /// Time of that pressure, s.
         time: f64,
     },
+    /// More than a tenth of a base under water opens.
+    ///
+    /// The pressure of the water stays that at rest. Real water must flow into the gap and out of it again, which damps
+    /// rocking and changes the pressure.
+    #[error(
+        "{:.0} % of the base opens under water, at {time:.2} s: flow into the gap and out of it is neglected",
+        100.0 * fraction
+    )]
+    WaterInGap {
+        /// Largest open fraction of the base.
+        fraction: f64,
+        /// Time of that fraction, s.
+        time: f64,
+    },
     /// A number, mesh or ground that is probably a mistake.
     #[error(transparent)]
     Mistake(Mistake),

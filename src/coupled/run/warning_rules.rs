@@ -2,6 +2,7 @@
 
 use crate::bem::GroundDescription;
 use crate::coupled::run::mistake::Mistake;
+use crate::coupled::run::peak::Peak;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Quantity, Run, unusual_numbers};
 use crate::coupled::scene::Scene;
@@ -22,7 +23,7 @@ impl Warning {
     /// Earlier, while energies are still small, the error may be larger.
     const ENERGY_ERROR_LIMIT: f64 = 1e-9;
     /// Energy created by the time scheme above which a run warns, relative to the largest energy.
-    const ALGORITHMIC_LIMIT: f64 = 0.02;
+    const ALGORITHMIC_ENERGY_LIMIT: f64 = 0.02;
 
     /// Tension above which a run under weight warns, relative to the largest static pressure.
     pub(crate) const TENSION_LIMIT: f64 = 0.01;
@@ -34,7 +35,7 @@ impl Warning {
     /// Ratio of damping force to friction below which a series gives the loss of slip.
     ///
     /// The first term of the series is sufficient.
-    const SERIES_LIMIT: f64 = 1e-3;
+    const MAX_SERIES_FORCE_RATIO: f64 = 1e-3;
     /// Smallest acceleration of a moving ground, relative to the peak of its records.
     const MIN_SHAKING_FRACTION: f64 = 0.01;
     /// Response that counts as rounding: slip in m, rotation in rad.
@@ -49,8 +50,11 @@ impl Warning {
     pub(crate) const RESPONSES_CHECKED_AT_END: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
+    /// Open fraction of a base under water above which a run warns.
+    const GAP_UNDER_WATER_LIMIT: f64 = 0.1;
+
     /// Smallest friction for which mirror images of scenes in plan have differed.
-    const HIGH_FRICTION: f64 = 3.0;
+    const HIGH_FRICTION_COEFFICIENT: f64 = 3.0;
 
     /// Warnings of a scene before its first step.
     ///
@@ -64,7 +68,7 @@ impl Warning {
         let &GroundDescription { ref soils, sampled_cells, .. } = description;
         let mut warnings: Vec<_> = Self::of_soils(soils).collect();
         // A model not to scale already has the warning of its soil.
-        if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
+        if warnings.is_empty() && period > unusual_numbers::MAX_USUAL_PERIOD {
             warnings.push(Self::Mistake(Mistake::LongPeriod { period }));
         }
         for (foundation, axis, reach) in scene.base.long_overhangs() {
@@ -141,7 +145,7 @@ impl Warning {
         // start. It covers 2 (1 − ln(1 + x)/x)/x of the distance without damping.
         let x = (rate * slip_duration).exp_m1();
         // Digits of the formula cancel if x is small; the first term of its series is 2x/3.
-        let loss = if x < Self::SERIES_LIMIT {
+        let loss = if x < Self::MAX_SERIES_FORCE_RATIO {
             2.0 / 3.0 * x
         } else {
             1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x
@@ -171,7 +175,7 @@ impl Warning {
                 friction = friction.max(friction_at_rest(law.as_ref(), LawForm::Limits));
             }
         }
-        (friction >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction })
+        (friction >= Self::HIGH_FRICTION_COEFFICIENT).then_some(Self::HighFriction { friction })
     }
 
     /// Counts a step that was solved with `substituted` friction instead of a larger one.
@@ -192,6 +196,13 @@ impl Warning {
     pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
         let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
         is_large.then_some(Self::LargeSettlement { foundation, settlement, width })
+    }
+
+    /// Warning of a gap that water must fill.
+    pub(crate) fn of_water(run: &Run) -> Option<Self> {
+        let Peak { value: fraction, time } = run.whole.uplifted_fraction.highest;
+        let is_open = run.buoyancy > 0.0 && fraction > Self::GAP_UNDER_WATER_LIMIT;
+        is_open.then_some(Self::WaterInGap { fraction, time })
     }
 
     /// Warnings of a run's largest slip, largest rotation, last energy balance and smallest algorithmic energy.
@@ -220,7 +231,7 @@ impl Warning {
             warnings.push(Self::EnergyBalance { residual });
         }
         let created_fraction = -smallest_algorithmic_energy / energy_balance.scale();
-        if created_fraction > Self::ALGORITHMIC_LIMIT {
+        if created_fraction > Self::ALGORITHMIC_ENERGY_LIMIT {
             warnings.push(Self::AlgorithmicEnergy { made: created_fraction });
         }
         warnings

@@ -158,16 +158,16 @@ impl SchemeCoefficients {
         coefficients[0] * increment + coefficients[1] * velocity + coefficients[2] * acceleration
     }
 
-    /// Writes the sums of the coefficients times the vectors (Δu, v₀, a₀) to `out`.
+    /// Writes the sums of the coefficients times the vectors (Δu, v₀, a₀) to `sums`.
     pub(crate) fn combine(
         coefficients: [f64; 3],
         increment: &[f64],
         velocity: &[f64],
         acceleration: &[f64],
-        out: &mut [f64],
+        sums: &mut [f64],
     ) {
         let terms = increment.iter().zip(velocity).zip(acceleration);
-        for (sum, ((du, v), a)) in out.iter_mut().zip(terms) {
+        for (sum, ((du, v), a)) in sums.iter_mut().zip(terms) {
             *sum = Self::apply(coefficients, *du, *v, *a);
         }
     }

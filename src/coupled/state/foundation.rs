@@ -332,17 +332,17 @@ mod tests {
         let checks_of =
             |friction: f64, state: &[ContactState; 2]| safety(&patch, &[], &[friction], state);
         let flight = contact([0.0; 2], [0.0; 2]);
-        let pressed = contact([1.0; 2], [0.0; 2]);
+        let pressed_state = contact([1.0; 2], [0.0; 2]);
         for friction in [0.0, 0.4, f64::INFINITY] {
             let checks = checks_of(friction, &flight);
             assert!(checks.sliding.is_nan() && checks.overturning[0].is_nan());
         }
         // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
-        let checks = checks_of(0.4, &pressed);
+        let checks = checks_of(0.4, &pressed_state);
         assert_eq!([checks.sliding, checks.overturning[0]], [f64::INFINITY; 2]);
-        assert_eq!(checks_of(0.0, &pressed).sliding, 0.0);
-        let sheared = contact([1.0, 0.0], [0.3, 0.0]);
-        assert_eq!(checks_of(f64::INFINITY, &sheared).sliding, f64::INFINITY);
+        assert_eq!(checks_of(0.0, &pressed_state).sliding, 0.0);
+        let sheared_state = contact([1.0, 0.0], [0.3, 0.0]);
+        assert_eq!(checks_of(f64::INFINITY, &sheared_state).sliding, f64::INFINITY);
         // The base as a whole is in tension: nothing resists.
         assert_eq!(checks_of(0.4, &contact([-1.0; 2], [0.0; 2])).overturning[0], 0.0);
     }

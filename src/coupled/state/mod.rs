@@ -54,6 +54,8 @@ pub(crate) struct ResultContext {
     pub(crate) footings: Vec<Footing>,
     /// Contact elements of each joint.
     pub(crate) joint_elements: Vec<Vec<ContactElement>>,
+    /// Upward force of the water on the structure, N.
+    pub(crate) buoyancy: f64,
 }
 
 /// Results of a simulation at the end of an accepted step.

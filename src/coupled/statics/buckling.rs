@@ -56,11 +56,11 @@ pub(crate) fn has_p_delta(structure: &dyn Structure) -> bool {
 /// Returns an error for a structure with P–Δ whose static state is an unstable equilibrium.
 ///
 /// Elements that are closed at rest count as bonded to the ground. The error has the load factor with all elements bonded
-/// if this factor is below 1. `condensed` is the structure condensed on its base, if it exists. Its matrix takes much less
-/// time to factor.
+/// if this factor is below 1. `condensed_structure` is the structure condensed on its base, if it exists. Its matrix
+/// takes much less time to factor.
 pub(crate) fn check(
     grounded: GroundedStructure<'_>,
-    condensed: Option<&Assembled>,
+    condensed_structure: Option<&Assembled>,
     at_rest: &StaticState,
 ) -> Result<()> {
     let GroundedStructure { assembled, structure, .. } = grounded;
@@ -73,7 +73,7 @@ pub(crate) fn check(
     };
     let is_closed = |element: usize| at_rest.modes[element].is_closed();
     // The first check uses the condensed structure, if there is one.
-    let first_structure = condensed.unwrap_or(assembled);
+    let first_structure = condensed_structure.unwrap_or(assembled);
     let first_ground = GroundStiffness::new(
         GroundedStructure { assembled: first_structure, ..grounded },
         is_closed,
@@ -122,9 +122,9 @@ pub(super) fn load_factor(grounded: GroundedStructure<'_>) -> Option<f64> {
     if structure.has_active_stiffness() || structure.dofs() != assembled.dofs() {
         return None;
     }
-    let loaded = LoadedStiffness::new(structure, assembled.stiffness_at_rest())?;
+    let loaded_stiffness = LoadedStiffness::new(structure, assembled.stiffness_at_rest())?;
     let ground = GroundStiffness::new(grounded, |_| true)?;
-    loaded.critical_factor(1.0, |stiffness| ground.is_stable_with(stiffness))
+    loaded_stiffness.critical_factor(1.0, |stiffness| ground.is_stable_with(stiffness))
 }
 
 impl<'a> GroundStiffness<'a> {

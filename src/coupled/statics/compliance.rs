@@ -63,9 +63,13 @@ impl ShiftedStiffnessFactor {
     }
 
     /// Expands the factor of a condensed structure to the whole structure, with springs at its base.
-    pub(crate) fn expanded(&self, whole: &Assembled, condensed: Condensed) -> Option<Self> {
-        let factor = condensed.shifted_factor(&self.matrix)?;
-        Some(Self { shift: self.shift, matrix: Arc::clone(&whole.stiffness), factor })
+    pub(crate) fn expanded(
+        &self,
+        whole_structure: &Assembled,
+        condensed_structure: Condensed,
+    ) -> Option<Self> {
+        let factor = condensed_structure.shifted_factor(&self.matrix)?;
+        Some(Self { shift: self.shift, matrix: Arc::clone(&whole_structure.stiffness), factor })
     }
 
     /// The matrix, if it is positive definite.
@@ -96,7 +100,7 @@ impl Compliance {
         factor: Rc<ShiftedStiffnessFactor>,
         base: &PlacedBase,
         ground_compliance: &CompressedMatrix,
-        prescribed: Option<&PrescribedDisplacement<'_>>,
+        prescribed_displacement: Option<&PrescribedDisplacement<'_>>,
     ) -> Result<Self> {
         let order = factor.matrix.order();
         let ground_with_joints;
@@ -109,13 +113,17 @@ impl Compliance {
                 with_joint_compliance(solve, base, ground_compliance, order, ratio);
             &ground_with_joints
         };
-        let mut pattern_response = prescribed
-            .map(|prescribed| PatternResponse::new(prescribed, &factor.factor))
+        let mut pattern_response = prescribed_displacement
+            .map(|prescribed_displacement| {
+                PatternResponse::new(prescribed_displacement, &factor.factor)
+            })
             .transpose()?;
         let solve = |rhs: &mut [f64]| {
             factor.factor.solve_many(rhs);
-            if let (Some(response), Some(prescribed)) = (&mut pattern_response, prescribed) {
-                response.fix_control(prescribed.control, rhs);
+            if let (Some(response), Some(prescribed_displacement)) =
+                (&mut pattern_response, prescribed_displacement)
+            {
+                response.fix_control(prescribed_displacement.control, rhs);
             }
         };
         let (traction_responses, delassus) = condense(solve, base, ground_compliance, order)?;

@@ -106,8 +106,8 @@ impl RelativeForceNorm {
         for weight in &mut weights {
             *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
         }
-        let weighted = weights.iter().zip(load).map(|(w, f)| w * f.abs());
-        let load_norm = weighted.fold(0.0_f64, f64::max);
+        let weighted_loads = weights.iter().zip(load).map(|(w, f)| w * f.abs());
+        let load_norm = weighted_loads.fold(0.0_f64, f64::max);
         if load_norm > 0.0 && load_norm.is_finite() {
             return Self { weights, load_norm };
         }
@@ -118,11 +118,11 @@ impl RelativeForceNorm {
 
     /// Norm of a force; infinite if a component is not finite.
     pub(super) fn of(&self, force: &[f64]) -> f64 {
-        let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
+        let weighted_forces = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
         // `max` ignores NaN, but a sum does not.
         let sum: f64 = force.iter().sum();
         if sum.is_finite() {
-            weighted.fold(0.0, f64::max) / self.load_norm
+            weighted_forces.fold(0.0, f64::max) / self.load_norm
         } else {
             f64::INFINITY
         }

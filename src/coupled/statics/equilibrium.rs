@@ -69,7 +69,7 @@ pub(crate) struct StaticProblem<'a> {
     /// Whether a search without a solution begins anew, with shortened increments.
     pub(crate) may_shorten_increments: bool,
     /// Load pattern whose factor follows from a displacement; `None` for constant loads.
-    pub(crate) prescribed: Option<&'a PrescribedDisplacement<'a>>,
+    pub(crate) prescribed_displacement: Option<&'a PrescribedDisplacement<'a>>,
 }
 
 /// End of an iteration: displacement, and factor of the load pattern.
@@ -141,13 +141,13 @@ impl StaticProblem<'_> {
                 }
             };
             let compliance = stored_compliance.insert(compliance);
-            let next =
+            let iterate =
                 self.next_iterate(compliance, &mut solver, (laws, start), load, &mut state)?;
-            let Some(Iterate { mut displacement, load_factor }) = next else { break };
+            let Some(Iterate { mut displacement, load_factor }) = iterate else { break };
             let mut traction = solver.response().traction.clone();
             let start_load = self.applied_load(load, state.load_factor);
             let end_load = self.applied_load(load, load_factor);
-            if self.prescribed.is_some() {
+            if self.prescribed_displacement.is_some() {
                 relative_norm = RelativeForceNorm::new(assembled, &end_load);
             }
             let mut position = 1.0;
@@ -209,17 +209,17 @@ impl StaticProblem<'_> {
         }
         let joint_element = joint_element_that_moves_most(&assembled.base, &last_step);
         let error = Error::Preload { iterations, residual: change, joint_element };
-        // The tangent of a structure that yields without limit says nothing of the ground.
+        // The tangent of a structure that yields without limit is unrelated to the ground; the first one is used.
         tangent.refill(self.structure, &start_displacement)?;
         Err(self.ill_conditioned(&tangent.matrix, initial_shift).unwrap_or(error))
     }
 
     /// The constant load with the load pattern times its factor.
     fn applied_load<'l>(&self, load: &'l [f64], load_factor: f64) -> Cow<'l, [f64]> {
-        match self.prescribed {
+        match self.prescribed_displacement {
             None => Cow::Borrowed(load),
-            Some(prescribed) => {
-                let forces = load.iter().zip(prescribed.pattern);
+            Some(target) => {
+                let forces = load.iter().zip(target.pattern);
                 Cow::Owned(forces.map(|(force, p)| force + load_factor * p).collect())
             }
         }
@@ -322,15 +322,16 @@ impl StaticProblem<'_> {
         let mut load_factor = state.load_factor;
         let load = self.applied_load(load, load_factor);
         let mut displacement = unbalanced_force(self.assembled, self.structure, &load, state)?;
-        if let Some(prescribed) = self.prescribed {
-            let missing = prescribed.missing(&state.displacement);
-            prescribed.add_spring_force(missing, &mut displacement);
+        if let Some(target) = self.prescribed_displacement {
+            let remainder = target.missing_displacement(&state.displacement);
+            target.add_spring_force(remainder, &mut displacement);
         }
         compliance.factor.factor.solve_many(&mut displacement);
-        if let (Some(prescribed), Some(response)) = (self.prescribed, &compliance.pattern_response)
+        if let (Some(target), Some(response)) =
+            (self.prescribed_displacement, &compliance.pattern_response)
         {
-            let missing = prescribed.missing(&state.displacement);
-            load_factor += response.move_control(prescribed.control, missing, &mut displacement);
+            let remainder = target.missing_displacement(&state.displacement);
+            load_factor += response.move_control(target.control, remainder, &mut displacement);
         }
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
@@ -360,13 +361,13 @@ impl StaticProblem<'_> {
         tangent: &SparseMatrix,
         initial_shift: f64,
     ) -> Result<Compliance> {
-        let mut shared = self.shared_compliance.borrow_mut();
+        let mut cell = self.shared_compliance.borrow_mut();
         if self.assembled.is_linear
-            && let Some(compliance) = shared.take_if(|shared| shared.factor.shift == springs.shift)
+            && let Some(compliance) = cell.take_if(|stored| stored.factor.shift == springs.shift)
         {
             return Ok(compliance);
         }
-        drop(shared);
+        drop(cell);
         let compliance = self.compliance(tangent, springs.shift)?;
         if compliance.factor.factor.is_positive_definite()
             || !tangent.is_symmetric()
@@ -388,12 +389,12 @@ impl StaticProblem<'_> {
 
     /// Compliance with springs of stiffness `shift` per mass.
     fn compliance(&self, tangent: &SparseMatrix, shift: f64) -> Result<Compliance> {
-        let Self { assembled, ground_compliance, prescribed, .. } = *self;
-        let spring = match prescribed {
-            Some(prescribed) => prescribed.spring(assembled.dofs())?,
+        let Self { assembled, ground_compliance, prescribed_displacement: target, .. } = *self;
+        let spring = match target {
+            Some(target) => target.spring(assembled.dofs())?,
             None => SparseMatrix::default(),
         };
         let factor = ShiftedStiffnessFactor::with_spring(assembled, tangent, shift, &spring)?;
-        Compliance::with_control(Rc::new(factor), &assembled.base, ground_compliance, prescribed)
+        Compliance::with_control(Rc::new(factor), &assembled.base, ground_compliance, target)
     }
 }

@@ -1,4 +1,4 @@
-//! Out-of-balance forces of a static state, and the joint that moves most without one.
+//! Out-of-balance forces of a static state, and the joint that moves most if no static state is found.
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::model::assembled::Assembled;
@@ -59,23 +59,27 @@ pub(super) fn force_rounding(
     DISPLACEMENT_ROUNDING_FACTOR * f64::EPSILON * relative_norm.of(&force)
 }
 
-/// Joint and its element whose sides move most against each other in a step of the displacement.
+/// Joint and its element whose sides move most against each other in a displacement increment.
 ///
-/// `None` without joints or step, and if an element of the ground moves more.
-pub(super) fn joint_element_that_moves_most(base: &PlacedBase, step: &[f64]) -> Option<[usize; 2]> {
-    if base.joints().is_empty() || step.is_empty() {
+/// `None` without joints, for an empty `increment`, and if an element on the ground moves more.
+pub(super) fn joint_element_that_moves_most(
+    base: &PlacedBase,
+    increment: &[f64],
+) -> Option<[usize; 2]> {
+    if base.joints().is_empty() || increment.is_empty() {
         return None;
     }
     let layout = base.layout();
     let mut means = vec![0.0; layout.len()];
-    base.means(step, &mut means);
-    let movement = |element: usize| {
+    base.means(increment, &mut means);
+    let relative_displacement = |element: usize| {
         let components = 0..layout.components();
         components.fold(0.0, |sum, k| resultant(sum, means[layout.index_of(k, element)]))
     };
     let elements = 0..layout.elements();
-    let element = elements.max_by(|a, b| movement(*a).total_cmp(&movement(*b)))?;
+    let element =
+        elements.max_by(|a, b| relative_displacement(*a).total_cmp(&relative_displacement(*b)))?;
     let mut joints = base.joints().iter().enumerate();
-    let (joint, placed) = joints.find(|(_, joint)| joint.elements.contains(&element))?;
-    Some([joint, element - placed.elements.start])
+    let (joint_index, joint) = joints.find(|(_, joint)| joint.elements.contains(&element))?;
+    Some([joint_index, element - joint.elements.start])
 }

@@ -161,10 +161,10 @@ mod tests {
         let law = |u: f64| if u < 0.25 { u } else { 0.25 + 40.0 * (u - 0.25) };
         let mut search = IncrementSearch::new(1);
         // L = 0.85 − 2u: balance at u = 0.25 + 0.1/42.
-        let linear = |u: f64| 0.85 - 2.0 * u;
-        search.start_at(&[0.0], &[linear(0.0)], &[law(0.0)]);
+        let linear_part = |u: f64| 0.85 - 2.0 * u;
+        search.start_at(&[0.0], &[linear_part(0.0)], &[law(0.0)]);
         let mut iterate = [1.0];
-        let mut linear_force = [linear(1.0)];
+        let mut linear_force = [linear_part(1.0)];
         let mut nonlinear_force = [law(1.0)];
         let mut count = 0;
         search
@@ -176,15 +176,15 @@ mod tests {
             .unwrap();
         let balance = 0.25 + 0.1 / 42.0;
         assert!((iterate[0] - balance).abs() < 1e-3, "{} {balance}", iterate[0]);
-        assert!((linear_force[0] - linear(iterate[0])).abs() < 1e-12);
+        assert!((linear_force[0] - linear_part(iterate[0])).abs() < 1e-12);
         assert!(nonlinear_force[0] == law(iterate[0]) && count < MAX_EVALUATIONS, "{count}");
         // An increment that ends before the balance does not change.
-        search.start_at(&[0.0], &[linear(0.0)], &[law(0.0)]);
-        let mut short = [0.1];
-        let mut forces = ([linear(0.1)], [law(0.1)]);
-        let full = search
-            .search::<()>(&mut short, &mut forces.0, &mut forces.1, |_, _| unreachable!())
+        search.start_at(&[0.0], &[linear_part(0.0)], &[law(0.0)]);
+        let mut short_iterate = [0.1];
+        let mut forces = ([linear_part(0.1)], [law(0.1)]);
+        let position = search
+            .search::<()>(&mut short_iterate, &mut forces.0, &mut forces.1, |_, _| unreachable!())
             .unwrap();
-        assert!(full == 1.0 && short == [0.1]);
+        assert!(position == 1.0 && short_iterate == [0.1]);
     }
 }

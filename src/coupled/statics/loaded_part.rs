@@ -43,7 +43,8 @@ impl LoadedPart {
         if self.normal <= 0.0 {
             let ends = self.x_ends();
             let across = self.y_ends();
-            let uplift = StabilityError::Uplift { ends, across, upward: -self.normal };
+            let uplift =
+                StabilityError::Uplift { ends, across, upward: -self.normal, buoyancy: 0.0 };
             return self.can_open().then(|| self.after_separation(uplift));
         }
         let sliding = self.sliding();

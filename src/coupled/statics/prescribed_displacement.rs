@@ -73,30 +73,30 @@ impl PrescribedDisplacement<'_> {
     }
 
     /// Displacement g that the control still has to move.
-    pub(crate) fn missing(&self, displacement: &[f64]) -> f64 {
+    pub(crate) fn missing_displacement(&self, displacement: &[f64]) -> f64 {
         self.displacement - self.control.value(displacement)
     }
 
     /// Adds κ g c, the force of the control's spring, to a right-hand side.
-    pub(crate) fn add_spring_force(&self, missing: f64, right_hand_side: &mut [f64]) {
+    pub(crate) fn add_spring_force(&self, missing_displacement: f64, right_hand_side: &mut [f64]) {
         for &(dof, weight) in self.control {
-            right_hand_side[dof] += self.spring_stiffness * missing * weight;
+            right_hand_side[dof] += self.spring_stiffness * missing_displacement * weight;
         }
     }
 }
 
 impl PatternResponse {
-    /// Response to the pattern of `prescribed`, without tractions.
+    /// Response to the pattern of `prescribed_displacement`, without tractions.
     ///
     /// # Errors
     /// [`Error::Scene`] for a pattern that does not move the control.
     pub(crate) fn new(
-        prescribed: &PrescribedDisplacement<'_>,
+        prescribed_displacement: &PrescribedDisplacement<'_>,
         factor: &SparseFactor,
     ) -> Result<Self> {
-        let mut displacement = prescribed.pattern.to_vec();
+        let mut displacement = prescribed_displacement.pattern.to_vec();
         factor.solve_many(&mut displacement);
-        let controlled = prescribed.control.value(&displacement);
+        let controlled = prescribed_displacement.control.value(&displacement);
         if controlled == 0.0 || !controlled.is_finite() {
             let needed = "one that moves the controlled degree of freedom";
             return Err(Error::Scene { quantity: "load pattern of the push-over", needed });
@@ -116,14 +116,16 @@ impl PatternResponse {
         }
     }
 
-    /// Moves the control by `missing` in all, after x; returns the change of the load factor without changes of tractions.
+    /// Moves the control by `missing_displacement` in all, after x.
+    ///
+    /// Returns the change of the load factor without changes of tractions.
     pub(crate) fn move_control(
         &self,
         control: &DofCombination,
-        missing: f64,
+        missing_displacement: f64,
         displacement: &mut [f64],
     ) -> f64 {
-        let factor = (missing - control.value(displacement)) / self.controlled;
+        let factor = (missing_displacement - control.value(displacement)) / self.controlled;
         for (entry, y) in displacement.iter_mut().zip(&self.displacement) {
             *entry += factor * y;
         }

@@ -41,15 +41,19 @@ pub(super) struct FirstTangent {
 impl FirstTangent {
     /// The first tangent of a step; `None` if a new one is needed.
     ///
-    /// `last`: tangent of the last iteration so far.
-    pub(super) fn of_step(&mut self, step: usize, last: &SparseMatrix) -> Option<&SparseMatrix> {
+    /// `last_tangent`: tangent of the last iteration so far.
+    pub(super) fn of_step(
+        &mut self,
+        step: usize,
+        last_tangent: &SparseMatrix,
+    ) -> Option<&SparseMatrix> {
         if self.follows(step) {
-            if last.order() < MIN_KEPT_TANGENT_DOFS {
+            if last_tangent.order() < MIN_KEPT_TANGENT_DOFS {
                 self.matrix = SparseMatrix::default();
-            } else if self.matrix.has_pattern_of(last) {
-                self.matrix.copy_values(last);
+            } else if self.matrix.has_pattern_of(last_tangent) {
+                self.matrix.copy_values(last_tangent);
             } else {
-                self.matrix.clone_from(last);
+                self.matrix.clone_from(last_tangent);
             }
         } else if self.step != Some(step) {
             self.matrix = SparseMatrix::default();
@@ -64,9 +68,9 @@ impl FirstTangent {
     }
 
     /// Values of the first tangent of the next step, for a checkpoint; empty for none.
-    pub(super) fn values<'a>(&'a self, step: usize, last: &'a SparseMatrix) -> &'a [f64] {
-        if self.follows(step) && last.order() >= MIN_KEPT_TANGENT_DOFS {
-            last.values()
+    pub(super) fn values<'a>(&'a self, step: usize, last_tangent: &'a SparseMatrix) -> &'a [f64] {
+        if self.follows(step) && last_tangent.order() >= MIN_KEPT_TANGENT_DOFS {
+            last_tangent.values()
         } else if self.step == Some(step) {
             self.matrix.values()
         } else {
@@ -93,25 +97,29 @@ mod tests {
     #[test]
     fn a_step_begins_with_the_last_tangent_of_the_step_before() {
         let order = MIN_KEPT_TANGENT_DOFS;
-        let mut first = FirstTangent::default();
+        let mut first_tangent = FirstTangent::default();
         let a = diagonal(order, 1.0);
         let b = diagonal(order, 2.0);
         let c = diagonal(order, 3.0);
-        assert!(first.of_step(4, &a).is_none() && first.values(4, &a).is_empty());
+        assert!(first_tangent.of_step(4, &a).is_none() && first_tangent.values(4, &a).is_empty());
         // Tangent b is the last of step 4.
-        assert_eq!(first.values(5, &b), b.values());
-        assert_eq!(first.of_step(5, &b), Some(&b));
+        assert_eq!(first_tangent.values(5, &b), b.values());
+        assert_eq!(first_tangent.of_step(5, &b), Some(&b));
         // Step 5 is tried again, after iterations with tangent c.
-        assert_eq!(first.of_step(5, &c), Some(&b));
-        assert_eq!(first.values(5, &c), b.values());
-        assert_eq!(first.of_step(6, &c), Some(&c));
+        assert_eq!(first_tangent.of_step(5, &c), Some(&b));
+        assert_eq!(first_tangent.values(5, &c), b.values());
+        assert_eq!(first_tangent.of_step(6, &c), Some(&c));
         // A run that continues somewhere else.
-        assert!(first.of_step(9, &c).is_none());
-        let mut resumed = FirstTangent::from_checkpoint(6, c.clone());
-        assert_eq!(resumed.of_step(6, &a), Some(&c));
+        assert!(first_tangent.of_step(9, &c).is_none());
+        let mut resumed_tangent = FirstTangent::from_checkpoint(6, c.clone());
+        assert_eq!(resumed_tangent.of_step(6, &a), Some(&c));
         // Small structures have a new tangent in every step.
-        let small = diagonal(order - 1, 1.0);
-        assert!(FirstTangent { step: Some(1), ..Default::default() }.of_step(2, &small).is_none());
+        let small_tangent = diagonal(order - 1, 1.0);
+        assert!(
+            FirstTangent { step: Some(1), ..Default::default() }
+                .of_step(2, &small_tangent)
+                .is_none()
+        );
     }
 
     #[test]

@@ -130,8 +130,12 @@ impl NewtonIteration {
     }
 
     /// Values of the tangent with which the next step begins, for a checkpoint; empty for none.
-    pub(crate) fn first_tangent<'a>(&'a self, step: usize, last: &'a SparseMatrix) -> &'a [f64] {
-        self.first_tangent.values(step, last)
+    pub(crate) fn first_tangent<'a>(
+        &'a self,
+        step: usize,
+        last_tangent: &'a SparseMatrix,
+    ) -> &'a [f64] {
+        self.first_tangent.values(step, last_tangent)
     }
 
     /// Sets the tangent with which the next step begins; an empty matrix for none.

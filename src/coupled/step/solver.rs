@@ -41,8 +41,8 @@ impl StepSolver {
 
     /// Values of the tangent with which the next step begins, for a checkpoint; empty for none.
     pub(crate) fn first_tangent(&self, step: usize) -> &[f64] {
-        let last = &self.linear.operators.tangent;
-        self.newton.as_ref().map_or(&[], |newton| newton.first_tangent(step, last))
+        let last_tangent = &self.linear.operators.tangent;
+        self.newton.as_ref().map_or(&[], |newton| newton.first_tangent(step, last_tangent))
     }
 
     /// Sets the tangent with which the next step begins; an empty matrix for none.

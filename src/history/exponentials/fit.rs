@@ -39,7 +39,7 @@ impl TailFit {
     /// Fits exponentials, more in each attempt, until they are accurate and passive.
     pub(super) fn new(
         kernel: &dyn ConvolutionWeights,
-        late: &dyn LateWeights,
+        late_weights: &dyn LateWeights,
         request: FitRequest,
     ) -> Result<Self> {
         let FitRequest { lags, horizon, tolerance } = request;
@@ -48,11 +48,12 @@ impl TailFit {
         let mut failure = None;
         for _ in 0..MAX_FIT_ATTEMPTS {
             let elements = kernel.classes().elements();
-            let tail = Tail::new(late.exponentials(lags, horizon, target_tolerance)?, elements)?;
-            let errors = MeasuredErrors::over(kernel, &tail, lags, horizon)?;
+            let tail =
+                Tail::new(late_weights.exponentials(lags, horizon, target_tolerance)?, elements)?;
+            let errors = MeasuredErrors::measure(kernel, &tail, lags, horizon)?;
             target_tolerance *= TOLERANCE_REDUCTION;
             if errors.largest_relative > tolerance {
-                failure.get_or_insert_with(|| inaccurate(tolerance, errors.largest_relative));
+                failure.get_or_insert_with(|| accuracy_error(tolerance, errors.largest_relative));
                 continue;
             }
             let PassivityMargin { min_eigenvalue, frequency } =
@@ -70,14 +71,19 @@ impl TailFit {
             }
             return Ok(Self { request, tail, errors, passivity_margin: min_eigenvalue });
         }
-        Err(failure.unwrap_or_else(|| inaccurate(tolerance, f64::INFINITY)))
+        Err(failure.unwrap_or_else(|| accuracy_error(tolerance, f64::INFINITY)))
     }
 }
 
-/// Error for a fit whose error is `reached`, above `tolerance`.
-fn inaccurate(tolerance: f64, reached: f64) -> Error {
+/// Error for a fit whose error is `reached_error`, above `tolerance`.
+fn accuracy_error(tolerance: f64, reached_error: f64) -> Error {
     let remedy = "with the largest number of poles tried".to_owned();
-    Error::Accuracy { quantity: "history by exponentials", reached, tolerance, remedy }
+    Error::Accuracy {
+        quantity: "history by exponentials",
+        reached: reached_error,
+        tolerance,
+        remedy,
+    }
 }
 
 /// A fit, and the spectra of its window of exact lags.

@@ -286,8 +286,8 @@ fn window_bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
 /// Number of lags in the window, a whole block of the transforms.
 ///
 /// A part of a block would take as much time as a whole block.
-fn whole_block_lags(late: &dyn LateWeights) -> Result<usize> {
-    let lags = late.window();
+fn whole_block_lags(late_weights: &dyn LateWeights) -> Result<usize> {
+    let lags = late_weights.window();
     let needed = "a million or fewer for a history by exponentials";
     require("lags before the exponentials", lags as f64, lags <= MAX_WINDOW_LAGS, needed)?;
     Ok(lags.next_power_of_two().max(LEAF_STEPS))

@@ -20,7 +20,7 @@ const EVEN_FREQUENCY_COUNT: usize = 48;
 const LOWEST_FREQUENCY_RATIO: f64 = 0.1;
 /// Largest order of H for which all frequencies are tried: the eigenvalues of a larger H take long.
 const MAX_DENSE_SEARCH_ORDER: usize = 100;
-/// Of this many frequencies one is tried, if the order of H is larger.
+/// One of this many frequencies is tried, if the order of H is above `MAX_DENSE_SEARCH_ORDER`.
 const COARSE_SEARCH_STRIDE: f64 = 3.0;
 
 /// Smallest scaled eigenvalue of H, and its frequency in radians per step.

@@ -37,7 +37,7 @@ struct ComponentErrors {
 
 impl MeasuredErrors {
     /// Measures the errors over the lags from `window` + 1 to `horizon`.
-    pub(super) fn over(
+    pub(super) fn measure(
         kernel: &dyn ConvolutionWeights,
         tail: &Tail,
         window: usize,
@@ -46,7 +46,7 @@ impl MeasuredErrors {
         let pairs = SampledPairs::new(kernel);
         let mut lag = window + 1;
         let mut errors = pairs.errors_at(kernel, tail, lag, window)?;
-        let mut measured = Self {
+        let mut measured_errors = Self {
             largest_relative: errors.relative_error,
             increment_sum: errors.absolute_error,
             last_coefficient: errors.max_coefficient,
@@ -57,14 +57,15 @@ impl MeasuredErrors {
                 (lag as f64 * (1.0 / CHECKED_LAGS_PER_OCTAVE).exp2()).ceil() as usize;
             let next_lag = proposed_lag.clamp(lag + 1, horizon.max(lag + 1));
             let next_errors = pairs.errors_at(kernel, tail, next_lag, window)?;
-            measured.increment_sum +=
+            measured_errors.increment_sum +=
                 errors.error_change.max(next_errors.error_change) * (next_lag - lag) as f64;
-            measured.largest_relative = measured.largest_relative.max(next_errors.relative_error);
-            measured.last_coefficient = next_errors.max_coefficient;
+            measured_errors.largest_relative =
+                measured_errors.largest_relative.max(next_errors.relative_error);
+            measured_errors.last_coefficient = next_errors.max_coefficient;
             lag = next_lag;
             errors = next_errors;
         }
-        Ok(measured)
+        Ok(measured_errors)
     }
 }
 

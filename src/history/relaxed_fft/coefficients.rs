@@ -76,16 +76,17 @@ impl Coefficients {
     }
 }
 
-/// Adds the effect of the input in column `now` to the outputs after it.
+/// Adds the effect of the input in `column` to the outputs after it.
 ///
-/// The diagonal components act on the remaining `ahead` outputs of the leaf, the coupling on `coupled` outputs.
+/// The diagonal components act on the remaining `output_count` outputs of the leaf, the coupling on
+/// `coupled_output_count` outputs.
 pub(super) struct Scatter<'a> {
     pub(super) coefficients: &'a Coefficients,
     pub(super) rows: &'a mut [f64],
     pub(super) stride: usize,
-    pub(super) now: usize,
-    pub(super) ahead: usize,
-    pub(super) coupled: usize,
+    pub(super) column: usize,
+    pub(super) output_count: usize,
+    pub(super) coupled_output_count: usize,
 }
 
 impl WithSimd for Scatter<'_> {
@@ -93,7 +94,7 @@ impl WithSimd for Scatter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { coefficients, rows, stride, now, ahead, coupled } = self;
+        let Self { coefficients, rows, stride, column, output_count, coupled_output_count } = self;
         let Coefficients { classes, short_lags, .. } = coefficients;
         let element_count = classes.elements().len();
         let [normal, tangential, couplings, second_couplings] = &**short_lags;
@@ -105,24 +106,25 @@ impl WithSimd for Scatter<'_> {
                 let mut q = 0;
                 let mut groups = pairs.chunks_exact(4);
                 for group in groups.by_ref() {
-                    let values: [f64; 4] =
-                        std::array::from_fn(|k| scale * rows[(first_row + q + k) * stride + now]);
+                    let values: [f64; 4] = std::array::from_fn(|k| {
+                        scale * rows[(first_row + q + k) * stride + column]
+                    });
                     let lags: [&[f64]; 4] =
-                        std::array::from_fn(|k| &table[group[k].class][1..=ahead]);
-                    let output = &mut rows[row * stride + now + 1..][..ahead];
+                        std::array::from_fn(|k| &table[group[k].class][1..=output_count]);
+                    let output = &mut rows[row * stride + column + 1..][..output_count];
                     add_rows(simd, values, lags, output);
                     q += 4;
                 }
                 for pair in groups.remainder() {
-                    let value = scale * rows[(first_row + q) * stride + now];
-                    let output = &mut rows[row * stride + now + 1..][..ahead];
-                    add_row(simd, value, &table[pair.class][1..=ahead], output);
+                    let value = scale * rows[(first_row + q) * stride + column];
+                    let output = &mut rows[row * stride + column + 1..][..output_count];
+                    add_row(simd, value, &table[pair.class][1..=output_count], output);
                     q += 1;
                 }
             }
             for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
                 let coupling = &couplings[class];
-                let reach = coupled.min(coupling.len() - 1);
+                let reach = coupled_output_count.min(coupling.len() - 1);
                 if sign == 0.0 || reach == 0 {
                     continue;
                 }
@@ -141,8 +143,8 @@ impl WithSimd for Scatter<'_> {
                     (p, element_count + q, sign, shear_lags),
                     (element_count + p, q, pressure_sign, pressure_lags),
                 ] {
-                    let value = sign * scale * rows[source * stride + now];
-                    let output = &mut rows[row * stride + now + 1..][..reach];
+                    let value = sign * scale * rows[source * stride + column];
+                    let output = &mut rows[row * stride + column + 1..][..reach];
                     add_row(simd, value, lags, output);
                 }
             }

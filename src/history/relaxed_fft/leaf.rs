@@ -120,14 +120,14 @@ impl PlanLeaf<'_> {
             });
             let inputs: [[_; COMPLEX_PARTS]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|part| {
-                    let begin = (m + n) * input_width + part * waves.count + range.start;
-                    SimdSlice::<S>::new(&inputs[begin..begin + length])
+                    let start = (m + n) * input_width + part * waves.count + range.start;
+                    SimdSlice::<S>::new(&inputs[start..start + length])
                 })
             });
             let coefficients: [[_; COMPLIANCES_PER_OFFSET]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|kind| {
-                    let begin = (leaf_step - m - n) * waves.with_spectra + first_spectrum;
-                    SimdSlice::<S>::new(&coefficients[kind][begin..begin + length])
+                    let start = (leaf_step - m - n) * waves.with_spectra + first_spectrum;
+                    SimdSlice::<S>::new(&coefficients[kind][start..start + length])
                 })
             });
             for k in 0..sums[0].vectors.len() {

@@ -81,7 +81,7 @@ pub(super) struct BlockRows<'a> {
     pub(super) stride: usize,
     pub(super) ring: Ring,
     /// Number of inputs so far.
-    pub(super) now: usize,
+    pub(super) step: usize,
     pub(super) classes: &'a PairClasses,
 }
 
@@ -172,7 +172,8 @@ impl PairLevel {
         for row_index in 0..row_count {
             let row = &block.rows[(first_row + row_index) * block.stride..][..block.stride];
             let real = &mut buffers.real[..2 * block_size];
-            real[..block_size].copy_from_slice(&row[block.ring.input_range(block.now, block_size)]);
+            real[..block_size]
+                .copy_from_slice(&row[block.ring.input_range(block.step, block_size)]);
             real[block_size..].fill(0.0);
             let spectrum = &mut buffers.spectra[row_index * frequencies..][..frequencies];
             transform(&*self.forward, real, spectrum, &mut buffers.scratch);
@@ -189,8 +190,8 @@ impl PairLevel {
             let scratch = &mut buffers.scratch[..self.inverse.get_scratch_len()];
             let result = self.inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(result.is_ok());
-            let begin = (first_row + row_index) * block.stride + block.ring.column(block.now);
-            let row = &mut block.rows[begin..begin + block_size];
+            let start = (first_row + row_index) * block.stride + block.ring.column(block.step);
+            let row = &mut block.rows[start..start + block_size];
             for (output, value) in row.iter_mut().zip(&real[block_size..]) {
                 *output += scale * value;
             }
@@ -224,8 +225,8 @@ impl PairLevel {
             // Adds the product of a class's spectrum with the source's tile to the receiver's tile.
             let mut add_product = |(kind, sign): (usize, f64), class: usize, source, receiver| {
                 let factor = [0, 1].map(|complex_part| {
-                    let begin = (class * 2 + complex_part) * frequencies + first_frequency;
-                    &self.spectra[kind][begin..][..tile_width]
+                    let start = (class * 2 + complex_part) * frequencies + first_frequency;
+                    &self.spectra[kind][start..][..tile_width]
                 });
                 let multiply =
                     if sign > 0.0 { multiply_add::<true> } else { multiply_add::<false> };

@@ -354,22 +354,23 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
         let input_width = self.grow(1, &mut ProgressReporter::unobserved())?.values_per_step();
-        let saved = SavedState::new(values, self.neglected_fraction.is_some())?;
-        let first_saved = Self::first_needed_input(saved.last_lag, steps);
-        check_inputs(steps - first_saved, input_width, saved.inputs)?;
+        let saved_state = SavedState::new(values, self.neglected_fraction.is_some())?;
+        let first_saved = Self::first_needed_input(saved_state.last_lag, steps);
+        check_inputs(steps - first_saved, input_width, saved_state.inputs)?;
         self.grow(steps, &mut ProgressReporter::unobserved())?;
         // The last lag may not be determined yet, in this history or in the saved one.
         let last_lag = self.last_lag.map(|last_lag| last_lag.lag);
         let first_input = Self::first_needed_input(last_lag, steps);
-        let lags_differ = last_lag.zip(saved.last_lag).is_some_and(|(lag, saved)| lag != saved);
+        let lags_differ =
+            last_lag.zip(saved_state.last_lag).is_some_and(|(lag, saved_lag)| lag != saved_lag);
         if lags_differ || first_input < first_saved {
             return Err(SavedState::CORRUPT_STATE.into());
         }
         let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
         blocks.clear();
-        let needed_inputs = &saved.inputs[(first_input - first_saved) * input_width..];
+        let needed_inputs = &saved_state.inputs[(first_input - first_saved) * input_width..];
         replay_inputs(blocks, first_input, needed_inputs);
-        self.max_traction = saved.max_traction;
+        self.max_traction = saved_state.max_traction;
         self.steps = steps;
         self.input_is_pending = steps > 0;
         self.input_error = None;

@@ -154,11 +154,11 @@ impl PairBlocks {
         // The weights are prepared before the spectra are locked: threads of the weights must not wait for the lock.
         weights.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
         let spectra = weights.spectra().filter(|s| s.belong_to(weights.classes().elements()));
-        let shared = spectra.map(SharedSpectra::tables::<Levels<PairLevel, ShortLagTables>>);
-        let mut shared = shared.as_deref().map(lock);
+        let shared_levels = spectra.map(SharedSpectra::tables::<Levels<PairLevel, ShortLagTables>>);
+        let mut shared_levels = shared_levels.as_deref().map(lock);
         let short_lags = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.short_lags));
         let mut private_store = Levels { levels: self.levels.clone(), leaf: short_lags };
-        let store = shared.as_deref_mut().unwrap_or(&mut private_store);
+        let store = shared_levels.as_deref_mut().unwrap_or(&mut private_store);
         let levels = store.smallest(level_count, |level_indices, short_lags| {
             self.compute_levels(weights, level_indices, short_lags, reporter)
         })?;
@@ -246,9 +246,9 @@ impl HistoryBlocks for PairBlocks {
             coefficients,
             rows,
             stride,
-            now: ring.column(last),
-            ahead: leaf_outputs,
-            coupled: coupled_outputs,
+            column: ring.column(last),
+            output_count: leaf_outputs,
+            coupled_output_count: coupled_outputs,
         });
         if !step.is_multiple_of(LEAF_STEPS) {
             return;
@@ -263,7 +263,7 @@ impl HistoryBlocks for PairBlocks {
         let coupled_level =
             self.levels.iter().rfind(|level| self.has_coupling_spectra(level.block_size));
         let rows = &mut self.rows[..];
-        let mut block = BlockRows { rows, stride, ring, now: step, classes: &coefficients.classes };
+        let mut block = BlockRows { rows, stride, ring, step, classes: &coefficients.classes };
         let components = if has_coupling { Components::All } else { Components::Even };
         level.apply(&mut block, components, &mut self.scratch);
         if let Some(level) = coupled_level.filter(|_| !has_coupling) {

@@ -141,14 +141,14 @@ fn read_tables(
 /// A factor includes both signs of the offset. The transform of the odd function is divided by i.
 fn cosines_and_sines(offset_count: usize, length: usize) -> [Vec<f64>; 2] {
     let unit_angle = std::f64::consts::TAU / length as f64;
-    let mut even = Vec::with_capacity(offset_count * (length / 2 + 1));
-    let mut odd = Vec::with_capacity(offset_count * (length / 2 + 1));
+    let mut cosines = Vec::with_capacity(offset_count * (length / 2 + 1));
+    let mut sines = Vec::with_capacity(offset_count * (length / 2 + 1));
     for offset in 0..offset_count {
         for k in 0..=length / 2 {
             let angle = unit_angle * (offset * k % length) as f64;
-            even.push(if offset == 0 { 1.0 } else { 2.0 * angle.cos() });
-            odd.push(if offset == 0 { 0.0 } else { -2.0 * angle.sin() });
+            cosines.push(if offset == 0 { 1.0 } else { 2.0 * angle.cos() });
+            sines.push(if offset == 0 { 0.0 } else { -2.0 * angle.sin() });
         }
     }
-    [even, odd]
+    [cosines, sines]
 }

@@ -19,10 +19,10 @@ impl Ring {
         if self.is_bounded() { step % self.0 } else { step }
     }
 
-    /// Columns of the block of `block_size` steps that ends before `now`.
-    pub(super) fn input_range(self, now: usize, block_size: usize) -> std::ops::Range<usize> {
-        let begin = self.column(now - block_size);
-        begin..begin + block_size
+    /// Columns of the block of `block_size` steps that ends before `step`.
+    pub(super) fn input_range(self, step: usize, block_size: usize) -> std::ops::Range<usize> {
+        let start = self.column(step - block_size);
+        start..start + block_size
     }
 
     /// Whether columns are used again.
@@ -30,17 +30,17 @@ impl Ring {
         self.0 < usize::MAX
     }
 
-    /// Index of the level for the block that ends before `now`, a multiple of a leaf.
-    pub(super) fn level_index(self, now: usize, level_count: usize) -> usize {
-        let index = (now / LEAF_STEPS).trailing_zeros() as usize;
+    /// Index of the level for the block that ends before `step`, a multiple of a leaf.
+    pub(super) fn level_index(self, step: usize, level_count: usize) -> usize {
+        let index = (step / LEAF_STEPS).trailing_zeros() as usize;
         if self.is_bounded() { index.min(level_count - 1) } else { index }
     }
 
-    /// Columns of old inputs that must be cleared for the outputs from `now` on; `None` unless a half begins.
-    pub(super) fn stale_range(self, now: usize) -> Option<std::ops::Range<usize>> {
+    /// Columns of old inputs that must be cleared for the outputs from `step` on; `None` unless a half begins.
+    pub(super) fn stale_range(self, step: usize) -> Option<std::ops::Range<usize>> {
         let half = self.0 / 2;
-        let begins_half = self.is_bounded() && now.is_multiple_of(half);
-        begins_half.then(|| self.column(now)..self.column(now) + half)
+        let begins_half = self.is_bounded() && step.is_multiple_of(half);
+        begins_half.then(|| self.column(step)..self.column(step) + half)
     }
 }
 

@@ -113,7 +113,7 @@ impl WaveLevel {
         debug_assert!(result.is_ok());
     }
 
-    /// Adds the effect of the b inputs before `now` to the next b outputs, in all rows.
+    /// Adds the effect of the b inputs before `step` to the next b outputs, in all rows.
     ///
     /// There is one row per wavenumber for the first component, then as many for each other component.
     #[allow(clippy::too_many_arguments, reason = "buffers of one step, each with its meaning")]
@@ -122,16 +122,16 @@ impl WaveLevel {
         rows: &mut [Complex<f64>],
         stride: usize,
         ring: Ring,
-        now: usize,
+        step: usize,
         components: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
         let block_size = self.block_size;
         // Rows may end before the block does.
-        let input_range = ring.input_range(now, block_size);
-        let begin = ring.column(now);
-        let output_range = begin..stride.min(begin + block_size);
+        let input_range = ring.input_range(step, block_size);
+        let start = ring.column(step);
+        let output_range = start..stride.min(start + block_size);
         if components == Components::Even {
             // One component at a time: the largest blocks need no more scratch than the blocks of the coupling.
             let block = &mut blocks[..2 * block_size];
@@ -186,8 +186,8 @@ impl WaveLevel {
         let blocks = &mut blocks[..2 * N * self.block_size];
         for wave in 0..self.waves.count {
             for (component, block) in blocks.chunks_exact_mut(2 * self.block_size).enumerate() {
-                let begin = (component * self.waves.count + wave) * stride;
-                let row = &rows[begin..][..stride];
+                let start = (component * self.waves.count + wave) * stride;
+                let row = &rows[start..][..stride];
                 self.transform_inputs(&row[input_range.clone()], block, scratch);
             }
             if components == Components::All {
@@ -198,8 +198,8 @@ impl WaveLevel {
                 multiply_coupling(pressure, shear, self.spectrum(COUPLING_KIND, wave));
             }
             for (component, block) in blocks.chunks_exact_mut(2 * self.block_size).enumerate() {
-                let begin = (component * self.waves.count + wave) * stride;
-                let row = &mut rows[begin..][..stride];
+                let start = (component * self.waves.count + wave) * stride;
+                let row = &mut rows[start..][..stride];
                 self.add_to_outputs(block, &mut row[output_range.clone()], scratch);
             }
         }

@@ -168,13 +168,13 @@ impl WaveBlocks {
         Ok(leaf_tables)
     }
 
-    /// Copies the leaf that ends before `now` to the rows, adds its effect, and begins the next leaf.
-    fn finish_leaf(&mut self, now: usize) {
+    /// Copies the leaf that ends before `step` to the rows, adds its effect, and begins the next leaf.
+    fn finish_leaf(&mut self, step: usize) {
         let wave_count = self.grid.waves().count;
         let ring = self.ring;
         let input_width = values_per_step(&self.grid);
-        let input_range = ring.input_range(now, LEAF_STEPS);
-        let stale_range = ring.stale_range(now);
+        let input_range = ring.input_range(step, LEAF_STEPS);
+        let stale_range = ring.stale_range(step);
         for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
             if let Some(stale_range) = &stale_range {
                 values[stale_range.clone()].fill(Complex::default());
@@ -185,24 +185,24 @@ impl WaveBlocks {
                 *value = Complex::new(input[real_index], input[real_index + wave_count]);
             }
         }
-        let level_index = ring.level_index(now, self.levels.len());
+        let level_index = ring.level_index(step, self.levels.len());
         let components = if self.levels[level_index].has_spectra(COUPLING_KIND) {
             Components::All
         } else {
             Components::Even
         };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
-        levels[level_index].apply(rows, *stride, ring, now, components, blocks, scratch);
+        levels[level_index].apply(rows, *stride, ring, step, components, blocks, scratch);
         if components == Components::Even
             && let Some(level) = levels.iter().rfind(|level| level.has_spectra(COUPLING_KIND))
         {
-            level.apply(rows, *stride, ring, now, Components::Coupling, blocks, scratch);
+            level.apply(rows, *stride, ring, step, Components::Coupling, blocks, scratch);
         }
-        let begin = ring.column(now);
+        let start = ring.column(step);
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
             let real_index = 2 * wave_count * (row / wave_count) + row % wave_count;
             let outputs = self.earlier_effects.chunks_exact_mut(input_width);
-            for (value, output) in values[begin..begin + LEAF_STEPS].iter().zip(outputs) {
+            for (value, output) in values[start..start + LEAF_STEPS].iter().zip(outputs) {
                 output[real_index] = value.re;
                 output[real_index + wave_count] = value.im;
             }
@@ -230,11 +230,12 @@ impl WaveBlocks {
         // If late lags are neglected, the spectra do not include all lags, and the store is not used.
         let spectra = weights.spectra().filter(|_| self.last_lag.is_none());
         let spectra = spectra.filter(|spectra| spectra.belong_to(weights.classes().elements()));
-        let shared = spectra.map(SharedSpectra::tables::<Levels<WaveLevel, LeafCoefficients>>);
-        let mut shared = shared.as_deref().map(lock);
+        let shared_levels =
+            spectra.map(SharedSpectra::tables::<Levels<WaveLevel, LeafCoefficients>>);
+        let mut shared_levels = shared_levels.as_deref().map(lock);
         let leaf = (self.capacity > 0).then(|| Arc::clone(&self.leaf));
         let mut private_store = Levels { levels: self.levels.clone(), leaf };
-        let store = shared.as_deref_mut().unwrap_or(&mut private_store);
+        let store = shared_levels.as_deref_mut().unwrap_or(&mut private_store);
         let smallest_levels = store.smallest(level_count, |level_indices, leaf| {
             self.compute_levels(weights, level_indices, leaf, reporter)
         })?;
@@ -333,8 +334,8 @@ impl HistoryBlocks for WaveBlocks {
         let wave_count = self.grid.waves().count;
         let input_width = self.values_per_step();
         if step >= effects_end - effects_end % LEAF_STEPS {
-            let begin = step % LEAF_STEPS * input_width;
-            values.extend_from_slice(&self.inputs[begin..begin + input_width]);
+            let start = step % LEAF_STEPS * input_width;
+            values.extend_from_slice(&self.inputs[start..start + input_width]);
         } else {
             let column = self.ring.column(step);
             for component in 0..self.grid.components() {

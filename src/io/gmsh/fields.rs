@@ -126,14 +126,14 @@ impl<R: Read> MshFields<R> {
         loop {
             let remaining_text = &self.text[self.position..];
             let white_space_length = remaining_text.len() - remaining_text.trim_start().len();
-            let begin = self.position + white_space_length;
-            if begin < self.text.len() {
-                let field_and_more = &self.text[begin..];
+            let begin_position = self.position + white_space_length;
+            if begin_position < self.text.len() {
+                let field_and_more = &self.text[begin_position..];
                 let field_length =
                     field_and_more.find(char::is_whitespace).unwrap_or(field_and_more.len());
-                let end = begin + field_length;
+                let end = begin_position + field_length;
                 self.position = end;
-                return Ok(Some(&self.text[begin..end]));
+                return Ok(Some(&self.text[begin_position..end]));
             }
             if !self.advance()? {
                 return Ok(None);

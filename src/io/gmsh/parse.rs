@@ -72,14 +72,14 @@ fn read_format_version(fields: &mut MshFields<impl Read>) -> LineResult<MshVersi
         "4.1" => MshVersion::Four,
         "2.2" | "2.1" | "2" => MshVersion::Two,
         _ => {
-            let found = format!("format {}", excerpt(&version_text));
-            return Err(fields.fault(FileFault::format(found, "format 4.1 or 2.2")));
+            let found_text = format!("format {}", excerpt(&version_text));
+            return Err(fields.fault(FileFault::format(found_text, "format 4.1 or 2.2")));
         }
     };
     if binary_flag > 0 {
         if bytes_per_number != 8 {
-            let found = format!("binary numbers of {bytes_per_number} bytes");
-            return Err(fields.fault(FileFault::format(found, "numbers of 8 bytes")));
+            let found_text = format!("binary numbers of {bytes_per_number} bytes");
+            return Err(fields.fault(FileFault::format(found_text, "numbers of 8 bytes")));
         }
         fields.begin_binary()?;
     }

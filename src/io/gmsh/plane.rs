@@ -122,9 +122,10 @@ impl GmshMesh {
     /// renumbered in their order, in all elements and groups.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the tolerance is finite and not negative; [`Error::Part`](crate::Error::Part) for nodes in a row that
-    /// lie within the tolerance of each other, while its ends do not; [`Error::File`] with the line of an element that
-    /// merging makes degenerate or equal to another one. The mesh is then unchanged.
+    /// [`Error::Input`](crate::Error::Input) unless the tolerance is finite and not negative;
+    /// [`Error::Part`](crate::Error::Part) for nodes in a row that lie within the tolerance of each other, while its
+    /// ends do not; [`Error::File`] with the line of an element that merging makes degenerate or equal to another
+    /// one. The mesh is then unchanged.
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
         let points = self.nodes.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>();
         let merge = NodeMerge::new(&points, tolerance)?;
@@ -183,7 +184,7 @@ impl GmshMesh {
             return Err(self.missing_item(format!("surface '{name}'")));
         }
         for (index, (name, _)) in materials.iter().enumerate() {
-            if materials[..index].iter().any(|(other, _)| other == name) {
+            if materials[..index].iter().any(|(other_name, _)| other_name == name) {
                 return Err(
                     self.file_error(duplicate_fault(format!("material of surface '{name}'")))
                 );
@@ -277,12 +278,13 @@ impl GmshMesh {
         let mut sorted_pieces = Vec::with_capacity(pieces.len());
         for piece in pieces {
             let mut nodes: Vec<usize> = piece.into_iter().collect();
-            nodes.sort_by(|&node, &other| {
-                self.x(node).total_cmp(&self.x(other)).then(node.cmp(&other))
+            nodes.sort_by(|&node, &other_node| {
+                self.x(node).total_cmp(&self.x(other_node)).then(node.cmp(&other_node))
             });
             sorted_pieces.push(nodes);
         }
-        sorted_pieces.sort_by(|piece, other| self.x(piece[0]).total_cmp(&self.x(other[0])));
+        sorted_pieces
+            .sort_by(|piece, other_piece| self.x(piece[0]).total_cmp(&self.x(other_piece[0])));
         Ok(sorted_pieces)
     }
 

@@ -91,7 +91,7 @@ fn write_grids(
         write_file(&folder.join(&file_name), base_grid(time_series, &cells, &frame))?;
         entries.push(CollectionEntry { time: frame.time, part: 1, file_name });
     }
-    entries.sort_by(|entry, other| entry.time.total_cmp(&other.time));
+    entries.sort_by(|entry, other_entry| entry.time.total_cmp(&other_entry.time));
     write_collection(folder, name, &entries)?;
     Ok(entries.len())
 }

@@ -139,15 +139,15 @@ impl Knots {
 ///
 /// Values at negative frequencies are `parity` times those at positive ones.
 fn cubic_between(values: &[f64], parity: f64, knot: usize, fraction: f64) -> f64 {
-    let before = if knot == 0 { parity * values[1] } else { values[knot - 1] };
-    let first = values[knot];
-    let second = values[knot + 1];
-    let slope = 0.5 * (second - before);
-    let next_slope = 0.5 * (values[knot + 2] - first);
-    let difference = second - first;
+    let previous_value = if knot == 0 { parity * values[1] } else { values[knot - 1] };
+    let value = values[knot];
+    let next_value = values[knot + 1];
+    let slope = 0.5 * (next_value - previous_value);
+    let next_slope = 0.5 * (values[knot + 2] - value);
+    let difference = next_value - value;
     let quadratic = 3.0 * difference - 2.0 * slope - next_slope;
     let cubic = slope + next_slope - 2.0 * difference;
-    first + fraction * (slope + fraction * (quadratic + fraction * cubic))
+    value + fraction * (slope + fraction * (quadratic + fraction * cubic))
 }
 
 /// Displacement and velocity of each element minus those of the reference point, at equal time steps.
@@ -238,8 +238,9 @@ impl DifferenceSeries {
 fn check_start(early_velocities: &[f64], peak: f64) -> Result<()> {
     let quantity = "velocity of the incoherent motion before t = 0 over the record's peak";
     let needed = "at most 0.01: put quiet time before the record (`Record::padded`)";
-    let largest = early_velocities.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
-    let ratio = if peak == 0.0 { 0.0 } else { largest / peak };
+    let max_velocity =
+        early_velocities.iter().fold(0.0_f64, |max_velocity, v| max_velocity.max(v.abs()));
+    let ratio = if peak == 0.0 { 0.0 } else { max_velocity / peak };
     require(quantity, ratio, ratio <= MAX_EARLY_VELOCITY_RATIO, needed).map(drop)
 }
 

@@ -18,12 +18,12 @@ use random_part::{Factor, NegativeEigenvalues, PhaseSequence};
 
 /// Incoherence of the ground motion under a base, from which an [`IncoherentMotion`] is made.
 ///
-/// Default: both directions have the same coherence, all elements move at once but for it, the reference point is the middle of
+/// Default: both directions have the same coherence, all elements move without delay, the reference point is the middle of
 /// the base, the bandwidth is 0.5 Hz, the seed is 0, and negative eigenvalues are errors.
 #[derive(Clone)]
 pub struct Incoherence {
     horizontal: Arc<dyn Coherence>,
-    /// Coherence of the vertical motion, if it is another one.
+    /// Coherence of the vertical motion, if it differs from the horizontal one.
     vertical: Option<Arc<dyn Coherence>>,
     /// Slowness of the wave along x and along y, s/m.
     slowness: [f64; 2],
@@ -56,7 +56,7 @@ impl Incoherence {
             reference: None,
             bandwidth: DEFAULT_BANDWIDTH,
             seed: 0,
-            negative_eigenvalues: NegativeEigenvalues::Refused,
+            negative_eigenvalues: NegativeEigenvalues::Rejected,
         }
     }
 
@@ -129,7 +129,8 @@ impl Incoherence {
     /// # Errors
     /// [`Error::Scene`](crate::Error::Scene) for elements of walls, or of a ground in the plane and in plan;
     /// [`Error::Input`](crate::Error::Input) for elements that overlap, a distance beyond
-    /// [`Coherence::max_distance`], a record that does not end at rest or without quiet time at its beginning, and, within an
+    /// [`Coherence::max_distance`], a record that does not end at rest or without quiet time at its beginning, a bandwidth so small that
+    /// the motion spreads over more than four lengths of the record, and, within an
     /// [`Error::Item`](crate::Error::Item) that names the frequency, for a coherence beyond ±1 or a negative eigenvalue;
     /// [`Error::Memory`](crate::Error::Memory).
     pub fn motion(
@@ -141,8 +142,8 @@ impl Incoherence {
         let needed = "on the surface: incoherent motion is not defined at walls";
         require_part("contact elements of an incoherent motion", !patch.has_walls(), needed)?;
         let reference = self.reference.unwrap_or_else(|| patch.center());
-        let across = records.y.as_ref().filter(|_| patch.is_plan());
-        let component_records = [records.x.as_ref(), across, records.up.as_ref()];
+        let across_record = records.y.as_ref().filter(|_| patch.is_plan());
+        let component_records = [records.x.as_ref(), across_record, records.up.as_ref()];
         let horizontal = self.horizontal.as_ref();
         let groups: &[(&dyn Coherence, &[usize])] = match &self.vertical {
             None => &[(horizontal, &[0, 1, 2])],

@@ -32,7 +32,7 @@ const EIGENVALUE_ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum NegativeEigenvalues {
     /// They are errors.
-    Refused,
+    Rejected,
     /// They are replaced by zero.
     Clipped,
 }
@@ -70,8 +70,8 @@ impl Factor {
                     *value = covariance(pivot, i);
                 }
             });
-        let singular = Error::Singular { matrix: "coherence between elements", order };
-        let columns = columns.ok_or_else(|| at_frequency(frequency, singular))?;
+        let singular_error = Error::Singular { matrix: "coherence between elements", order };
+        let columns = columns.ok_or_else(|| at_frequency(frequency, singular_error))?;
         Ok(Self { means, columns, min_eigenvalue })
     }
 
@@ -121,8 +121,8 @@ fn clip(
     order: usize,
     negative_eigenvalues: NegativeEigenvalues,
 ) -> Result<f64> {
-    let failed = Error::Singular { matrix: "coherence between elements", order };
-    let modes = symmetric_modes(matrix, order).ok_or(failed)?;
+    let failed_error = Error::Singular { matrix: "coherence between elements", order };
+    let modes = symmetric_modes(matrix, order).ok_or(failed_error)?;
     let min_eigenvalue = modes.values.iter().copied().fold(f64::INFINITY, f64::min);
     if min_eigenvalue >= -EIGENVALUE_ROUNDING {
         return Ok(0.0);
@@ -136,8 +136,8 @@ fn clip(
         let vector: Vec<f64> = (0..order).map(|i| modes.vectors[i * order + mode]).collect();
         for (row, component) in matrix.chunks_exact_mut(order).zip(&vector) {
             let factor = eigenvalue * component;
-            for (value, other) in row.iter_mut().zip(&vector) {
-                *value -= factor * other;
+            for (value, other_component) in row.iter_mut().zip(&vector) {
+                *value -= factor * other_component;
             }
         }
     }
@@ -180,9 +180,9 @@ impl PhaseSequence {
     /// Next integer.
     fn next_integer(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut mixed = self.state;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        mixed ^ (mixed >> 31)
+        let mut mixed_bits = self.state;
+        mixed_bits = (mixed_bits ^ (mixed_bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        mixed_bits = (mixed_bits ^ (mixed_bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed_bits ^ (mixed_bits >> 31)
     }
 }

@@ -1,6 +1,6 @@
-//! GOAL: every ground runs with every law, scheme and search, or is refused with a reason.
+//! GOAL: every ground runs with every law, scheme and search, or the error has a reason.
 //! SCENE: a tower on springs and on the half-plane; seven laws, five schemes, two searches.
-//! REFERENCE: the energy balance. Only the flow chart may fail, with an error that says so.
+//! REFERENCE: the energy balance. Only the flow chart may fail, with a typed error.
 
 use basemat::bem::{ContactElement, Grading, SpringGround};
 use basemat::contact::ContactSearch;
@@ -68,7 +68,7 @@ fn with_scheme(builder: SimulationBuilder, scheme: usize) -> SimulationBuilder {
 
 const SCHEME_COUNT: usize = 5;
 
-/// Every combination closes its energy balance; only the flow chart may fail.
+/// The energy balance closes in every combination; only the flow chart may fail.
 #[test]
 fn energy_balances_of_all_combinations_close() {
     let mut completed_runs = 0;
@@ -125,7 +125,7 @@ fn layers_store_energy() {
     let builder = with_law(shaken_tower(true), 3).gravity(SCENE_GRAVITY).scheme(Midpoint);
     let mut simulation = builder.build().unwrap();
     assert_eq!(simulation.state().energy_balance.interface, 0.0);
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let elements = simulation.ground().elements().to_vec();
     let static_energy = stored_energy(&simulation.state().contact, &elements);
     let run = simulation
@@ -133,18 +133,18 @@ fn layers_store_energy() {
             let expected = stored_energy(&state.contact, &elements) - static_energy;
             let error = (state.energy_balance.interface - expected).abs();
             assert!(error < 1e-9 * static_energy, "{expected}");
-            largest = largest.max(expected.abs());
+            max_magnitude = max_magnitude.max(expected.abs());
         })
         .unwrap();
-    assert!(largest > 0.1 * static_energy && run.energy_balance.contact > 0.0, "{run}");
+    assert!(max_magnitude > 0.1 * static_energy && run.energy_balance.contact > 0.0, "{run}");
 }
 
 #[test]
-fn combinations_without_sense_are_refused() {
+fn combinations_without_sense_are_errors() {
     let static_limit = thin_layer().with_friction_limit(FrictionLimit::Static);
-    let weightless = shaken_tower(true).interface(static_limit).gravity(0.0).build();
+    let weightless_tower = shaken_tower(true).interface(static_limit).gravity(0.0).build();
     assert!(
-        matches!(weightless, Err(Error::Scene { quantity, .. }) if quantity.contains("static"))
+        matches!(weightless_tower, Err(Error::Scene { quantity, .. }) if quantity.contains("static"))
     );
     assert!(shaken_tower(true).interface(static_limit).gravity(SCENE_GRAVITY).build().is_ok());
     for value in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-320] {
@@ -176,7 +176,7 @@ fn state_with_slip_stiffness(ratio: f64) -> State {
     simulation.state().clone()
 }
 
-/// The shear stiffness in slip has no effect where nothing slips.
+/// The shear stiffness in slip has no effect on elements that do not slip.
 #[test]
 fn slip_stiffness_without_slip_changes_nothing() {
     assert_eq!(state_with_slip_stiffness(0.0), state_with_slip_stiffness(0.5));

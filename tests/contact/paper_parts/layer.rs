@@ -145,14 +145,18 @@ fn history_error(computed: &[State], reference: &[State]) -> f64 {
 
 #[test]
 fn stiff_layers_tend_to_hard_contact() {
-    let hard = recorded_run(friction(0.3));
-    assert!(hard.run.whole.uplifted_fraction.largest().value > 0.2, "{}", hard.run);
-    assert!(hard.run.whole.largest_slip.largest().value.abs() > 1e-3, "{}", hard.run);
+    let hard_contact = recorded_run(friction(0.3));
+    assert!(hard_contact.run.whole.uplifted_fraction.largest().value > 0.2, "{}", hard_contact.run);
+    assert!(
+        hard_contact.run.whole.largest_slip.largest().value.abs() > 1e-3,
+        "{}",
+        hard_contact.run
+    );
     let errors = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6].map(|ratio| {
-        let soft = recorded_run(layer(ratio).with_debonded_ratio(0.0).unwrap());
-        let error = history_error(&soft.states, &hard.states);
-        println!("{ratio:e}: {error:.3e}, energy balance {:.1e}", soft.run.energy_error);
-        assert!(soft.run.energy_error < 1e-9);
+        let soft_layer = recorded_run(layer(ratio).with_debonded_ratio(0.0).unwrap());
+        let error = history_error(&soft_layer.states, &hard_contact.states);
+        println!("{ratio:e}: {error:.3e}, energy balance {:.1e}", soft_layer.run.energy_error);
+        assert!(soft_layer.run.energy_error < 1e-9);
         error
     });
     let order = (errors[2] / errors[4]).log10() / 2.0;
@@ -195,9 +199,9 @@ impl ContactOperator<'_> {
 
     /// Smallest and largest eigenvalue.
     fn extreme_eigenvalues(&self) -> [f64; 2] {
-        let largest = largest_eigenvalue(|x| self.multiply_shifted(x, 0.0), OPERATOR_SIZE);
-        let gap = largest_eigenvalue(|x| self.multiply_shifted(x, largest), OPERATOR_SIZE);
-        [largest - gap, largest]
+        let max_eigenvalue = largest_eigenvalue(|x| self.multiply_shifted(x, 0.0), OPERATOR_SIZE);
+        let gap = largest_eigenvalue(|x| self.multiply_shifted(x, max_eigenvalue), OPERATOR_SIZE);
+        [max_eigenvalue - gap, max_eigenvalue]
     }
 
     fn condition(&self) -> f64 {
@@ -217,18 +221,20 @@ fn layers_do_not_worsen_the_condition_of_the_contact_operator() {
     let mut step_compliance = vec![0.0; OPERATOR_SIZE * OPERATOR_SIZE];
     ground.step_compliance(&mut step_compliance).unwrap();
     let step_compliance = &step_compliance;
-    let hard = ContactOperator { step_compliance, layer_compliance: [0.0; 2] }.condition();
+    let condition_of_hard_contact =
+        ContactOperator { step_compliance, layer_compliance: [0.0; 2] }.condition();
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
-    println!("none: {hard:.4}");
+    println!("none: {condition_of_hard_contact:.4}");
     for ratio in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
         let law = ThinLayer::new(soil(SI_UNITS), 1.0, 0.3).unwrap();
         let law = law.with_thickness_ratio(ratio).unwrap();
         let layer_compliance = law.compliance(Mode::Stick, &start);
-        let soft = ContactOperator { step_compliance, layer_compliance }.condition();
-        println!("{ratio:e}: {soft:.4}");
-        assert!(soft < 10.0 * hard);
+        let condition_with_layer =
+            ContactOperator { step_compliance, layer_compliance }.condition();
+        println!("{ratio:e}: {condition_with_layer:.4}");
+        assert!(condition_with_layer < 10.0 * condition_of_hard_contact);
         if ratio <= 1e-4 {
-            assert!((soft / hard - 1.0).abs() < 1e-2);
+            assert!((condition_with_layer / condition_of_hard_contact - 1.0).abs() < 1e-2);
         }
     }
 }
@@ -247,7 +253,7 @@ fn preload_compresses_the_layer() {
         assert!((contact.gap / expected - 1.0).abs() < 1e-12);
         assert_eq!((contact.shear, contact.slip), (0.0, 0.0));
     }
-    // Without shaking nothing moves.
+    // Without shaking the blocks are at rest.
     let run = simulation.run(50, |_| {}).unwrap();
     assert!(run.whole.base_shear.magnitude() < 1e-9 * weight);
     assert!(run.whole.largest_slip.largest().value.abs() < 1e-12);

@@ -26,9 +26,9 @@ impl OscillatorMotion {
 
     /// (u, Δt v, Δt² a) after a step of u'' = −stiffness · u.
     fn advance(self, c: &SchemeCoefficients, stiffness: f64, h: f64) -> [f64; 3] {
-        let previous = self.combine(c.acceleration, 0.0)
+        let start_term = self.combine(c.acceleration, 0.0)
             + stiffness * (self.u + self.combine(c.displacement, 0.0));
-        let du = -previous / (c.acceleration[0] + stiffness * c.displacement[0]);
+        let du = -start_term / (c.acceleration[0] + stiffness * c.displacement[0]);
         [
             self.u + du,
             h * self.combine(c.new_velocity, du),
@@ -175,11 +175,14 @@ fn spectral_radius(matrix: &SquareMatrix) -> f64 {
 fn hht_damps_short_periods_only() {
     for alpha in [-0.05_f64, -0.1, -0.3] {
         let scheme = HhtAlpha::new(alpha).unwrap();
-        let stiff = spectral_radius(&amplification(&scheme, 1e6));
+        let radius_at_high_frequency = spectral_radius(&amplification(&scheme, 1e6));
         let limit = (1.0 + alpha) / (1.0 - alpha);
-        assert!((stiff - limit).abs() < 5e-3, "{alpha}: {stiff} {limit}");
-        let soft = spectral_radius(&amplification(&scheme, 0.02));
-        assert!(1.0 - soft < 1e-4, "{alpha}: {soft}");
+        assert!(
+            (radius_at_high_frequency - limit).abs() < 5e-3,
+            "{alpha}: {radius_at_high_frequency} {limit}"
+        );
+        let radius_at_low_frequency = spectral_radius(&amplification(&scheme, 0.02));
+        assert!(1.0 - radius_at_low_frequency < 1e-4, "{alpha}: {radius_at_low_frequency}");
     }
 }
 
@@ -218,8 +221,8 @@ fn traction_enters_at_the_end_of_the_step() {
             .scheme(HhtAlpha::new(alpha).unwrap())
             .build()
             .unwrap();
-        let mut previous = simulation.state().clone();
-        let weight = previous.normal_force;
+        let mut previous_state = simulation.state().clone();
+        let weight = previous_state.normal_force;
         for _ in 0..200 {
             let state = simulation.step().unwrap().clone();
             // The first row is the horizontal equilibrium of the block.
@@ -228,18 +231,19 @@ fn traction_enters_at_the_end_of_the_step() {
             assert!((inertia + state.base_shear).abs() < 1e-10 * weight);
             // Newmark's rule for the velocity.
             let gamma = 0.5 - alpha;
-            let mean = (1.0 - gamma) * previous.acceleration()[0] + gamma * state.acceleration()[0];
-            let change = state.velocity()[0] - previous.velocity()[0];
+            let mean =
+                (1.0 - gamma) * previous_state.acceleration()[0] + gamma * state.acceleration()[0];
+            let change = state.velocity()[0] - previous_state.velocity()[0];
             let error = (change - simulation.time_step() * mean).abs();
             assert!(error < 1e-9 * (1e-3 + change.abs()));
-            previous = state;
+            previous_state = state;
         }
-        assert!(previous.value(Quantity::LargestSlip) > 1e-4, "nothing slid");
+        assert!(previous_state.value(Quantity::LargestSlip) > 1e-4, "nothing slid");
     }
 }
 
 #[test]
-fn parameters_out_of_range_are_refused() {
+fn parameters_out_of_range_are_errors() {
     for (gamma, beta) in [
         (0.49, 0.25),
         (0.5, 0.24),

@@ -16,7 +16,7 @@ fn sliding_block(strength: f64, coefficient: f64) -> SimulationBuilder {
 
 /// Where the flow chart converges it finds the modes of the robust search.
 ///
-/// Where the robust search needs another method, the flow chart fails and the state remains.
+/// Where the robust search needs another method, the flow chart fails and the state is unchanged.
 #[test]
 fn flow_chart_follows_the_robust_search_until_it_cycles() {
     let mut cycling_runs = 0;

@@ -74,14 +74,14 @@ fn the_sum_is_that_of_the_form() {
 }
 
 #[test]
-fn every_flipped_bit_is_refused() {
+fn every_flipped_bit_is_an_error() {
     let mut simulation = block_after_nine_steps();
     let checkpoint = simulation.checkpoint().unwrap();
     let form = serde_json::to_value(&checkpoint).unwrap();
     let mut leaves = 0;
     visit_leaves(&mut form.clone(), &mut |_| leaves += 1);
     let initial_state = simulation.state().clone();
-    let mut refused = 0;
+    let mut error_count = 0;
     for index in 0..leaves {
         for bit in 0..64 {
             let mut damaged_form = form.clone();
@@ -92,20 +92,20 @@ fn every_flipped_bit_is_refused() {
                 let Error::Checkpoint(error) = error else { panic!("{error}") };
                 let is_format = matches!(error, CheckpointError::Format { .. });
                 assert!(error == DAMAGED_CONTENTS || is_format, "leaf {index}, bit {bit}: {error}");
-                refused += 1;
+                error_count += 1;
             }
             if !is_number {
                 break;
             }
         }
     }
-    assert!(refused > 64 * 50, "{refused} of {leaves} leaves");
+    assert!(error_count > 64 * 50, "{error_count} of {leaves} leaves");
     assert_eq!(simulation.state(), &initial_state);
     simulation.resume(&checkpoint).unwrap();
 }
 
 #[test]
-fn every_damaged_byte_of_a_text_is_refused() {
+fn every_damaged_byte_of_a_text_is_an_error() {
     let mut simulation = block_after_nine_steps();
     let checkpoint = simulation.checkpoint().unwrap();
     let text = serde_json::to_vec(&checkpoint).unwrap();
@@ -114,8 +114,8 @@ fn every_damaged_byte_of_a_text_is_refused() {
             let mut damaged_text = text.clone();
             damaged_text[place] ^= 1 << bit;
             if let Ok(damaged) = serde_json::from_slice::<Checkpoint>(&damaged_text) {
-                let resumed = simulation.resume(&damaged).is_ok();
-                assert!(!resumed || damaged == checkpoint, "byte {place}, bit {bit}");
+                let is_resumed = simulation.resume(&damaged).is_ok();
+                assert!(!is_resumed || damaged == checkpoint, "byte {place}, bit {bit}");
             }
         }
     }
@@ -125,14 +125,14 @@ fn every_damaged_byte_of_a_text_is_refused() {
 const DAMAGED_CONTENTS: CheckpointError = CheckpointError::Corrupt { quantity: "contents" };
 
 #[test]
-fn older_formats_are_refused_by_name() {
+fn older_formats_are_named_in_their_error() {
     let mut simulation = block_after_nine_steps();
     let checkpoint = simulation.checkpoint().unwrap();
     let mut form = serde_json::to_value(&checkpoint).unwrap();
     form["format"] = Value::from(7);
     form.as_object_mut().unwrap().remove("sum");
-    let older: Checkpoint = serde_json::from_value(form.clone()).unwrap();
-    let error = simulation.resume(&older).unwrap_err();
+    let older_checkpoint: Checkpoint = serde_json::from_value(form.clone()).unwrap();
+    let error = simulation.resume(&older_checkpoint).unwrap_err();
     assert_eq!(error, CheckpointError::Format { found: 7, needed: 14 }.into());
     // A checkpoint of this format needs a sum.
     form["format"] = Value::from(14);

@@ -15,10 +15,10 @@ use basemat::results::Run;
 use basemat::soil::SoilProfile;
 use basemat::{Error, MemoryError, Simulation};
 
-use super::{RUN_STEPS, half_plane, refusal, through_text};
+use super::{RUN_STEPS, half_plane, resume_error, through_text};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, states};
 
-/// A chosen history in at most these bytes.
+/// Options by which a ground chooses its history, in at most these bytes.
 fn within(memory: usize) -> HistoryOptions {
     HistoryOptions { memory, ..HistoryOptions::default() }
 }
@@ -57,7 +57,7 @@ fn auto_run(elements: usize, memory: usize, steps: usize) -> Simulation {
 #[test]
 fn a_checkpoint_contains_its_history() {
     for (elements, memory, expected_steps, steps, expected_kind) in [
-        // By wavenumbers and by pairs.
+        // Ten equal elements use wavenumbers, four use pairs.
         (10, AMPLE_MEMORY, 0, 50, HistoryMethod::Exponentials),
         (4, AMPLE_MEMORY, 0, 50, HistoryMethod::Exponentials),
         (10, SCARCE_MEMORY, 0, 20, HistoryMethod::RelaxedFft),
@@ -65,15 +65,15 @@ fn a_checkpoint_contains_its_history() {
         (10, AMPLE_MEMORY, 1 << 30, 100, HistoryMethod::Exponentials),
     ] {
         let label = format!("{elements} elements, {memory} bytes, {expected_steps} steps expected");
-        let mut uninterrupted =
+        let mut uninterrupted_simulation =
             auto(elements, memory).expected_steps(expected_steps).build().unwrap();
-        uninterrupted.run(steps, |_| {}).unwrap();
-        assert_eq!(kind(&uninterrupted), expected_kind, "{label}");
-        let checkpoint = through_text(&uninterrupted.checkpoint().unwrap());
-        let later_states = states(&mut uninterrupted, 30);
-        let new = auto(elements, memory).build().unwrap();
-        let used = auto_run(elements, memory, steps + 10);
-        for mut resumed in [new, used] {
+        uninterrupted_simulation.run(steps, |_| {}).unwrap();
+        assert_eq!(kind(&uninterrupted_simulation), expected_kind, "{label}");
+        let checkpoint = through_text(&uninterrupted_simulation.checkpoint().unwrap());
+        let later_states = states(&mut uninterrupted_simulation, 30);
+        let new_simulation = auto(elements, memory).build().unwrap();
+        let used_simulation = auto_run(elements, memory, steps + 10);
+        for mut resumed in [new_simulation, used_simulation] {
             resumed.resume(&checkpoint).unwrap_or_else(|error| panic!("{label}: {error}"));
             assert_eq!(kind(&resumed), expected_kind, "{label}");
             assert_eq!(resumed.checkpoint().unwrap(), checkpoint, "{label}");
@@ -92,18 +92,21 @@ fn exponentials_differ_by_rounding() {
         assert_eq!(kind(&by_exponentials), HistoryMethod::Exponentials);
         let bound = by_exponentials.ground().description().history.unwrap().error_bound;
         assert!(bound > 0.0 && bound <= 1e-12, "{bound:e}");
-        let exact = by_transforms.state();
+        let expected = by_transforms.state();
         let computed = by_exponentials.state();
-        assert_eq!(exact.modes, computed.modes);
-        let weight: f64 = exact.normal_force;
-        for (exact, computed) in [
-            (exact.base_shear, computed.base_shear),
-            (exact.base_moment, computed.base_moment),
-            (exact.normal_force, computed.normal_force),
+        assert_eq!(expected.modes, computed.modes);
+        let weight: f64 = expected.normal_force;
+        for (expected, computed) in [
+            (expected.base_shear, computed.base_shear),
+            (expected.base_moment, computed.base_moment),
+            (expected.normal_force, computed.normal_force),
         ] {
-            assert!((exact - computed).abs() < 1e-9 * weight, "{elements}: {exact} {computed}");
+            assert!(
+                (expected - computed).abs() < 1e-9 * weight,
+                "{elements}: {expected} {computed}"
+            );
         }
-        assert!((exact.mean_slip - computed.mean_slip).abs() < 1e-9 * exact.mean_slip.abs());
+        assert!((expected.mean_slip - computed.mean_slip).abs() < 1e-9 * expected.mean_slip.abs());
         assert!(computed.energy_balance.soil_error_bound > 0.0);
     }
 }
@@ -133,29 +136,29 @@ fn a_run_may_be_divided_anywhere() {
         (10, HistoryMethod::Auto),
         (10, HistoryMethod::RelaxedFft),
     ] {
-        let undivided = run_in_parts(elements, method, &[300], 0);
-        let expected = undivided.state();
-        let checkpoint = undivided.checkpoint().unwrap();
+        let undivided_run = run_in_parts(elements, method, &[300], 0);
+        let expected = undivided_run.state();
+        let checkpoint = undivided_run.checkpoint().unwrap();
         let divisions: [&[usize]; 7] =
             [&[50, 250], &[64, 236], &[65, 235], &[1, 299], &[299, 1], &[30; 10], &[1; 300]];
         for parts in divisions {
             for expected_steps in [0, 40, 300, 1000] {
-                let divided = run_in_parts(elements, method, parts, expected_steps);
+                let divided_run = run_in_parts(elements, method, parts, expected_steps);
                 let label = format!("{elements} elements, {parts:?}, {expected_steps}");
-                assert_eq!(divided.state(), expected, "{label}");
-                assert_eq!(divided.checkpoint().unwrap(), checkpoint, "{label}");
+                assert_eq!(divided_run.state(), expected, "{label}");
+                assert_eq!(divided_run.checkpoint().unwrap(), checkpoint, "{label}");
             }
         }
-        // Single steps, whose number the simulation does not know.
+        // Single steps do not tell the simulation their number.
         let mut stepped = run_in_parts(elements, method, &[], 0);
         for _ in 0..300 {
             stepped.step().unwrap();
         }
         assert_eq!(stepped.state(), expected, "{elements} elements");
         assert_eq!(stepped.ground().description().history.unwrap().steps, None);
-        let mut resumed = run_in_parts(elements, method, &[20], 0);
-        resumed.resume(&checkpoint).unwrap();
-        assert_eq!(resumed.state().probes, expected.probes);
+        let mut resumed_simulation = run_in_parts(elements, method, &[20], 0);
+        resumed_simulation.resume(&checkpoint).unwrap();
+        assert_eq!(resumed_simulation.state().probes, expected.probes);
     }
 }
 
@@ -163,11 +166,11 @@ fn a_run_may_be_divided_anywhere() {
 #[test]
 fn a_used_simulation_resumes_the_same_scene() {
     for (saved_steps, used_steps) in [(50, 300), (300, 50)] {
-        let mut saved = auto_run(10, AMPLE_MEMORY, saved_steps);
-        let mut used = auto_run(10, AMPLE_MEMORY, used_steps);
-        used.resume(&saved.checkpoint().unwrap()).unwrap();
-        assert_eq!(kind(&used), kind(&saved));
-        assert_eq!(states(&mut used, 40)[1..], states(&mut saved, 40)[1..]);
+        let mut saved_simulation = auto_run(10, AMPLE_MEMORY, saved_steps);
+        let mut used_simulation = auto_run(10, AMPLE_MEMORY, used_steps);
+        used_simulation.resume(&saved_simulation.checkpoint().unwrap()).unwrap();
+        assert_eq!(kind(&used_simulation), kind(&saved_simulation));
+        assert_eq!(states(&mut used_simulation, 40)[1..], states(&mut saved_simulation, 40)[1..]);
     }
 }
 
@@ -195,8 +198,8 @@ fn assert_memory_error(error: &Error, memory: usize) {
     assert!(*limit == memory as f64 && needed > limit, "{needed}");
 }
 
-/// Steps until one is refused for its memory, after the first fifty.
-fn assert_step_is_refused(simulation: &mut Simulation, memory: usize) {
+/// Checks that a step after the fiftieth returns an error for its memory, with its number.
+fn assert_step_is_an_error(simulation: &mut Simulation, memory: usize) {
     let error = (50..400).find_map(|_| simulation.step().err()).unwrap();
     let Error::Step { step, source: StepError::Part { quantity, source: cause }, .. } = error
     else {
@@ -208,13 +211,14 @@ fn assert_step_is_refused(simulation: &mut Simulation, memory: usize) {
     assert!((64..400).contains(&completed) && step == completed + 1, "{step}");
 }
 
-/// GOAL: steps that need more memory than is allowed are refused, and a checkpoint resumes with more.
+/// GOAL: steps that need more memory than is allowed are errors, and a checkpoint resumes with more.
 ///
-/// A build and a run that know their number refuse them before the first step, a single step when it comes.
+/// `build` and `run` with a number of steps return the error before the first step, `step` at the step that needs the
+/// memory.
 /// SCENE: histories that were requested and chosen; layers.
 /// REFERENCE: the run with enough memory, to the bit.
 #[test]
-fn steps_beyond_the_memory_are_refused() {
+fn steps_beyond_the_memory_are_errors() {
     type LimitedScene = (usize, fn(usize) -> SimulationBuilder);
     let scenes: [LimitedScene; 3] = [
         (30_000, on_layers),
@@ -231,32 +235,38 @@ fn steps_beyond_the_memory_are_refused() {
         limited.run(50, |_| {}).unwrap();
         assert_memory_error(&limited.run(350, |_| {}).unwrap_err(), memory);
         assert!(*limited.state() == expected[50], "{number}");
-        assert_step_is_refused(&mut limited, memory);
+        assert_step_is_an_error(&mut limited, memory);
         let completed = limited.state().step;
         assert!(*limited.state() == expected[completed], "{number}");
-        // Another attempt is refused, too.
+        // Another attempt is an error, too.
         assert!(limited.step().is_err() && limited.state().step == completed);
-        let mut resumed = builder(AMPLE_MEMORY).build().unwrap();
-        resumed.resume(&limited.checkpoint().unwrap()).unwrap();
-        resumed.run(400 - completed, |_| {}).unwrap();
-        assert!(*resumed.state() == expected[400], "{number}");
+        let mut resumed_simulation = builder(AMPLE_MEMORY).build().unwrap();
+        resumed_simulation.resume(&limited.checkpoint().unwrap()).unwrap();
+        resumed_simulation.run(400 - completed, |_| {}).unwrap();
+        assert!(*resumed_simulation.state() == expected[400], "{number}");
     }
 }
 
 #[test]
-fn another_kind_is_refused_and_changes_nothing() {
+fn another_kind_is_an_error_and_changes_nothing() {
     let transforms = auto_run(10, SCARCE_MEMORY, 50).checkpoint().unwrap();
     let exponentials = auto_run(10, AMPLE_MEMORY, 50).checkpoint().unwrap();
     let quantity = "kind of history";
     for (memory, checkpoint) in [(AMPLE_MEMORY, &transforms), (SCARCE_MEMORY, &exponentials)] {
         let mut simulation = auto(10, memory).build().unwrap();
-        assert_eq!(refusal(&mut simulation, checkpoint), CheckpointError::OtherScene { quantity });
+        assert_eq!(
+            resume_error(&mut simulation, checkpoint),
+            CheckpointError::OtherScene { quantity }
+        );
         simulation.run(50, |_| {}).unwrap();
-        assert_eq!(refusal(&mut simulation, checkpoint), CheckpointError::OtherScene { quantity });
+        assert_eq!(
+            resume_error(&mut simulation, checkpoint),
+            CheckpointError::OtherScene { quantity }
+        );
     }
 }
 
-/// Checks that a history refuses large counts of steps whose tractions are missing.
+/// Checks that a history returns an error for large counts of steps whose tractions are missing.
 fn assert_counts_are_corrupt(history: &mut dyn ConvolutionHistory) {
     for steps in [1 << 40, 1 << 47, usize::MAX] {
         let error = history.restore(steps, &[0.0; 16]).unwrap_err();
@@ -287,8 +297,8 @@ fn run_with_tolerance(method: HistoryMethod, tolerance: f64) -> Run {
 
 #[test]
 fn an_approximate_history_is_in_the_energy_balance() {
-    let exact = run_with_tolerance(HistoryMethod::Direct, 1e-3);
-    assert_eq!(exact.energy_balance.soil_error_bound, 0.0);
+    let expected = run_with_tolerance(HistoryMethod::Direct, 1e-3);
+    assert_eq!(expected.energy_balance.soil_error_bound, 0.0);
     let mut previous_bound = f64::INFINITY;
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let run = run_with_tolerance(HistoryMethod::Exponentials, tolerance);

@@ -38,11 +38,11 @@ fn through_text(checkpoint: &Checkpoint) -> Checkpoint {
     serde_json::from_str(&text).unwrap()
 }
 
-/// Error of a checkpoint that is refused, after which the simulation must be unchanged.
-fn refusal(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {
+/// Error of `resume` with this checkpoint, which must leave the simulation unchanged.
+fn resume_error(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {
     let before = simulation.checkpoint().unwrap();
     let error = simulation.resume(checkpoint).unwrap_err();
-    assert_eq!(simulation.checkpoint().unwrap(), before, "a refusal must change nothing");
+    assert_eq!(simulation.checkpoint().unwrap(), before, "an error must change nothing");
     match error {
         Error::Checkpoint(error) => error,
         other => panic!("{other}"),

@@ -70,7 +70,7 @@ impl NonlinearForce for BlockWithMovingAnchor {
 /// A scene's name and the function that builds it.
 type NamedScene = (&'static str, fn() -> SimulationBuilder);
 
-/// Two pulses and friction, all but structure and ground.
+/// A scene of two pulses and friction, without structure and ground.
 fn with_friction() -> SimulationBuilder {
     scene(SI_UNITS, 0.6).interface(friction(0.3))
 }
@@ -116,7 +116,7 @@ fn named_scenes() -> Vec<NamedScene> {
     ]
 }
 
-/// The state without what describes the computation of the last step.
+/// The state without the data on the computation of the last step.
 fn without_step_details(state: &State) -> State {
     let mut state = state.clone();
     state.transitions.clear();
@@ -138,23 +138,25 @@ fn resumed_runs_are_the_same_to_the_last_bit() {
             first.step().unwrap();
         }
         assert_eq!(first.state().step, RUN_STEPS + 1);
-        let mut used = builder().build().unwrap();
-        used.run(90, |_| {}).unwrap();
+        let mut used_simulation = builder().build().unwrap();
+        used_simulation.run(90, |_| {}).unwrap();
         for (step, checkpoint) in checkpoints {
             assert_eq!(checkpoint.steps(), step);
             let checkpoint = through_text(&checkpoint);
             // In a new simulation, and in one that was used for other steps.
-            for resumed in [&mut builder().build().unwrap(), &mut used] {
+            for resumed_simulation in [&mut builder().build().unwrap(), &mut used_simulation] {
                 let label = format!("{name}, saved after {step}");
-                resumed.resume(&checkpoint).unwrap_or_else(|error| panic!("{label}: {error}"));
-                let resumed_state = without_step_details(resumed.state());
+                resumed_simulation
+                    .resume(&checkpoint)
+                    .unwrap_or_else(|error| panic!("{label}: {error}"));
+                let resumed_state = without_step_details(resumed_simulation.state());
                 assert_eq!(resumed_state, without_step_details(&expected[step]), "{label}");
                 // Before the first step, Auto has not chosen its history yet.
                 if step > 0 {
-                    assert_eq!(resumed.checkpoint().unwrap(), checkpoint, "{label}");
+                    assert_eq!(resumed_simulation.checkpoint().unwrap(), checkpoint, "{label}");
                 }
                 for state in &expected[step + 1..] {
-                    assert_eq!(resumed.step().unwrap(), state, "{label}");
+                    assert_eq!(resumed_simulation.step().unwrap(), state, "{label}");
                 }
             }
         }
@@ -189,11 +191,11 @@ fn large_yielding_structures_resume_to_the_last_bit() -> Result<()> {
     assert!(first.structure().dofs() > 400);
     first.run(RESUMED_RUN_STEPS / 2, |_| {})?;
     let checkpoint = through_text(&first.checkpoint()?);
-    let mut resumed = block_of_clay(RESUMED_RUN_STEPS)?;
-    resumed.resume(&checkpoint)?;
-    assert_eq!(resumed.checkpoint()?, checkpoint);
+    let mut resumed_simulation = block_of_clay(RESUMED_RUN_STEPS)?;
+    resumed_simulation.resume(&checkpoint)?;
+    assert_eq!(resumed_simulation.checkpoint()?, checkpoint);
     for _ in RESUMED_RUN_STEPS / 2..RESUMED_RUN_STEPS {
-        assert_eq!(first.step()?, resumed.step()?);
+        assert_eq!(first.step()?, resumed_simulation.step()?);
     }
     assert!(first.state().energy_balance.hysteresis > 0.0);
     Ok(())
@@ -208,18 +210,18 @@ fn anchor(structure: &dyn Any) -> f64 {
 fn a_structure_is_returned_in_its_last_state() {
     let builder = with_friction().ground(spring_bed()).structure(BlockWithMovingAnchor::new());
     let mut simulation = builder.build().unwrap();
-    let mut previous = anchor(simulation.structure());
+    let mut previous_anchor = anchor(simulation.structure());
     for _ in 0..50 {
         let increment = simulation.step().unwrap().absolute_displacement()[2];
         let rotation = simulation.static_displacement()[2] + increment;
-        let expected = previous + 0.1 * (rotation - previous);
+        let expected = previous_anchor + 0.1 * (rotation - previous_anchor);
         let computed = anchor(simulation.structure());
         assert!((computed - expected).abs() < 1e-12, "{computed:e} {expected:e}");
-        previous = computed;
+        previous_anchor = computed;
     }
-    assert!(previous.abs() > 1e-9);
+    assert!(previous_anchor.abs() > 1e-9);
     let structure: Box<dyn Any> = simulation.into_structure();
-    assert_eq!(structure.downcast::<BlockWithMovingAnchor>().unwrap().anchor, previous);
+    assert_eq!(structure.downcast::<BlockWithMovingAnchor>().unwrap().anchor, previous_anchor);
 }
 
 fn sliding_block() -> Simulation {
@@ -230,14 +232,14 @@ fn sliding_block() -> Simulation {
         .unwrap()
 }
 
-/// A simulation resumed at its start is as new, also in the effort of its last step.
+/// A simulation resumed at its start equals a new one, also in the numbers of iterations.
 #[test]
 fn the_start_is_resumed_in_a_used_simulation() {
     let start = sliding_block();
     let checkpoint = start.checkpoint().unwrap();
-    let mut used = sliding_block();
-    used.run(20, |_| {}).unwrap();
-    assert!(used.state().trials > 0);
-    used.resume(&checkpoint).unwrap();
-    assert!(used.state() == start.state());
+    let mut used_simulation = sliding_block();
+    used_simulation.run(20, |_| {}).unwrap();
+    assert!(used_simulation.state().trials > 0);
+    used_simulation.resume(&checkpoint).unwrap();
+    assert!(used_simulation.state() == start.state());
 }

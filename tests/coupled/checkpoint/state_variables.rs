@@ -11,7 +11,7 @@ use basemat::interface::InPlane;
 use serde_json::Value;
 
 use super::sum::sealed;
-use super::{RUN_STEPS, half_plane, refusal, spring_bed, through_text};
+use super::{RUN_STEPS, half_plane, resume_error, spring_bed, through_text};
 use basemat_problems::laws_with_memory::{BreakingBond, SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
@@ -44,24 +44,28 @@ fn state_variables_resume_to_the_last_bit() {
         }),
     ];
     for (name, builder) in scenes {
-        let mut uninterrupted = builder().build().unwrap();
-        let mut checkpoints = vec![uninterrupted.checkpoint().unwrap()];
-        let mut variables = vec![all_state_variables(&uninterrupted)];
+        let mut uninterrupted_simulation = builder().build().unwrap();
+        let mut checkpoints = vec![uninterrupted_simulation.checkpoint().unwrap()];
+        let mut variables = vec![all_state_variables(&uninterrupted_simulation)];
         for steps in [60, RUN_STEPS / 2 - 60, RUN_STEPS - RUN_STEPS / 2] {
-            uninterrupted.run(steps, |_| {}).unwrap();
-            checkpoints.push(uninterrupted.checkpoint().unwrap());
-            variables.push(all_state_variables(&uninterrupted));
+            uninterrupted_simulation.run(steps, |_| {}).unwrap();
+            checkpoints.push(uninterrupted_simulation.checkpoint().unwrap());
+            variables.push(all_state_variables(&uninterrupted_simulation));
         }
         assert!(variables[1] != variables[3], "{name}: state variables do not change");
         for (checkpoint, saved_variables) in checkpoints.iter().zip(&variables) {
             // In a new simulation, and in one that was used before.
-            let mut used = builder().build().unwrap();
-            used.run(RUN_STEPS, |_| {}).unwrap();
-            for mut resumed in [builder().build().unwrap(), used] {
+            let mut used_simulation = builder().build().unwrap();
+            used_simulation.run(RUN_STEPS, |_| {}).unwrap();
+            for mut resumed in [builder().build().unwrap(), used_simulation] {
                 resumed.resume(&through_text(checkpoint)).unwrap();
                 assert_eq!(&all_state_variables(&resumed), saved_variables, "{name}");
                 resumed.run(RUN_STEPS - checkpoint.steps(), |_| {}).unwrap();
-                assert_eq!(resumed.state().contact, uninterrupted.state().contact, "{name}");
+                assert_eq!(
+                    resumed.state().contact,
+                    uninterrupted_simulation.state().contact,
+                    "{name}"
+                );
                 assert_eq!(resumed.checkpoint().unwrap(), checkpoints[3], "{name}");
             }
         }
@@ -69,32 +73,37 @@ fn state_variables_resume_to_the_last_bit() {
 }
 
 #[test]
-fn other_state_variables_are_refused() {
+fn other_state_variables_are_errors() {
     let mut simulation = on_springs().interface(SLIP_WEAKENING).build().unwrap();
     simulation.run(20, |_| {}).unwrap();
     let quantity = "state variables of the interface laws";
-    for other in [on_springs().interface(BREAKING_BOND), on_springs().interface(friction(0.3))] {
-        let checkpoint = other.build().unwrap().checkpoint().unwrap();
-        let error = refusal(&mut simulation, &checkpoint);
+    for other_scene in
+        [on_springs().interface(BREAKING_BOND), on_springs().interface(friction(0.3))]
+    {
+        let checkpoint = other_scene.build().unwrap().checkpoint().unwrap();
+        let error = resume_error(&mut simulation, &checkpoint);
         assert_eq!(error, CheckpointError::OtherScene { quantity });
     }
 }
 
 #[test]
-fn damaged_state_variables_are_refused() {
+fn damaged_state_variables_are_errors() {
     let mut simulation = on_springs().interface(SLIP_WEAKENING).build().unwrap();
     simulation.run(20, |_| {}).unwrap();
-    let intact = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
+    let intact_form = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
     for damage in 0..3 {
-        let mut form = intact.clone();
+        let mut form = intact_form.clone();
         let list = form["laws"].as_array_mut().unwrap();
         match damage {
             0 => list.truncate(list.len() - 1),
             1 => list.push(Value::from(0_u64)),
             _ => list[1] = Value::from(f64::NAN.to_bits()),
         }
-        let damaged = sealed(form).unwrap();
+        let damaged_checkpoint = sealed(form).unwrap();
         let quantity = "state variables of the interface laws";
-        assert_eq!(refusal(&mut simulation, &damaged), CheckpointError::Corrupt { quantity });
+        assert_eq!(
+            resume_error(&mut simulation, &damaged_checkpoint),
+            CheckpointError::Corrupt { quantity }
+        );
     }
 }

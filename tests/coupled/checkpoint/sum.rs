@@ -74,7 +74,7 @@ pub(super) fn sum(form: &Value) -> u64 {
     check_sum(&words)
 }
 
-/// The checkpoint of this form with the sum that belongs to it, as by deliberate tampering.
+/// The checkpoint of this form with the sum that belongs to it, as if somebody had changed it on purpose.
 pub(super) fn sealed(mut form: Value) -> serde_json::Result<Checkpoint> {
     form["sum"] = Value::from(sum(&form));
     serde_json::from_value(form)

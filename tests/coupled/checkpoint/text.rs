@@ -1,4 +1,4 @@
-//! GOAL: a checkpoint read from text is resumed or refused, never a panic.
+//! GOAL: a checkpoint read from text is resumed or is an error, and never causes a panic.
 //! SCENE: texts with a right check sum and numbers missing or not finite; damaged texts; any bytes (feature `serde`).
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use super::histories::auto;
 use super::sum::sealed;
-use super::{half_plane, refusal};
+use super::{half_plane, resume_error};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 fn with_history(history: HistoryMethod) -> Simulation {
@@ -34,30 +34,30 @@ fn leaves(value: &mut Value) -> Vec<&mut Value> {
 }
 
 #[test]
-fn numbers_missing_or_not_finite_are_refused() {
+fn numbers_missing_or_not_finite_are_errors() {
     for history in HISTORY_METHODS {
         let mut simulation = with_history(history);
         simulation.run(70, |_| {}).unwrap();
-        let intact = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
+        let intact_form = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
         for name in ["state", "ground"] {
             for damage in 0..3 {
-                let mut form = intact.clone();
+                let mut form = intact_form.clone();
                 let list = form[name].as_array_mut().unwrap();
                 match damage {
                     0 => list.truncate(list.len() - 1),
                     1 => list.push(Value::from(0_u64)),
                     _ => list[1] = Value::from(f64::NAN.to_bits()),
                 }
-                let error = refusal(&mut simulation, &sealed(form).unwrap());
+                let error = resume_error(&mut simulation, &sealed(form).unwrap());
                 assert!(matches!(error, CheckpointError::Corrupt { .. }), "{error}");
             }
         }
         for (name, wrong) in
             [("format", 99_u64), ("steps", 71), ("steps", 1 << 40), ("steps", u64::MAX / 2)]
         {
-            let mut form = intact.clone();
+            let mut form = intact_form.clone();
             form[name] = Value::from(wrong);
-            refusal(&mut simulation, &sealed(form).unwrap());
+            resume_error(&mut simulation, &sealed(form).unwrap());
         }
     }
 }
@@ -67,32 +67,32 @@ fn new_simulation() -> Simulation {
 }
 
 /// A checkpoint of the form `intact` with another number for the kind of history.
-fn with_kind(intact: &Value, kind: f64) -> Checkpoint {
-    let mut form = intact.clone();
+fn with_kind(intact_form: &Value, kind: f64) -> Checkpoint {
+    let mut form = intact_form.clone();
     form["ground"][0] = Value::from(kind.to_bits());
     sealed(form).unwrap()
 }
 
 #[test]
-fn a_damaged_kind_of_history_is_refused() {
-    let mut used = new_simulation();
-    used.run(100, |_| {}).unwrap();
-    let intact = serde_json::to_value(used.checkpoint().unwrap()).unwrap();
+fn a_damaged_kind_of_history_is_an_error() {
+    let mut used_simulation = new_simulation();
+    used_simulation.run(100, |_| {}).unwrap();
+    let intact_form = serde_json::to_value(used_simulation.checkpoint().unwrap()).unwrap();
     for kind in [1e300, -1e300, -2.0, 0.5, 2.5, 3.0, 1e20, f64::INFINITY, f64::NAN] {
-        let damaged = with_kind(&intact, kind);
-        for simulation in [&mut new_simulation(), &mut used] {
+        let damaged_checkpoint = with_kind(&intact_form, kind);
+        for simulation in [&mut new_simulation(), &mut used_simulation] {
             let history = simulation.ground().description().history;
-            let error = refusal(simulation, &damaged);
+            let error = resume_error(simulation, &damaged_checkpoint);
             assert!(matches!(error, CheckpointError::Corrupt { .. }), "{kind}");
             assert_eq!(simulation.ground().description().history, history);
         }
     }
     // Numbers of other kinds, and of exponentials with a longer horizon.
     for kind in [0.0, 1.0, 2.0] {
-        let error = refusal(&mut new_simulation(), &with_kind(&intact, kind));
+        let error = resume_error(&mut new_simulation(), &with_kind(&intact_form, kind));
         assert_eq!(error, CheckpointError::OtherScene { quantity: "kind of history" });
     }
-    assert!(new_simulation().resume(&with_kind(&intact, 1e10)).is_err());
+    assert!(new_simulation().resume(&with_kind(&intact_form, 1e10)).is_err());
 }
 
 proptest! {
@@ -103,7 +103,7 @@ proptest! {
         ..ProptestConfig::with_cases(60)
     })]
 
-    /// A file of any numbers is refused or resumed without a panic.
+    /// A file of any numbers is an error or is resumed without a panic.
     #[test]
     fn damaged_checkpoints_do_not_panic(
         which in 0_usize..3,
@@ -124,7 +124,7 @@ proptest! {
         }
     }
 
-    /// A text that is truncated, with characters exchanged, inserted or removed, is refused or resumed.
+    /// A text that is truncated, with characters exchanged, inserted or removed, is an error or is resumed.
     #[test]
     fn damaged_texts_do_not_panic(
         which in 0_usize..3,

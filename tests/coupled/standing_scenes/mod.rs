@@ -1,4 +1,4 @@
-//! GOAL: a structure that buckles or falls over on its ground is refused by name, and no other.
+//! GOAL: a structure that buckles or falls over on its ground is an error that names the cause; no other structure is.
 //! SCENE: random masts, portals and blocks with P–Δ on soft ground, upright and leaning, in the plane and in space.
 //! REFERENCE: dense generalized eigenvalues of the stiffness on the ground's static compliance; equilibria of unilateral
 //! contact, followed from no load by active sets.
@@ -31,14 +31,14 @@ struct SceneCounts {
     buckle_on_fixed_base: usize,
     /// Scenes that run though they are unstable.
     unstable: Vec<usize>,
-    /// Scenes that are refused without reason or by a wrong load factor.
-    wrongly_refused: Vec<usize>,
+    /// Scenes with an error that has no reason or a wrong load factor.
+    wrong_errors: Vec<usize>,
 }
 
 /// A scene as it is built, beside its reference.
 struct ComparedScene {
     number: usize,
-    built: Result<Simulation>,
+    result: Result<Simulation>,
     reference: Reference,
     /// Load factor of the structure bonded to all components of the ground.
     bonded_factor: f64,
@@ -61,7 +61,7 @@ impl ComparedScene {
         } else {
             builder.interface(Coulomb::new(0.5).unwrap())
         };
-        Some(Self { number, built: builder.build(), reference, bonded_factor, is_bonded })
+        Some(Self { number, result: builder.build(), reference, bonded_factor, is_bonded })
     }
 
     /// End of the path of equilibria; a bonded base stands until it buckles.
@@ -77,14 +77,14 @@ impl ComparedScene {
     }
 
     fn count(&self, counts: &mut SceneCounts) {
-        match &self.built {
+        match &self.result {
             Ok(simulation) => self.count_standing(simulation, counts),
             Err(Error::Stability(error)) if self.is_right(error, counts) => {}
             Err(error) => {
                 let path_end = self.path_end();
                 let factor = self.bonded_factor;
                 println!("{}: {error}; bonded {factor}, {path_end:?}", self.number);
-                counts.wrongly_refused.push(self.number);
+                counts.wrong_errors.push(self.number);
             }
         }
     }
@@ -92,10 +92,10 @@ impl ComparedScene {
     fn count_standing(&self, simulation: &Simulation, counts: &mut SceneCounts) {
         let modes = &simulation.state().modes;
         let components = self.reference.means.len();
-        let closed: Vec<usize> =
+        let closed_elements: Vec<usize> =
             (0..components).filter(|place| modes[place % modes.len()] != Mode::Open).collect();
-        let factor = self.reference.load_factor(&closed);
-        counts.uplift += usize::from(closed.len() < components);
+        let factor = self.reference.load_factor(&closed_elements);
+        counts.uplift += usize::from(closed_elements.len() < components);
         counts.stand += 1;
         if factor <= 1.0 {
             let bonded_factor = self.bonded_factor;
@@ -104,7 +104,7 @@ impl ComparedScene {
         }
     }
 
-    /// Whether the scene is unstable as this error says.
+    /// Whether the reference confirms this error.
     fn is_right(&self, error: &StabilityError, counts: &mut SceneCounts) -> bool {
         match *error {
             StabilityError::Buckling { factor } => {
@@ -125,13 +125,13 @@ impl ComparedScene {
     }
 }
 
-/// Number in a variable of the environment.
+/// Number in an environment variable, or `default`.
 fn number_from_environment(name: &str, default: usize) -> usize {
     std::env::var(name).map_or(default, |text| text.parse().unwrap())
 }
 
 #[test]
-fn refusals_of_random_structures_are_right() {
+fn stability_errors_of_random_structures_are_right() {
     let first = number_from_environment("STANDING_FIRST", 0);
     let scenes = number_from_environment("STANDING_SCENES", SCENE_COUNT);
     let mut counts = SceneCounts::default();
@@ -142,7 +142,7 @@ fn refusals_of_random_structures_are_right() {
         }
     }
     println!("{scenes} scenes: {counts:?}");
-    assert!(counts.unstable.is_empty() && counts.wrongly_refused.is_empty(), "{counts:?}");
+    assert!(counts.unstable.is_empty() && counts.wrong_errors.is_empty(), "{counts:?}");
 }
 
 const BLOCK_WIDTH: f64 = 6.0;
@@ -181,9 +181,9 @@ fn upright_block(load_factor: f64, has_layer: bool, stage: GravityStage) -> Resu
     }
 }
 
-/// Load factor at which this scene is said to buckle.
-fn buckling_factor(built: Result<Simulation>) -> f64 {
-    match built {
+/// Load factor in the error of this scene.
+fn buckling_factor(result: Result<Simulation>) -> f64 {
+    match result {
         Err(Error::Stability(error)) => match *error {
             StabilityError::Buckling { factor } => factor,
             other => panic!("{other}"),
@@ -201,11 +201,11 @@ fn upright_blocks_have_the_load_factor_of_their_rocking_stiffness() {
     {
         for stage in [GravityStage::Frictionless, GravityStage::Frictional, GravityStage::Unloaded]
         {
-            let built = upright_block(load_factor, has_layer, stage);
-            if built.is_ok() {
+            let result = upright_block(load_factor, has_layer, stage);
+            if result.is_ok() {
                 assert!(load_factor > 1.0, "{load_factor} {stage:?}");
             } else {
-                let computed = buckling_factor(built);
+                let computed = buckling_factor(result);
                 let error = (computed / load_factor - 1.0).abs();
                 assert!(error < 1e-5, "{computed} for {load_factor}");
             }
@@ -233,8 +233,11 @@ fn building_on_springs(building: ShearBuilding) -> Result<Simulation> {
 #[test]
 fn nonlinear_structures_buckle_as_linear_ones_do() {
     let law = Bilinear::new(8.0e6, 1.0e6, 0.1).unwrap();
-    let linear = buckling_factor(building_on_springs(weak_building()));
-    let yielding = weak_building().with_law(0, law).unwrap();
-    let nonlinear = buckling_factor(building_on_springs(yielding));
-    assert!(linear < 1.0 && (nonlinear / linear - 1.0).abs() < 1e-5, "{linear} {nonlinear}");
+    let linear_factor = buckling_factor(building_on_springs(weak_building()));
+    let yielding_building = weak_building().with_law(0, law).unwrap();
+    let nonlinear = buckling_factor(building_on_springs(yielding_building));
+    assert!(
+        linear_factor < 1.0 && (nonlinear / linear_factor - 1.0).abs() < 1e-5,
+        "{linear_factor} {nonlinear}"
+    );
 }

@@ -65,15 +65,15 @@ fn base_rows(base: &Base, place: [f64; 2], dofs: usize) -> Vec<Vec<f64>> {
 fn compliance_with_common_motion(ground: &dyn Ground, areas: &[f64]) -> DenseMatrix {
     let count = ground.elements().len();
     let size = areas.len();
-    let mut flat = vec![0.0; size * size];
-    ground.static_compliance(&mut flat).unwrap();
-    let largest = largest_absolute(&flat);
-    let common = 10.0 * largest * count as f64 / areas[..count].iter().sum::<f64>();
+    let mut compliance = vec![0.0; size * size];
+    ground.static_compliance(&mut compliance).unwrap();
+    let max_magnitude = largest_absolute(&compliance);
+    let common = 10.0 * max_magnitude * count as f64 / areas[..count].iter().sum::<f64>();
     let mut matrix = vec![vec![0.0; size]; size];
     for i in 0..size {
         for j in 0..size {
             let common_motion = if i / count == j / count { common * areas[j] } else { 0.0 };
-            matrix[i][j] = flat[i * size + j] + common_motion;
+            matrix[i][j] = compliance[i * size + j] + common_motion;
         }
     }
     matrix
@@ -147,11 +147,11 @@ impl Reference {
     /// Ground below these components of the elements.
     fn ground(&self, places: &[usize]) -> GroundStiffness {
         let size = places.len();
-        let flat: Vec<f64> = places
+        let entries: Vec<f64> = places
             .iter()
             .flat_map(|&i| places.iter().map(move |&j| self.compliance[i][j]))
             .collect();
-        let inverse = inverse(&flat, size);
+        let inverse = inverse(&entries, size);
         let dofs = self.weight.len();
         let mut tractions = vec![vec![0.0; dofs]; size];
         for i in 0..size {
@@ -185,31 +185,31 @@ impl Reference {
             }
         }
         (0..dofs).for_each(|i| (0..dofs).for_each(|j| sum[i][j] += self.elastic[i][j]));
-        let lowest = eigenvalues(&self.geometric, &sum)[0];
-        if lowest < 0.0 { -1.0 / lowest } else { f64::INFINITY }
+        let min_eigenvalue = eigenvalues(&self.geometric, &sum)[0];
+        if min_eigenvalue < 0.0 { -1.0 / min_eigenvalue } else { f64::INFINITY }
     }
 
     /// Follows the equilibrium without friction while the weight and its P–Δ grow together.
     pub(super) fn follow_path(&self) -> PathEnd {
-        let mut closed: Vec<usize> = (0..self.count).collect();
+        let mut closed_elements: Vec<usize> = (0..self.count).collect();
         for increment in 1..=WEIGHT_INCREMENTS {
             let factor = increment as f64 / WEIGHT_INCREMENTS as f64;
             let mut set_changes = 0;
             loop {
                 set_changes += 1;
-                if set_changes > MAX_SET_CHANGES || closed.is_empty() {
+                if set_changes > MAX_SET_CHANGES || closed_elements.is_empty() {
                     return path_lost_before(increment);
                 }
-                let Some(change) = self.set_change(&closed, factor) else {
+                let Some(change) = self.set_change(&closed_elements, factor) else {
                     return path_lost_before(increment);
                 };
                 match change {
                     SetChange::Open(index) => {
-                        closed.remove(index);
+                        closed_elements.remove(index);
                     }
                     SetChange::Close(place) => {
-                        closed.push(place);
-                        closed.sort_unstable();
+                        closed_elements.push(place);
+                        closed_elements.sort_unstable();
                     }
                     SetChange::None => break,
                 }
@@ -219,8 +219,8 @@ impl Reference {
     }
 
     /// Change of the closed elements that their equilibrium needs; `None` if that is not stable.
-    fn set_change(&self, closed: &[usize], factor: f64) -> Option<SetChange> {
-        let GroundStiffness { stiffness: mut matrix, tractions } = self.ground(closed);
+    fn set_change(&self, closed_elements: &[usize], factor: f64) -> Option<SetChange> {
+        let GroundStiffness { stiffness: mut matrix, tractions } = self.ground(closed_elements);
         let dofs = self.weight.len();
         for i in 0..dofs {
             for j in 0..dofs {
@@ -234,15 +234,16 @@ impl Reference {
         let load: Vec<f64> = self.weight.iter().map(|force| factor * force).collect();
         let displacement = solve(&matrix, &load);
         let pressures = multiply(&tractions, &displacement);
-        let lowest = (0..closed.len()).min_by(|&i, &j| pressures[i].total_cmp(&pressures[j]));
-        if let Some(index) = lowest
+        let min_pressure_element =
+            (0..closed_elements.len()).min_by(|&i, &j| pressures[i].total_cmp(&pressures[j]));
+        if let Some(index) = min_pressure_element
             && pressures[index] < -1e-9 * largest_absolute(&pressures)
         {
             return Some(SetChange::Open(index));
         }
-        let open = (0..self.count).filter(|place| !closed.contains(place));
-        let smallest_gap = open
-            .map(|place| (self.gap(place, closed, &pressures, &displacement), place))
+        let open_elements = (0..self.count).filter(|place| !closed_elements.contains(place));
+        let smallest_gap = open_elements
+            .map(|place| (self.gap(place, closed_elements, &pressures, &displacement), place))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         Some(match smallest_gap {
             Some((gap, place)) if gap < -1e-9 * largest_absolute(&displacement) => {
@@ -265,8 +266,14 @@ impl Reference {
     }
 
     /// Gap of an open element above the soil that the pressures of the closed elements deform.
-    fn gap(&self, place: usize, closed: &[usize], pressures: &[f64], displacement: &[f64]) -> f64 {
-        let products = closed
+    fn gap(
+        &self,
+        place: usize,
+        closed_elements: &[usize],
+        pressures: &[f64],
+        displacement: &[f64],
+    ) -> f64 {
+        let products = closed_elements
             .iter()
             .zip(pressures)
             .map(|(&j, pressure)| self.compliance[place][j] * pressure);

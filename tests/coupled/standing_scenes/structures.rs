@@ -37,8 +37,8 @@ fn portal(random: &mut Random, offset: f64) -> FemModel {
     let center = mesh.add_node(0.0, 0.0).unwrap();
     let half = 0.3 * width;
     let feet = [-half, half].map(|x| mesh.add_node(x, 0.0).unwrap());
-    let lean = 0.5 * offset * width;
-    let tops = [-half, half].map(|x| mesh.add_node(x + lean, height).unwrap());
+    let lateral_offset = 0.5 * offset * width;
+    let tops = [-half, half].map(|x| mesh.add_node(x + lateral_offset, height).unwrap());
     for (k, column) in feet.into_iter().zip(tops).enumerate() {
         let inertia = random.log_within(0.005, 0.2);
         mesh.add(Beam::new(column.into(), 30e9, 0.3, inertia, 2500.0).unwrap()).unwrap();
@@ -75,12 +75,16 @@ fn mast_in_space(random: &mut Random, offset: f64) -> FemModel {
     let concrete = Material::new(30e9, 0.2, 2500.0).unwrap();
     let inertias = [0, 1].map(|_| random.log_within(0.05, 5.0));
     let section = BeamSection::new(2.0, inertias, 1.0).unwrap();
-    let lean = [offset * sides[0], random.within(-1.0, 1.0) * offset * sides[1]];
+    let lateral_offset = [offset * sides[0], random.within(-1.0, 1.0) * offset * sides[1]];
     let nodes: Vec<usize> = (0..=3)
         .map(|k| {
             let fraction = f64::from(k) / 3.0;
-            mesh.add_node_at([lean[0] * fraction, lean[1] * fraction, height * fraction])
-                .unwrap()
+            mesh.add_node_at([
+                lateral_offset[0] * fraction,
+                lateral_offset[1] * fraction,
+                height * fraction,
+            ])
+            .unwrap()
         })
         .collect();
     for pair in nodes.windows(2) {

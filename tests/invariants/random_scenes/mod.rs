@@ -36,8 +36,8 @@ fn every_run_is_finite_balanced_and_admissible() {
         let Some(states) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
             return Ok(());
         };
-        let unreduced = recipe.unreduced().build(SI_UNITS, 0).unwrap();
-        let condition = unreduced.conditioning().effective_stiffness;
+        let unreduced_simulation = recipe.unreduced().build(SI_UNITS, 0).unwrap();
+        let condition = unreduced_simulation.conditioning().effective_stiffness;
         tally.add_run(&states);
         run_checks::numbers_are_finite(&states)?;
         run_checks::energy_is_conserved(recipe, &states, condition, tally)?;
@@ -47,9 +47,9 @@ fn every_run_is_finite_balanced_and_admissible() {
         }
         preload_is_in_equilibrium(recipe, &states[0], tally)
     });
-    // Scenes without contact changes would show nothing.
+    // Scenes without changes of contact would test nothing.
     let scenes = tally.counted("scenes");
-    assert!(tally.counted("refused") < scenes / 4, "{tally}");
+    assert!(tally.counted("build errors") < scenes / 4, "{tally}");
     assert!(tally.counted("changes of mode") > 5 * scenes, "{tally}");
 }
 
@@ -57,20 +57,21 @@ fn every_run_is_finite_balanced_and_admissible() {
 /// shaking (at most 2 g) by a function, and under records that are run to their end.
 #[test]
 fn usual_scenes_give_no_warning_of_units() {
-    let usual = recipes(1.0).prop_filter("usual weight, friction and scheme", is_usual);
+    let usual_recipes = recipes(1.0).prop_filter("usual weight, friction and scheme", is_usual);
     let record = (0.5..15.0, prop::sample::select(vec![0.0025, 0.005, 0.01, 0.02]), 1.0..8.0);
-    let tally = for_all("units", 40, &(usual, record), |(recipe, (peak, step, waves)), tally| {
-        if recipe.peak_acceleration() < 2.0 * scenes::SCENE_GRAVITY
-            && let Ok(simulation) = recipe.build(SI_UNITS, 0)
-        {
-            assert_no_unit_warnings(simulation, 200, false, "functions", tally)?;
-        }
-        let record = fading_record(*peak, *step, *waves);
-        let duration = record.duration();
-        let Ok(simulation) = recipe.build_with(SI_UNITS, record) else { return Ok(()) };
-        let steps = simulation.steps_for(duration);
-        assert_no_unit_warnings(simulation, steps, true, "records", tally)
-    });
+    let tally =
+        for_all("units", 40, &(usual_recipes, record), |(recipe, (peak, step, waves)), tally| {
+            if recipe.peak_acceleration() < 2.0 * scenes::SCENE_GRAVITY
+                && let Ok(simulation) = recipe.build(SI_UNITS, 0)
+            {
+                assert_no_unit_warnings(simulation, 200, false, "functions", tally)?;
+            }
+            let record = fading_record(*peak, *step, *waves);
+            let duration = record.duration();
+            let Ok(simulation) = recipe.build_with(SI_UNITS, record) else { return Ok(()) };
+            let steps = simulation.steps_for(duration);
+            assert_no_unit_warnings(simulation, steps, true, "records", tally)
+        });
     assert!(tally.counted("functions") > 10 && tally.counted("records") > 20, "{tally}");
 }
 
@@ -145,7 +146,7 @@ fn preload_is_in_equilibrium(
 
 /// The search for the static state ends by forces relative to the root of masses.
 ///
-/// By forces and moments themselves it would not end where the unit of length is short.
+/// With limits of forces and moments themselves it would not end where the unit of length is short.
 #[test]
 fn static_state_is_found_in_any_unit_of_length() {
     for power in -6..=6 {
@@ -157,8 +158,8 @@ fn static_state_is_found_in_any_unit_of_length() {
             .build();
         let state = simulation.unwrap().state().clone();
         let weight = 4.0 * 6.0 * 1500.0 * scenes::SCENE_GRAVITY;
-        let relative = state.normal_force / (weight * frame.pressure() * frame.length);
-        assert!((relative - 1.0).abs() < 1e-10, "10^{power}: {relative}");
+        let relative_force = state.normal_force / (weight * frame.pressure() * frame.length);
+        assert!((relative_force - 1.0).abs() < 1e-10, "10^{power}: {relative_force}");
     }
 }
 
@@ -187,7 +188,7 @@ const IDENTICAL_RUNS: RunRelation = RunRelation { factors: [1.0; 4], mirrored: f
 
 /// Largest differences of pressures, shear tractions, slips and rotations of two runs.
 ///
-/// Relative to the largest traction and length of the first.
+/// They are relative to the largest traction and length of the first run.
 fn max_differences(first: &[State], second: &[State], relation: RunRelation) -> [f64; 4] {
     let RunScales { traction, length, .. } = RunScales::largest(first);
     let scales = [traction, traction, length, length / recipe::BASE_WIDTH];
@@ -223,19 +224,21 @@ fn assert_related(
     relation: RunRelation,
     tally: &mut PropertyTally,
 ) -> Result<(), TestCaseError> {
-    // Where such a layer lands there may be several solutions or none.
+    // Where an open layer with shear lands, there may be several solutions or none.
     if recipe.has_shear_while_open() {
         return Ok(());
     }
     let perturbation = 1.0 + 1e-10;
-    let stronger = SceneRecipe { strength: recipe.strength * perturbation, ..recipe.clone() };
-    let stiffer = SceneRecipe { modulus: recipe.modulus * perturbation, ..recipe.clone() };
+    let stronger_recipe =
+        SceneRecipe { strength: recipe.strength * perturbation, ..recipe.clone() };
+    let stiffer_recipe = SceneRecipe { modulus: recipe.modulus * perturbation, ..recipe.clone() };
     let mut sensitivity = [0.0_f64; 4];
-    for perturbed in [stronger, stiffer] {
-        let Some(perturbed) = accepted(recipe, perturbed.run(SI_UNITS, 0), tally)? else {
+    for perturbed_recipe in [stronger_recipe, stiffer_recipe] {
+        let Some(perturbed_recipe) = accepted(recipe, perturbed_recipe.run(SI_UNITS, 0), tally)?
+        else {
             return Ok(());
         };
-        let differences = max_differences(first, &perturbed, IDENTICAL_RUNS);
+        let differences = max_differences(first, &perturbed_recipe, IDENTICAL_RUNS);
         for k in 0..4 {
             sensitivity[k] = sensitivity[k].max(differences[k]);
         }
@@ -280,7 +283,7 @@ fn units_have_no_effect_over_twelve_orders_of_magnitude() {
         };
         tally.add_run(&plain);
         let Some(in_frame) = accepted(recipe, recipe.run(frame, 0), tally)? else {
-            return Err(TestCaseError::fail("refused in other units"));
+            return Err(TestCaseError::fail("an error in other units"));
         };
         let traction = 1.0 / frame.pressure();
         let factors = [traction, traction, 1.0 / frame.length, 1.0];

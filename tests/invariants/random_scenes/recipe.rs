@@ -130,7 +130,7 @@ pub(crate) struct SceneRecipe {
     pub(crate) courant: f64,
     /// Shear modulus of the soil, Pa.
     pub(crate) modulus: f64,
-    /// Without gravity, so that a base that can open moves away.
+    /// Whether there is no gravity, so that a base that can open moves away.
     pub(crate) weightless: bool,
 }
 
@@ -183,13 +183,13 @@ impl SceneRecipe {
 
     /// The scene without reduction: a reduced tower has the rounding of the unreduced stiffness.
     pub(crate) fn unreduced(&self) -> Self {
-        let mut unreduced = self.clone();
-        if let BuildingRecipe::Tower(TowerRecipe { form, .. }) = &mut unreduced.building
+        let mut unreduced_recipe = self.clone();
+        if let BuildingRecipe::Tower(TowerRecipe { form, .. }) = &mut unreduced_recipe.building
             && *form == TowerForm::Reduced
         {
             *form = TowerForm::Quad4;
         }
-        unreduced
+        unreduced_recipe
     }
 
     /// Whether pressure and friction obey Signorini and Coulomb exactly.

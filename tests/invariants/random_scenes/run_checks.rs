@@ -69,7 +69,7 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
             state.mean_slip,
             state.base_rotation,
         ];
-        let all = state
+        let all_contacts = state
             .absolute_displacement()
             .iter()
             .chain(state.velocity())
@@ -79,7 +79,7 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
             .chain(contact)
             .chain(results)
             .chain(terms(&state.energy_balance));
-        prop_assert!({ all }.all(f64::is_finite), "step {}: not finite", state.step);
+        prop_assert!({ all_contacts }.all(f64::is_finite), "step {}: not finite", state.step);
     }
     Ok(())
 }
@@ -184,11 +184,11 @@ fn check_cone(
     let tension = -end.pressure / scales.traction;
     tally.within("tension, of the largest traction", tension, 1e-10)?;
     let friction = recipe.friction();
-    let excess =
+    let excess_shear =
         if friction.is_infinite() { 0.0 } else { end.shear.abs() - friction * end.pressure };
     tally.within(
         "beyond the friction cone, of the largest traction",
-        excess / scales.traction,
+        excess_shear / scales.traction,
         1e-10,
     )
 }

@@ -37,7 +37,7 @@ impl ShakingKind {
         match self {
             ShakingKind::Record { begin } => {
                 let along = el_centro(begin + 2.0 * phase) - el_centro(*begin);
-                // Peaks of a centimetre or so.
+                // Within two seconds the displacement changes by about a centimetre: the shape is of order one.
                 [100.0 * along, 30.0 * along]
             }
             ShakingKind::Jumps(jumps) => sum_of_events(jumps, phase, jump),

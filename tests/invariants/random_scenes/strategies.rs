@@ -20,7 +20,11 @@ fn building() -> impl Strategy<Value = BuildingRecipe> {
             .prop_map(|(height, density)| BuildingRecipe::Block { height, density }),
         tower().prop_map(BuildingRecipe::Tower),
         (1_usize..4, log_uniform(1e6, 1e9), any::<bool>()).prop_map(
-            |(count, stiffness, damped)| BuildingRecipe::Storeys { count, stiffness, damped }
+            |(count, stiffness, is_damped)| BuildingRecipe::Storeys {
+                count,
+                stiffness,
+                damped: is_damped
+            }
         ),
     ]
 }
@@ -51,7 +55,7 @@ fn ground() -> impl Strategy<Value = GroundRecipe> {
     ]);
     prop_oneof![
         3 => (any::<bool>(), prop_oneof![7 => 0.0..0.49, 1 => 0.49..0.4995], history)
-            .prop_map(|(graded, poisson, history)| GroundRecipe::HalfPlane { graded, poisson, history }),
+            .prop_map(|(is_graded, poisson, history)| GroundRecipe::HalfPlane { graded: is_graded, poisson, history }),
         1 => any::<bool>().prop_map(|dashpots| GroundRecipe::Springs { dashpots }),
     ]
 }

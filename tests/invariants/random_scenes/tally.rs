@@ -121,11 +121,11 @@ pub(crate) fn accepted(
         Err(Error::Step { source: StepError::Part { source: error, .. }, .. })
             if is_unsupported(&error) =>
         {
-            tally.count("refused", 1);
+            tally.count("build errors", 1);
             Ok(None)
         }
         Err(error) if is_unsupported(&error) => {
-            tally.count("refused", 1);
+            tally.count("build errors", 1);
             Ok(None)
         }
         // An open thin layer with shear traction has to release it in one step when it lands.

@@ -6,7 +6,7 @@ use basemat::interface::{
     PreviousContact, Tolerance,
 };
 
-use super::recording_part::{MARKER_VALUE, RecordingPart, refusal};
+use super::recording_part::{MARKER_VALUE, RecordingPart, part_error};
 
 /// Methods that both traits have.
 macro_rules! common_methods {
@@ -58,7 +58,7 @@ macro_rules! common_methods {
 
         fn check_start(&self, _: &PreviousContact) -> Result<()> {
             self.0.add("check_start");
-            Err(refusal())
+            Err(part_error())
         }
 
         fn frictionless(&self) -> Box<dyn InterfaceLaw> {
@@ -68,7 +68,7 @@ macro_rules! common_methods {
 
         fn check(&self, _: &ContactScene) -> Result<()> {
             self.0.add("check");
-            Err(refusal())
+            Err(part_error())
         }
     };
 }

@@ -29,7 +29,7 @@ fn boxed_springs_forward_all_methods() {
         assert_eq!(part.energy(2.0).stored, 2.0 * MARKER_VALUE);
         part.commit(1.0);
         assert_eq!(part.save(), [MARKER_VALUE]);
-        assert_eq!(part.restore(&[1.0]), Err(recording_part::refusal()));
+        assert_eq!(part.restore(&[1.0]), Err(recording_part::part_error()));
         drop(part.clone_box());
     }
     let log = CallLog::default();
@@ -48,8 +48,8 @@ fn call_law_methods<L: InterfaceLaw + 'static>(new_law: impl Fn() -> L) {
     let tolerance = recording_part::tolerance();
     assert_eq!(law.modes(), [Mode::SlipLeft]);
     assert_eq!(law.conditions(Mode::Open, &start)[1].value, MARKER_VALUE);
-    let next = law.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
-    assert_eq!(next, Mode::SlipRight);
+    let next_mode = law.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
+    assert_eq!(next_mode, Mode::SlipRight);
     assert_eq!(law.compliance(Mode::Open, &start), [MARKER_VALUE; 2]);
     let mut variables = [0.0; 3];
     assert_eq!(law.state_variables(), variables.len());
@@ -59,16 +59,16 @@ fn call_law_methods<L: InterfaceLaw + 'static>(new_law: impl Fn() -> L) {
     assert_eq!(variables, [2.0 * MARKER_VALUE; 3]);
     assert_eq!(law.friction_coefficient(), Some(MARKER_VALUE));
     assert_eq!(law.bond_overload(&start, &ContactState::default()), Some(MARKER_VALUE));
-    assert_eq!(law.check_start(&start), Err(recording_part::refusal()));
+    assert_eq!(law.check_start(&start), Err(recording_part::part_error()));
     assert_eq!(law.frictionless().modes(), [Mode::SlipRight]);
     // Only a simulation can make the argument of `check`.
     let ground = SpringGround::new(-2.0..2.0, 4, 1e7, 1e7).unwrap();
-    let built = Simulation::builder(0.01)
+    let result = Simulation::builder(0.01)
         .structure(RigidBlock::new(4.0, 4.0, 2000.0).unwrap())
         .ground(ground)
         .interface(new_law())
         .build();
-    assert_eq!(built.err(), Some(recording_part::refusal()));
+    assert_eq!(result.err(), Some(recording_part::part_error()));
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn boxed_grounds_forward_all_methods() {
         assert_eq!(part.elements().len(), 1);
         assert_eq!(
             part.prepare(MARKER_VALUE, None, &mut unobserved),
-            Err(recording_part::refusal())
+            Err(recording_part::part_error())
         );
         part.step_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [MARKER_VALUE; 4]);
@@ -111,7 +111,7 @@ fn boxed_grounds_forward_all_methods() {
         assert_eq!(part.description().soils, [recording_part::soil()]);
         assert_eq!(part.increment_error_bound(), MARKER_VALUE);
         assert_eq!(part.save(), Ok(vec![MARKER_VALUE]));
-        assert_eq!(part.restore(1, &[1.0]), Err(recording_part::refusal()));
+        assert_eq!(part.restore(1, &[1.0]), Err(recording_part::part_error()));
         part.free_field(&AtRest, 1.0, &mut matrix[..2]);
         assert_eq!(matrix[..2], [4.0 * MARKER_VALUE; 2]);
     }
@@ -158,13 +158,13 @@ fn boxed_histories_forward_all_methods() {
     fn call_methods(mut part: impl ConvolutionHistory) {
         let mut values = [0.0; 2];
         assert_eq!((part.steps(), part.memory()), (7, 5));
-        assert_eq!(part.prepare(3, &mut unobserved), Err(recording_part::refusal()));
+        assert_eq!(part.prepare(3, &mut unobserved), Err(recording_part::part_error()));
         part.evaluate(&mut values).unwrap();
         assert_eq!(values, [MARKER_VALUE; 2]);
         part.push(&values);
         assert_eq!(part.increment_error_bound(), MARKER_VALUE);
         assert_eq!(part.save(), Ok(vec![MARKER_VALUE]));
-        assert_eq!(part.restore(1, &[1.0]), Err(recording_part::refusal()));
+        assert_eq!(part.restore(1, &[1.0]), Err(recording_part::part_error()));
     }
     let log = CallLog::default();
     let part: Box<dyn ConvolutionHistory> = Box::new(RecordingPart::new(&log));
@@ -203,7 +203,7 @@ fn boxed_elements_forward_all_methods() {
         assert!(part.with_nodes(&[6]).is_some() && part.with_nodes(&[5]).is_none());
         assert_eq!(part.faces(), [ElementFace::side(&[7])]);
         assert!(!part.is_plane());
-        assert_eq!(part.check(&[]), Err(recording_part::refusal()));
+        assert_eq!(part.check(&[]), Err(recording_part::part_error()));
         assert_eq!(part.order(), 11);
     }
     let log = CallLog::default();
@@ -231,8 +231,8 @@ fn boxed_kernels_forward_all_methods() {
 #[test]
 fn boxed_formats_forward_all_methods() {
     fn call_methods(part: impl RecordFormat) {
-        assert_eq!(part.parse("", &mut &b""[..]), Err(recording_part::refusal()));
-        assert_eq!(part.parse_all("", &mut &b""[..]), Err(recording_part::refusal()));
+        assert_eq!(part.parse("", &mut &b""[..]), Err(recording_part::part_error()));
+        assert_eq!(part.parse_all("", &mut &b""[..]), Err(recording_part::part_error()));
     }
     let log = CallLog::default();
     let part: Box<dyn RecordFormat> = Box::new(RecordingPart::new(&log));
@@ -256,7 +256,7 @@ fn parts_chosen_at_run_time_make_the_same_simulation() {
     let boxed_law: Box<dyn InterfaceLaw> = Box::new(law);
     let boxed_motion: Box<dyn FreeField> = Box::new(motion);
     let boxed_scheme: Box<dyn TimeScheme> = Box::new(Midpoint);
-    let mut plain = Simulation::builder(0.005)
+    let mut plain_simulation = Simulation::builder(0.005)
         .gravity(9.81)
         .structure(block)
         .ground(half_plane())
@@ -273,8 +273,8 @@ fn parts_chosen_at_run_time_make_the_same_simulation() {
         .scheme(boxed_scheme)
         .build()
         .unwrap();
-    plain.run(200, |_| {}).unwrap();
+    plain_simulation.run(200, |_| {}).unwrap();
     boxed.run(200, |_| {}).unwrap();
-    assert_eq!(plain.state(), boxed.state());
-    assert_eq!(plain.checkpoint(), boxed.checkpoint());
+    assert_eq!(plain_simulation.state(), boxed.state());
+    assert_eq!(plain_simulation.checkpoint(), boxed.checkpoint());
 }

@@ -7,7 +7,7 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, ElementFace, InelasticForce, MassKind, StressAtRest};
 use basemat::motion::{FreeField, Record, RecordFormat};
 
-use super::recording_part::{MARKER_VALUE, RecordingPart, refusal};
+use super::recording_part::{MARKER_VALUE, RecordingPart, part_error};
 
 impl FreeField for RecordingPart {
     fn displacement(&self, x: f64, _: f64) -> [f64; 2] {
@@ -161,7 +161,7 @@ impl Element for RecordingPart {
 
     fn check(&self, _: &[[f64; 3]]) -> Result<()> {
         self.0.add("check");
-        Err(refusal())
+        Err(part_error())
     }
 
     fn order(&self) -> usize {
@@ -192,11 +192,11 @@ impl BoundaryKernel for RecordingPart {
 impl RecordFormat for RecordingPart {
     fn parse(&self, _: &str, _: &mut dyn std::io::Read) -> Result<Record> {
         self.0.add("parse");
-        Err(refusal())
+        Err(part_error())
     }
 
     fn parse_all(&self, _: &str, _: &mut dyn std::io::Read) -> Result<Vec<(String, Record)>> {
         self.0.add("parse_all");
-        Err(refusal())
+        Err(part_error())
     }
 }

@@ -13,7 +13,7 @@ use super::log::CallLog;
 pub(crate) const MARKER_VALUE: f64 = 0.625;
 
 /// The error that a recording part returns.
-pub(crate) fn refusal() -> Error {
+pub(crate) fn part_error() -> Error {
     Error::part("recording part", "refuses")
 }
 
@@ -60,7 +60,7 @@ impl Hysteresis for RecordingPart {
 
     fn restore(&mut self, _: &[f64]) -> Result<()> {
         self.0.add("restore");
-        Err(refusal())
+        Err(part_error())
     }
 
     fn clone_box(&self) -> Box<dyn Hysteresis> {
@@ -77,7 +77,7 @@ impl Ground for RecordingPart {
 
     fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
         self.0.add("prepare");
-        Err(refusal())
+        Err(part_error())
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
@@ -129,7 +129,7 @@ impl Ground for RecordingPart {
 
     fn restore(&mut self, _: usize, _: &[f64]) -> Result<()> {
         self.0.add("restore");
-        Err(refusal())
+        Err(part_error())
     }
 
     fn free_field(&self, _: &dyn FreeField, _: f64, displacement: &mut [f64]) {
@@ -151,7 +151,7 @@ impl ConvolutionHistory for RecordingPart {
 
     fn prepare(&mut self, _: usize, _: &mut Observer<'_>) -> Result<()> {
         self.0.add("prepare");
-        Err(refusal())
+        Err(part_error())
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
@@ -176,6 +176,6 @@ impl ConvolutionHistory for RecordingPart {
 
     fn restore(&mut self, _: usize, _: &[f64]) -> Result<()> {
         self.0.add("restore");
-        Err(refusal())
+        Err(part_error())
     }
 }

@@ -20,7 +20,7 @@ struct RecordingStructure {
     is_linear: bool,
 }
 
-fn refusal() -> Error {
+fn part_error() -> Error {
     Error::part("structure", "refuses")
 }
 
@@ -161,7 +161,7 @@ impl NonlinearForce for RecordingStructure {
 
     fn restore(&mut self, _: &[f64]) -> Result<()> {
         self.log.add("restore");
-        Err(refusal())
+        Err(part_error())
     }
 }
 
@@ -216,7 +216,7 @@ fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
     assert!(variables.contains(&MARKER_VALUE));
     let force = structure.nonlinear_mut().unwrap();
     force.commit(&[0.0; 4]);
-    assert_eq!(force.restore(&variables), Err(refusal()));
+    assert_eq!(force.restore(&variables), Err(part_error()));
 }
 
 /// Methods of linear structures.
@@ -226,12 +226,12 @@ fn linear_methods() -> BTreeSet<String> {
 
 /// Methods of structures, linear and nonlinear.
 fn all_methods() -> BTreeSet<String> {
-    let mut all = linear_methods();
-    all.extend(methods(
+    let mut names = linear_methods();
+    names.extend(methods(
         source!("../crates/structures/src/structure/nonlinear.rs"),
         "NonlinearForce",
     ));
-    all
+    names
 }
 
 fn nonlinear_structure(log: &CallLog) -> RecordingStructure {
@@ -256,11 +256,12 @@ fn wrapped_structures_forward_all_methods() {
     call_methods(WithSprings::new(nonlinear_structure(&log)), 0, 3.0 * MARKER_VALUE);
     assert_eq!(log.take(), all_methods());
 
-    let damped = ModalDamping::new(&[0.5]).unwrap().on(nonlinear_structure(&log)).unwrap();
+    let damped_structure =
+        ModalDamping::new(&[0.5]).unwrap().on(nonlinear_structure(&log)).unwrap();
     log.take();
     // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at a degree of freedom outside the base, since
     // a motion of the base alone counts as rigid.
-    call_methods(damped, 2, MARKER_VALUE * (3.0 + 6.0_f64.sqrt()));
+    call_methods(damped_structure, 2, MARKER_VALUE * (3.0 + 6.0_f64.sqrt()));
     assert_eq!(log.take(), all_methods());
 
     let group = StructureGroup::new().with(nonlinear_structure(&log), 0.0).unwrap();
@@ -272,9 +273,9 @@ fn wrapped_structures_forward_all_methods() {
 #[test]
 fn reduced_structures_forward_all_methods() {
     let log = CallLog::default();
-    let full = RecordingStructure { log: log.clone(), is_linear: true };
-    let reduced = CraigBampton::new(2).reduce(full).unwrap();
-    call_methods(reduced, 0, 3.0 * MARKER_VALUE);
+    let full_structure = RecordingStructure { log: log.clone(), is_linear: true };
+    let reduced_structure = CraigBampton::new(2).reduce(full_structure).unwrap();
+    call_methods(reduced_structure, 0, 3.0 * MARKER_VALUE);
     assert_eq!(log.take(), linear_methods());
 }
 
@@ -288,9 +289,9 @@ fn structures_with_elements_forward_all_methods() {
     let beam = FiberBeam::new(ends, &section.unwrap(), BeamQuadrature::Lobatto(3), 0.0).unwrap();
     mesh.add(beam).unwrap();
     let log = CallLog::default();
-    let linear = RecordingStructure { log: log.clone(), is_linear: true };
+    let linear_structure = RecordingStructure { log: log.clone(), is_linear: true };
     let no_motion = |_, _| Ok(DofCombination::default());
-    let with_elements = WithElements::new(linear, mesh, no_motion).unwrap();
+    let with_elements = WithElements::new(linear_structure, mesh, no_motion).unwrap();
     call_linear_methods(&with_elements, 0, 3.0 * MARKER_VALUE);
     // The elements alone are nonlinear, and change.
     let mut methods = linear_methods();

@@ -45,21 +45,26 @@ pub fn boundary_passivity(kernel: &dyn BoundaryKernel) -> [f64; 2] {
             }
         }
     }
-    [extremes.smallest / extremes.largest, extremes.smallest_angle]
+    [extremes.smallest_eigenvalue / extremes.max_magnitude, extremes.smallest_angle]
 }
 
 /// Extreme eigenvalues over the angles so far.
 struct EigenvalueExtremes {
-    smallest: f64,
+    smallest_eigenvalue: f64,
     smallest_angle: f64,
     /// Largest magnitude of an eigenvalue.
-    largest: f64,
+    max_magnitude: f64,
     largest_angle: f64,
 }
 
 impl Default for EigenvalueExtremes {
     fn default() -> Self {
-        Self { smallest: f64::INFINITY, smallest_angle: 0.0, largest: 0.0, largest_angle: 0.0 }
+        Self {
+            smallest_eigenvalue: f64::INFINITY,
+            smallest_angle: 0.0,
+            max_magnitude: 0.0,
+            largest_angle: 0.0,
+        }
     }
 }
 
@@ -70,16 +75,17 @@ impl EigenvalueExtremes {
         let rows = matrix.chunks_exact(order);
         let bound = rows.map(|row| row.iter().map(|x| x.abs()).sum::<f64>()).fold(0.0, f64::max);
         let count_below = |shift: f64| eigenvalues_below(&matrix, order, shift);
-        if self.smallest > bound || count_below(self.smallest) > 0 {
-            self.smallest = bisect(-bound, self.smallest.min(bound), |x| count_below(x) > 0);
+        if self.smallest_eigenvalue > bound || count_below(self.smallest_eigenvalue) > 0 {
+            self.smallest_eigenvalue =
+                bisect(-bound, self.smallest_eigenvalue.min(bound), |x| count_below(x) > 0);
             self.smallest_angle = angle;
         }
-        if count_below(self.largest) < order {
-            self.largest = bisect(self.largest, bound, |x| count_below(x) == order);
+        if count_below(self.max_magnitude) < order {
+            self.max_magnitude = bisect(self.max_magnitude, bound, |x| count_below(x) == order);
             self.largest_angle = angle;
         }
-        if count_below(-self.largest) > 0 {
-            self.largest = -bisect(-bound, -self.largest, |x| count_below(x) > 0);
+        if count_below(-self.max_magnitude) > 0 {
+            self.max_magnitude = -bisect(-bound, -self.max_magnitude, |x| count_below(x) > 0);
             self.largest_angle = angle;
         }
     }

@@ -1,4 +1,4 @@
-//! A rocking and sliding block on soil, and how smooth its normal force is.
+//! A rocking and sliding block on soil, and measures of the chatter of its normal force.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{DissipativeMidpoint, Midpoint, Probe, SimulationBuilder, Theta};
@@ -32,7 +32,7 @@ pub struct ChatterScene {
     pub time_step: f64,
     pub duration: f64,
     pub height: f64,
-    /// Young's modulus of a flexible block.
+    /// Young's modulus of a flexible block, Pa; `None` for a rigid block.
     pub young: Option<f64>,
 }
 
@@ -157,14 +157,14 @@ fn alternating(values: &[f64]) -> f64 {
 ///
 /// A fourth-order Butterworth high-pass filter runs forwards and backwards, and so adds no phase shift.
 fn high_pass(signal: &[f64], time_step: f64) -> Vec<f64> {
-    let mut filtered: Vec<f64> = signal.iter().map(|s| s - signal[0]).collect();
+    let mut filtered_signal: Vec<f64> = signal.iter().map(|s| s - signal[0]).collect();
     for _ in 0..2 {
         for damping in [0.923_879_532_511_286_7, 0.382_683_432_365_089_8] {
-            second_order_section(&mut filtered, damping, time_step);
+            second_order_section(&mut filtered_signal, damping, time_step);
         }
-        filtered.reverse();
+        filtered_signal.reverse();
     }
-    filtered
+    filtered_signal
 }
 
 /// One section s²/(s² + 2ζωs + ω²), by the bilinear transform with the same cut-off.

@@ -1,5 +1,5 @@
 //! Contact problems of single steps: a ground with any compliance matrix under a body too heavy to
-//! move. The solution of the simulation is compared with all that brute force finds.
+//! move. The solution of the simulation is compared with all solutions by enumeration.
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::SearchMethod;
@@ -15,7 +15,7 @@ use super::random::Random;
 pub const SEQUENCE_STEPS: usize = 20;
 /// Differences of solutions below this, relative to the largest traction, are rounding.
 const DISTINCTION_TOLERANCE: f64 = 1e-6;
-/// Largest violation by a solution of brute force, relative to the largest traction and to the largest jump.
+/// Largest violation by a solution of the enumeration, relative to the largest traction and to the largest jump.
 const VIOLATION_TOLERANCE: f64 = 1e-10;
 
 /// Delassus operator of a problem, and its elements.
@@ -70,7 +70,7 @@ fn random_matrix(count: usize, random: &mut Random) -> ProblemMatrix {
     ProblemMatrix { delassus: matrix, elements }
 }
 
-/// jump = motion + W τ, with Coulomb's conditions on it.
+/// The problem jump = motion + W τ, with Signorini's and Coulomb's conditions.
 struct StepProblem<'a> {
     matrix: &'a [f64],
     motion: &'a [f64],
@@ -108,13 +108,13 @@ impl StepProblem<'_> {
                 let shear = traction[count + e] / force;
                 let gap = jump[e] / length;
                 let slip_increment = (-jump[count + e] - self.slip[e]) / length;
-                let open = pressure.abs().max(shear.abs()).max(-gap);
-                let closed = gap.abs().max(-pressure);
+                let open_violation = pressure.abs().max(shear.abs()).max(-gap);
+                let closed_violation = gap.abs().max(-pressure);
                 let stick = slip_increment.abs().max(shear.abs() - self.friction * pressure);
                 let slip = [1.0, -1.0].map(|sense: f64| {
                     (shear - sense * self.friction * pressure).abs().max(-sense * slip_increment)
                 });
-                open.min(closed.max(stick.min(slip[0]).min(slip[1])))
+                open_violation.min(closed_violation.max(stick.min(slip[0]).min(slip[1])))
             })
             .fold(0.0, f64::max)
     }
@@ -233,12 +233,12 @@ pub struct ContactTally {
     pub ambiguous_problems: usize,
     /// Largest number of solutions of a problem.
     pub max_solutions: usize,
-    /// Problems in which brute force finds no solution.
+    /// Problems without a solution by enumeration.
     pub unsolvable_problems: usize,
     pub failed_steps: usize,
     /// Largest violation of the contact conditions.
     pub max_violation: f64,
-    /// Largest distance from the nearest solution of brute force.
+    /// Largest distance from the nearest solution by enumeration.
     pub max_distance: f64,
 }
 
@@ -259,8 +259,9 @@ impl ContactTally {
         self.ambiguous_problems += usize::from(solutions.len() > 1);
         self.max_solutions = self.max_solutions.max(solutions.len());
         if !solutions.is_empty() {
-            let nearest = solutions.iter().map(|s| distance(s, &traction)).fold(f64::MAX, f64::min);
-            self.max_distance = self.max_distance.max(nearest / largest(&traction));
+            let min_distance =
+                solutions.iter().map(|s| distance(s, &traction)).fold(f64::MAX, f64::min);
+            self.max_distance = self.max_distance.max(min_distance / largest(&traction));
         }
         self.methods[match state.method {
             SearchMethod::ActiveSet => 0,

@@ -1,7 +1,7 @@
 //! The containment of Patel & Spyrakos: soil, structure and time step, in the paper's units.
 //!
-//! Contact length and height are calibrated on the first two rows of the paper's Table 1; what else is
-//! not printed is assumed: see docs/paper.md.
+//! Contact length and height are calibrated on the first two rows of the paper's Table 1; other data
+//! that are not printed are assumed: see docs/paper.md.
 
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ pub struct Containment {
     pub width: f64,
     /// Height, ft; calibrated.
     pub height: f64,
-    /// Layers of rectangles, of equal height; that the lowest is the basemat is assumed.
+    /// Layers of rectangles of equal height; the lowest layer is assumed to be the basemat.
     pub layers: usize,
     /// Elements along the base.
     pub elements: usize,
@@ -71,7 +71,7 @@ impl Default for Containment {
     }
 }
 
-/// slug/ft³.
+/// Density of the superstructure, slug/ft³.
 const SUPERSTRUCTURE_DENSITY: f64 = 0.590_06;
 
 /// A material by Young's modulus (psf) and density (slug/ft³).
@@ -155,7 +155,7 @@ impl Containment {
         Ok(terms)
     }
 
-    /// The roof's left corner, m; that it is the paper's location A is assumed.
+    /// The roof's left corner, m, which is assumed to be the paper's location A.
     pub fn corner(&self) -> [f64; 2] {
         [self.base().start, self.layer_height() + self.superstructure_height()]
     }

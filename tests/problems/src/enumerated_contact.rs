@@ -83,7 +83,7 @@ impl EnumeratedContact {
     fn conditions(&self, e: usize, mode: Mode) -> Option<[LinearCondition; 2]> {
         let active = LinearCondition::pressure_is(self.bounds[e][0]);
         let passive = LinearCondition::pressure_is(self.bounds[e][1]);
-        let closed = LinearCondition::gap_is(-self.recession[e]);
+        let closed_gap = LinearCondition::gap_is(-self.recession[e]);
         let stick = LinearCondition::slip_is(self.slip[e]);
         let slip_right = LinearCondition::new([0.0, 0.0, -self.friction, 1.0], 0.0);
         let slip_left = LinearCondition::new([0.0, 0.0, -self.friction, -1.0], 0.0);
@@ -92,15 +92,15 @@ impl EnumeratedContact {
             // With infinite friction an element slides only without pressure.
             let is_closed = matches!(mode, Mode::SlipLeft | Mode::SlipRight);
             let can_open = self.bounds[e][0] == 0.0;
-            return (can_open && is_closed).then_some([closed, without_pressure]);
+            return (can_open && is_closed).then_some([closed_gap, without_pressure]);
         }
         Some(match mode {
             Mode::Open => [without_pressure, LinearCondition::new([0.0, 0.0, 0.0, 1.0], 0.0)],
-            Mode::Stick => [closed, stick],
+            Mode::Stick => [closed_gap, stick],
             Mode::Yield => [passive, stick],
             Mode::Active => [active, stick],
-            Mode::SlipRight => [closed, slip_right],
-            Mode::SlipLeft => [closed, slip_left],
+            Mode::SlipRight => [closed_gap, slip_right],
+            Mode::SlipLeft => [closed_gap, slip_left],
             Mode::YieldRight => [passive, slip_right],
             Mode::YieldLeft => [passive, slip_left],
             Mode::ActiveRight => [active, slip_right],

@@ -17,7 +17,7 @@ pub fn not_a_number(field: &str) -> FileFault {
     value("field", &format!("'{field}'"), "a finite number")
 }
 
-/// Whether an error blames this value of a quantity of an item.
+/// Whether an error names this value of a quantity of an item.
 pub fn is_input_of(
     error: &Error,
     expected_item: &str,

@@ -101,10 +101,10 @@ impl FiberFrame {
         section: &FiberSection,
     ) -> Result<usize> {
         let [start, end] = ends.map(|node| mesh.nodes()[node]);
-        let mut last = ends[0];
+        let mut previous_node = ends[0];
         for k in 1..=self.division_count {
             let s = k as f64 / self.division_count as f64;
-            let next = if k == self.division_count {
+            let next_node = if k == self.division_count {
                 ends[1]
             } else {
                 mesh.add_node(
@@ -112,15 +112,15 @@ impl FiberFrame {
                     start[1] + s * (end[1] - start[1]),
                 )?
             };
-            let beam = FiberBeam::new([last, next], section, self.quadrature, 300.0)?;
+            let beam = FiberBeam::new([previous_node, next_node], section, self.quadrature, 300.0)?;
             mesh.add(beam.with_formulation(self.formulation))?;
-            last = next;
+            previous_node = next_node;
         }
         Ok(self.division_count)
     }
 }
 
-/// What the members of a frame are made of.
+/// Material of the members of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrameLaw {
     Bilinear,
@@ -182,7 +182,7 @@ pub fn ten_storey_frame(law: FrameLaw, formulation: BeamFormulation) -> Result<F
     })
 }
 
-/// The ten-storey frame in twice El Centro on springs that it may leave; `time_step` in s.
+/// The ten-storey frame on springs under twice El Centro, free to lift off; `time_step` in s.
 pub fn ten_storey_simulation(
     law: FrameLaw,
     formulation: BeamFormulation,

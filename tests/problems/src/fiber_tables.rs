@@ -17,14 +17,14 @@ const COLUMN_ORIENTATION: f64 = 0.45;
 /// Peaks of the shaking along x and y, times those of El Centro.
 const SHAKING_FACTORS: [f64; 2] = [2.0, 1.2];
 
-/// What the columns of a table are made of.
+/// Material of the columns of a table.
 #[derive(Debug, Clone)]
 pub enum TableColumns {
     Linear { material: Material, section: BeamSection },
     Fibers { section: FiberSection, formulation: BeamFormulation },
 }
 
-/// A table whose columns are cut into parts, turned about the vertical.
+/// A table whose columns are divided into elements, turned about the vertical.
 #[derive(Debug, Clone)]
 pub struct FiberTable {
     pub columns: TableColumns,

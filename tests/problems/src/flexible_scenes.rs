@@ -280,7 +280,7 @@ pub struct FlexibleSceneTotals {
     /// Number of steps with a cell that slides.
     pub sliding_steps: usize,
     /// Scenes whose structure or step has no solution, with the reasons.
-    pub refused: Vec<String>,
+    pub errors: Vec<String>,
     /// Largest residual of an energy balance.
     pub residual: f64,
     /// Largest energy returned by the soil, relative to the largest energy.
@@ -299,7 +299,7 @@ impl FlexibleSceneTotals {
                 | Error::CoarseBase(_)
                 | Error::Accuracy { .. }),
             ) => {
-                self.refused.push(format!("{number}: {error}"));
+                self.errors.push(format!("{number}: {error}"));
                 return;
             }
             Err(error) => panic!("{number}: {error}"),
@@ -309,7 +309,7 @@ impl FlexibleSceneTotals {
             let state = match simulation.step() {
                 Ok(state) => state,
                 Err(Error::Step { source: source @ StepError::Cone { .. }, step, .. }) => {
-                    self.refused.push(format!("{number}, step {step}: {source}"));
+                    self.errors.push(format!("{number}, step {step}: {source}"));
                     return;
                 }
                 Err(error) => panic!("{number}: {error}"),

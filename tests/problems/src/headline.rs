@@ -1,6 +1,6 @@
 //! Scenes whose steps the study `performance` and the benchmark `step` time.
 //!
-//! They show that a feature that a scene does not use costs no time.
+//! Each scene leaves out computations that its steps do not need.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};

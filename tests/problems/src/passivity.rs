@@ -58,7 +58,7 @@ impl PassivityScene {
         let mut random = Random(self.seed);
         let mut history = vec![0.0; size];
         let mut increment = vec![0.0; size];
-        let tenth = self.steps / 10;
+        let tenth_of_steps = self.steps / 10;
         let mut early_max = 0.0_f64;
         let mut late_max = 0.0_f64;
         for step in 0..self.steps {
@@ -71,9 +71,9 @@ impl PassivityScene {
             if !max_traction.is_finite() {
                 return f64::INFINITY;
             }
-            if step < tenth {
+            if step < tenth_of_steps {
                 early_max = early_max.max(max_traction);
-            } else if step >= self.steps - tenth {
+            } else if step >= self.steps - tenth_of_steps {
                 late_max = late_max.max(max_traction);
             }
             ground.commit(&traction);

@@ -1,4 +1,4 @@
-//! A ground without memory, with any compliance matrix, whose motion in the next step is prescribed.
+//! A ground without history, with any compliance matrix, whose motion in the next step is prescribed.
 
 use std::sync::{Arc, Mutex};
 

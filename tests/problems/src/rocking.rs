@@ -9,7 +9,7 @@ use crate::series::nearest_integer;
 pub struct Rocker {
     /// Half width of the base, m.
     pub half_width: f64,
-    /// kg/m.
+    /// Mass, kg/m.
     pub mass: f64,
     /// Height of the centre of gravity, m.
     pub height: f64,
@@ -59,20 +59,20 @@ impl Rocker {
                     }
                     side = moment(time).signum();
                 }
-                // Velocity Verlet.
+                // The step is that of the velocity Verlet method.
                 let start_acceleration = acceleration(time, tilt, side);
-                let mut next = tilt + step * (rate + 0.5 * step * start_acceleration);
-                let end_acceleration = acceleration(time + step, next, side);
+                let mut next_tilt = tilt + step * (rate + 0.5 * step * start_acceleration);
+                let end_acceleration = acceleration(time + step, next_tilt, side);
                 rate += 0.5 * step * (start_acceleration + end_acceleration);
-                if next * side < 0.0 {
+                if next_tilt * side < 0.0 {
                     // The tilt is taken as linear within the step: the error of the impact's time is of the order of step².
-                    let fraction = tilt / (tilt - next);
+                    let fraction = tilt / (tilt - next_tilt);
                     impacts.push(time + fraction * step);
                     rate *= rate_factor;
                     side = -side;
-                    next = rate * (1.0 - fraction) * step;
+                    next_tilt = rate * (1.0 - fraction) * step;
                 }
-                tilt = next;
+                tilt = next_tilt;
             }
             tilts.push(tilt);
         }
@@ -105,11 +105,11 @@ pub fn quarter_period(tilt: f64, lift_off: f64, slenderness: f64, rate: f64) -> 
     loop {
         // Leapfrog.
         speed += 0.5 * step * acceleration(theta);
-        let next = theta + step * speed;
-        if next <= 0.0 {
-            return time + step * theta / (theta - next);
+        let next_tilt = theta + step * speed;
+        if next_tilt <= 0.0 {
+            return time + step * theta / (theta - next_tilt);
         }
-        theta = next;
+        theta = next_tilt;
         speed += 0.5 * step * acceleration(theta);
         time += step;
     }

@@ -69,8 +69,8 @@ impl SettlingLaw {
             return capacity;
         }
         let backbone = |settlement: f64| capacity * settlement / (settlement + reference);
-        let virgin = bisect(|h| backbone(h) - start.threshold, 1e9 * reference);
-        backbone(virgin + settlement)
+        let virgin_settlement = bisect(|h| backbone(h) - start.threshold, 1e9 * reference);
+        backbone(virgin_settlement + settlement)
     }
 
     /// Pressure of a base on a spring that has moved down by `penetration` beyond the level.
@@ -103,7 +103,7 @@ impl SettlingLaw {
         let settlement = -start.level - gap;
         let length = 1e-12 + 1e-9 * start.level.abs();
         if settlement < -length {
-            // Open.
+            // The element is open.
             return pressure.abs() / capacity;
         }
         let yield_pressure = self.yield_pressure(start, settlement.max(0.0));

@@ -54,12 +54,12 @@ fn mean_integral(distance: f64, sides: [f64; 2]) -> f64 {
         let right = 0.5 * sides[0] - distance - x * sides[0];
         let left = right - sides[0];
         for y in points.clone() {
-            let far = (0.5 - y) * sides[1];
-            let near = far - sides[1];
-            sum += corner_integral(right, far)
-                - corner_integral(left, far)
-                - corner_integral(right, near)
-                + corner_integral(left, near);
+            let far_end = (0.5 - y) * sides[1];
+            let near_end = far_end - sides[1];
+            sum += corner_integral(right, far_end)
+                - corner_integral(left, far_end)
+                - corner_integral(right, near_end)
+                + corner_integral(left, near_end);
         }
     }
     sum / (SAMPLE_COUNT * SAMPLE_COUNT) as f64
@@ -111,8 +111,9 @@ impl SettlingStrips {
     /// Displacement of a strip by the pressures on the others, m.
     fn displacement_by_others(&self, strip: usize) -> f64 {
         let row = &self.compliance[strip * self.middles.len()..][..self.middles.len()];
-        let all: f64 = row.iter().zip(&self.pressures).map(|(entry, p)| entry * p).sum();
-        all - row[strip] * self.pressures[strip]
+        let total_displacement: f64 =
+            row.iter().zip(&self.pressures).map(|(entry, p)| entry * p).sum();
+        total_displacement - row[strip] * self.pressures[strip]
     }
 
     /// Pressure of a strip at a `penetration` (m) of the base below the surface without this pressure.

@@ -1,4 +1,4 @@
-//! An element in space that resists every deformation of its nodes alike, and no rigid motion.
+//! An element in space that resists every deformation of its nodes equally, and no rigid motion.
 
 use basemat::fem::{Direction, Element, ElementFace, MassKind};
 
@@ -88,8 +88,8 @@ impl Element for StiffElement {
         for i in 0..n {
             matrix[i * (n + 1)] += self.stiffness;
             for j in 0..n {
-                let rigid: f64 = basis.iter().map(|q| q[i] * q[j]).sum();
-                matrix[i * n + j] -= self.stiffness * rigid;
+                let rigid_part: f64 = basis.iter().map(|q| q[i] * q[j]).sum();
+                matrix[i * n + j] -= self.stiffness * rigid_part;
             }
         }
     }

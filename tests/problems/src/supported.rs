@@ -76,15 +76,15 @@ impl SupportedMesh {
 
     /// Matrix indices of the degrees of freedom that are not fixed, node by node.
     pub fn numbers(&self) -> HashMap<(usize, Direction), usize> {
-        let mut used = HashSet::new();
+        let mut used_dofs = HashSet::new();
         for element in self.mesh.elements() {
             for &node in element.nodes() {
-                used.extend(element.directions().iter().map(|&direction| (node, direction)));
+                used_dofs.extend(element.directions().iter().map(|&direction| (node, direction)));
             }
         }
         let nodes = 0..self.mesh.nodes().len();
-        let all = nodes.flat_map(|node| CLAMPED_DIRECTIONS.map(|direction| (node, direction)));
-        let free = all.filter(|dof| used.contains(dof) && !self.fixed.contains(dof));
+        let all_dofs = nodes.flat_map(|node| CLAMPED_DIRECTIONS.map(|direction| (node, direction)));
+        let free = all_dofs.filter(|dof| used_dofs.contains(dof) && !self.fixed.contains(dof));
         free.enumerate().map(|(number, dof)| (dof, number)).collect()
     }
 
@@ -146,13 +146,13 @@ impl SupportedMesh {
     /// Lowest modes. A structure that can move without deforming needs a `shift` of its squared circular frequencies.
     pub fn modes(&self, kind: MassKind, count: usize, shift: f64) -> Vec<Vibration> {
         let mass = self.matrix(ElementMatrix::Mass(kind), 1.0);
-        let mut shifted = self.matrix(ElementMatrix::Stiffness, 1.0);
+        let mut shifted_stiffness = self.matrix(ElementMatrix::Stiffness, 1.0);
         if shift > 0.0 {
-            shifted.add_all(&mass, shift);
+            shifted_stiffness.add_all(&mass, shift);
         }
         let numbers = self.numbers();
         let mut modes = Vec::new();
-        for EigenPair { value, vector } in lowest(&shifted, &mass, count) {
+        for EigenPair { value, vector } in lowest(&shifted_stiffness, &mass, count) {
             let nodes = 0..self.mesh.nodes().len();
             let shape = nodes.map(|node| {
                 CLAMPED_DIRECTIONS.map(|direction| {
@@ -188,7 +188,7 @@ impl SupportedMesh {
 /// A mode of vibration.
 #[derive(Debug, Clone)]
 pub struct Vibration {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// Motion of each node.
     pub shape: Vec<[f64; 6]>,
@@ -209,12 +209,12 @@ pub fn rigid_motion(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 6] {
 }
 
 /// Values of an element's degrees of freedom from the motions of all nodes.
-pub fn values(element: &dyn Element, all: &[[f64; 6]]) -> Vec<f64> {
+pub fn values(element: &dyn Element, motions: &[[f64; 6]]) -> Vec<f64> {
     let mut values = Vec::new();
     for &node in element.nodes() {
         for direction in element.directions() {
             let index = CLAMPED_DIRECTIONS.iter().position(|other| other == direction).unwrap();
-            values.push(all[node][index]);
+            values.push(motions[node][index]);
         }
     }
     values
@@ -227,7 +227,7 @@ struct EigenPair {
 }
 
 /// Solutions of K x = λ B x with the lowest positive λ, by iteration of a subspace.
-fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<EigenPair> {
+fn lowest(stiffness: &Skyline, right_matrix: &Skyline, count: usize) -> Vec<EigenPair> {
     let factor = stiffness.clone().factor();
     let order = stiffness.0.len();
     let mut basis: Vec<Vec<f64>> =
@@ -235,16 +235,16 @@ fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<EigenPair> 
     let mut previous_values = vec![0.0; count];
     for _ in 0..MAX_SUBSPACE_ITERATIONS {
         let images = basis.iter().map(|vector| {
-            let mut image = other.multiply(vector);
+            let mut image = right_matrix.multiply(vector);
             factor.solve(&mut image);
             image
         });
         basis = orthonormal(images.collect(), stiffness);
-        let images: Vec<Vec<f64>> = basis.iter().map(|v| other.multiply(v)).collect();
-        let projected: Vec<Vec<f64>> =
+        let images: Vec<Vec<f64>> = basis.iter().map(|v| right_matrix.multiply(v)).collect();
+        let projected_matrix: Vec<Vec<f64>> =
             basis.iter().map(|a| images.iter().map(|b| dot(a, b)).collect()).collect();
         // The eigenvalues 1/λ ascend.
-        let (inverse_values, vectors) = eigenpairs(&projected);
+        let (inverse_values, vectors) = eigenpairs(&projected_matrix);
         let values: Vec<f64> =
             inverse_values.iter().rev().take(count).map(|value| 1.0 / value).collect();
         if values
@@ -340,21 +340,22 @@ impl Skyline {
     /// Cholesky factor of this matrix.
     fn factor(mut self) -> Self {
         for row in 0..self.0.len() {
-            let (above, remaining) = self.0.split_at_mut(row);
-            let entries = &mut remaining[0];
+            let (previous_rows, following_rows) = self.0.split_at_mut(row);
+            let entries = &mut following_rows[0];
             let first = row + 1 - entries.len();
             for column in first..row {
-                let other = &above[column];
-                let start = first.max(column + 1 - other.len());
+                let upper_row = &previous_rows[column];
+                let start = first.max(column + 1 - upper_row.len());
                 let row_entries = &entries[start - first..column - first];
-                let other_entries = &other[start + other.len() - column - 1..other.len() - 1];
-                let sum = dot(row_entries, other_entries);
-                entries[column - first] = (entries[column - first] - sum) / other[other.len() - 1];
+                let factors = &upper_row[start + upper_row.len() - column - 1..upper_row.len() - 1];
+                let sum = dot(row_entries, factors);
+                entries[column - first] =
+                    (entries[column - first] - sum) / upper_row[upper_row.len() - 1];
             }
-            let last = entries.len() - 1;
-            let sum = dot(&entries[..last], &entries[..last]);
-            assert!(entries[last] > sum, "row {row} has no stiffness");
-            entries[last] = (entries[last] - sum).sqrt();
+            let last_index = entries.len() - 1;
+            let sum = dot(&entries[..last_index], &entries[..last_index]);
+            assert!(entries[last_index] > sum, "row {row} has no stiffness");
+            entries[last_index] = (entries[last_index] - sum).sqrt();
         }
         self
     }
@@ -362,15 +363,15 @@ impl Skyline {
     /// Overwrites a right-hand side with the solution; `self` is a Cholesky factor.
     fn solve(&self, vector: &mut [f64]) {
         for (row, entries) in self.0.iter().enumerate() {
-            let last = entries.len() - 1;
-            let sum = dot(&entries[..last], &vector[row - last..row]);
-            vector[row] = (vector[row] - sum) / entries[last];
+            let last_index = entries.len() - 1;
+            let sum = dot(&entries[..last_index], &vector[row - last_index..row]);
+            vector[row] = (vector[row] - sum) / entries[last_index];
         }
         for (row, entries) in self.0.iter().enumerate().rev() {
-            let last = entries.len() - 1;
-            vector[row] /= entries[last];
+            let last_index = entries.len() - 1;
+            vector[row] /= entries[last_index];
             let value = vector[row];
-            for (other, entry) in vector[row - last..row].iter_mut().zip(entries) {
+            for (other, entry) in vector[row - last_index..row].iter_mut().zip(entries) {
                 *other -= entry * value;
             }
         }

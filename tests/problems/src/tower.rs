@@ -17,12 +17,12 @@ pub struct TowerMatrices {
     pub mass: Triplets,
     pub stiffness: Triplets,
     pub base: Base,
-    /// Horizontal displacement of its top.
+    /// Horizontal displacement of the tower's top.
     pub top: DofCombination,
 }
 
 impl TowerMatrices {
-    /// 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
+    /// A tower 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
     pub fn new() -> Result<Self> {
         let material = Material::new(5.0e9, 0.2, 600.0)?;
         let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;

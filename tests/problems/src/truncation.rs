@@ -22,7 +22,7 @@ pub struct FullPlaneMesh {
     pub free: usize,
     /// β = c₁Δt/l.
     pub beta: f64,
-    /// Convolution quadrature; the time kernel if there is none.
+    /// Convolution quadrature; the time kernel if `None`.
     pub quadrature: Option<CqMethod>,
 }
 
@@ -31,7 +31,7 @@ impl FullPlaneMesh {
         self.beta * 2.0 / self.elements as f64 / soil.pressure_wave_speed()
     }
 
-    /// The ground, its growth not assessed.
+    /// The ground, without an assessment of its growth.
     pub fn ground(&self, soil: Soil) -> FullPlaneGround {
         let ground = FullPlaneGround::strip(soil, -1.0..1.0, self.elements, self.free).unwrap();
         let ground = ground.allow_growth();

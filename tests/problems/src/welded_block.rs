@@ -41,9 +41,9 @@ fn waves(time: f64, [top, bottom]: [f64; 2]) -> [f64; 2] {
     for point in 0..POINT_COUNT {
         let z = top + (bottom - top) * (point as f64 + 0.5) / POINT_COUNT as f64;
         let up = pulse(time + z);
-        let down = pulse(time - z);
-        means[0] += 0.5 * (up + down) / POINT_COUNT as f64;
-        means[1] += 0.5 * (up - down) / POINT_COUNT as f64;
+        let downward_pulse = pulse(time - z);
+        means[0] += 0.5 * (up + downward_pulse) / POINT_COUNT as f64;
+        means[1] += 0.5 * (up - downward_pulse) / POINT_COUNT as f64;
     }
     means
 }
@@ -87,7 +87,7 @@ fn resultant(loads: &[[f64; MOTION_COUNT]], traction: &[f64]) -> [f64; MOTION_CO
     std::array::from_fn(|k| loads.iter().zip(traction).map(|(row, t)| row[k] * t).sum())
 }
 
-/// What moves the block in a step.
+/// Causes of the block's motion in a step.
 struct StepInput {
     /// Displacements of the free field at the end of the step.
     displacement: Vec<f64>,
@@ -168,10 +168,10 @@ pub fn march(ground: &mut dyn Ground, time_step: f64, steps: usize, cause: Cause
         let input = StepInput::new(cause, &elements, step, time_step);
         ground.history(&mut history).unwrap();
         // τ = t + G₁⁻¹ (R u − s − h), with R u at the end of the step.
-        let relative: Vec<f64> = (0..size)
+        let relative_displacement: Vec<f64> = (0..size)
             .map(|i| dot(&rows[i], &displacement) - input.displacement[i] - history[i])
             .collect();
-        let mut traction = multiply(&stiffness, &relative);
+        let mut traction = multiply(&stiffness, &relative_displacement);
         traction.iter_mut().zip(&input.traction).for_each(|(t, field)| *t += field);
         let force = resultant(&loads, &traction);
         let inertia: [f64; MOTION_COUNT] =

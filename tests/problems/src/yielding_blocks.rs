@@ -188,8 +188,8 @@ pub fn block_energies(simulation: &mut Simulation) -> Result<BlockEnergies> {
     for _ in RUN_STEPS / 2..RUN_STEPS {
         simulation.step()?;
     }
-    let resumed = simulation.state();
-    energies.resumes = resumed.displacement() == end.displacement()
-        && resumed.energy_balance == end.energy_balance;
+    let resumed_state = simulation.state();
+    energies.resumes = resumed_state.displacement() == end.displacement()
+        && resumed_state.energy_balance == end.energy_balance;
     Ok(energies)
 }

@@ -20,7 +20,7 @@ const COLUMN_WIDTH: f64 = 1.0;
 const SHEAR_MODULUS: f64 = 45.6e6;
 const SHEAR_STRENGTH: f64 = 40.0e3;
 const LIMIT_STRAIN_RATIO: f64 = 200.0;
-/// kg/m³. Poisson's ratio has no effect on shear waves.
+/// Density, kg/m³. Poisson's ratio has no effect on shear waves.
 const CLAY_DENSITY: f64 = 1900.0;
 const POISSON_RATIO: f64 = 0.3;
 /// Duration of the motion, s.
@@ -71,9 +71,9 @@ pub fn scene(row_count: usize, time_step: f64, material: &SharedMaterial) -> Res
 /// Displacement of the top relative to the base, and mean shear stress of the lowest element, step by step.
 #[derive(Debug, Clone, Default)]
 pub struct ColumnResponse {
-    /// m.
+    /// Displacement of the top relative to the base, m.
     pub top_displacement: Vec<f64>,
-    /// Pa.
+    /// Mean shear stress of the lowest element, Pa.
     pub base_stress: Vec<f64>,
     /// Shear strain and stress of a point of the lowest element.
     pub stress_path: Vec<[f64; 2]>,
@@ -134,11 +134,11 @@ fn table_difference(column: &str, time_step: f64, values: &[f64]) -> Result<f64>
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small ratio")]
     let stride = (TABLE_TIME_STEP / time_step).round() as usize;
     let values = filtered(time_step, values)?;
-    let sampled: Vec<f64> = values.into_iter().skip(stride - 1).step_by(stride).collect();
-    assert_eq!(sampled.len(), reference.len(), "steps of the run and of the table");
-    let largest = reference.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
-    let pairs = sampled.iter().zip(&reference);
-    Ok(pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / largest)
+    let sampled_values: Vec<f64> = values.into_iter().skip(stride - 1).step_by(stride).collect();
+    assert_eq!(sampled_values.len(), reference.len(), "steps of the run and of the table");
+    let max_magnitude = reference.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+    let pairs = sampled_values.iter().zip(&reference);
+    Ok(pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / max_magnitude)
 }
 
 impl ColumnResponse {

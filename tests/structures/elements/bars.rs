@@ -27,8 +27,8 @@ fn assert_pair(matrix: &[f64], block: impl Fn(usize, usize) -> f64) {
         let row = index / 6;
         let column = index % 6;
         let sign = if (row < 3) == (column < 3) { 1.0 } else { -1.0 };
-        let exact = sign * block(row % 3, column % 3);
-        assert!((value - exact).abs() < 1e-14 * scale, "({row}, {column}): {value}, {exact}");
+        let expected = sign * block(row % 3, column % 3);
+        assert!((value - expected).abs() < 1e-14 * scale, "({row}, {column}): {value}, {expected}");
     }
 }
 
@@ -79,7 +79,7 @@ fn axial_springs_and_dashpots_act_along_their_line_in_space() {
 
 #[test]
 fn bars_in_a_plane_are_the_bars_of_the_plane() {
-    let flat = [[1.0, -2.0, 0.0], [4.5, 1.0, 0.0]];
+    let points = [[1.0, -2.0, 0.0], [4.5, 1.0, 0.0]];
     let pairs: [[Box<dyn Element>; 2]; 2] = [
         [
             Box::new(Truss::new([0, 1], 200.0e9, 1.0e-3, 7800.0).unwrap()),
@@ -92,8 +92,8 @@ fn bars_in_a_plane_are_the_bars_of_the_plane() {
     ];
     for [plane, space] in pairs {
         for part in [ElementMatrix::Stiffness, ElementMatrix::Mass(MassKind::Consistent)] {
-            let plane = part.of(&plane, &flat);
-            let space = part.of(&space, &flat);
+            let plane = part.of(&plane, &points);
+            let space = part.of(&space, &points);
             for i in 0..4 {
                 for j in 0..4 {
                     let place = 6 * (i + i / 2) + j + j / 2;

@@ -37,7 +37,7 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
     for [[x0, z0], [x1, z1]] in
         [[[0.0, 0.0], [0.0, 4.0]], [[1.0, -2.0], [4.5, 1.0]], [[0.0, 0.0], [3.0, -0.7]]]
     {
-        let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)
+        let plane_beam = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)
             .and_then(|beam| beam.with_shear_stiffness(12.5e9 * 0.1))
             .unwrap()
             .with_rotary_inertia();
@@ -52,17 +52,22 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
         }
         let flat_points = [[x0, z0, 0.0], [x1, z1, 0.0]];
         let points = [[x0, 0.0, z0], [x1, 0.0, z1]];
-        let flat = flat.in_static_state(&flat_points, &displacement, 50.0).unwrap();
+        let plane_beam = plane_beam.in_static_state(&flat_points, &displacement, 50.0).unwrap();
         let beam = beam.in_static_state(&points, &in_space, 50.0).unwrap();
-        assert_near("compression", beam.compression().unwrap(), flat.compression().unwrap(), 1e-13);
+        assert_near(
+            "compression",
+            beam.compression().unwrap(),
+            plane_beam.compression().unwrap(),
+            1e-13,
+        );
         let space_matrices = matrices(&beam, &points);
-        for (flat, space) in matrices(&flat, &flat_points).iter().zip(&space_matrices) {
-            let tolerance = 1e-14 * largest(flat);
+        for (plane_beam, space) in matrices(&plane_beam, &flat_points).iter().zip(&space_matrices) {
+            let tolerance = 1e-14 * largest(plane_beam);
             for i in 0..6 {
                 let row = &space[12 * SPACE_PLACES[i]..];
                 for j in 0..6 {
                     let value = SPACE_SIGNS[i] * SPACE_SIGNS[j] * row[SPACE_PLACES[j]];
-                    assert!((value - flat[6 * i + j]).abs() <= tolerance, "({i}, {j})");
+                    assert!((value - plane_beam[6 * i + j]).abs() <= tolerance, "({i}, {j})");
                     assert!(row[2 * j + 1].abs() <= tolerance, "({i}, {j}) out of the plane");
                 }
             }
@@ -74,10 +79,10 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
 /// motion of its ends, with taper and rigid arms, and whatever is released.
 #[test]
 fn an_axial_force_works_on_a_rigid_rotation() {
-    for released in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED_DIRECTIONS] {
+    for released_directions in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED_DIRECTIONS] {
         let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
-            .and_then(|beam| beam.with_releases(1, released))
+            .and_then(|beam| beam.with_releases(1, released_directions))
             .unwrap();
         let ends = [0, 1].map(|k| add(END_POINTS[k], 1.0, END_OFFSETS[k]));
         let span = add(ends[1], -1.0, ends[0]);
@@ -88,7 +93,7 @@ fn an_axial_force_works_on_a_rigid_rotation() {
         let beam = beam.in_static_state(&END_POINTS, &displacement, 300.0).unwrap();
         let force = beam.compression().unwrap();
         let elastic = 30.0e9 * 0.12 / length * 2e-3;
-        let expected = if released.contains(&X) { 0.0 } else { elastic };
+        let expected = if released_directions.contains(&X) { 0.0 } else { elastic };
         assert!((force - expected).abs() < 1e-12 * elastic, "{force}");
         let taper = 2500.0 * 0.12 * 300.0 * span[2];
         let matrix = ElementMatrix::GeometricStiffness.of(&beam, &END_POINTS);
@@ -109,10 +114,13 @@ fn an_axial_force_works_on_a_rigid_rotation() {
                 END_OFFSETS[0],
             );
             let across = add(turn, -inner(turn, along), along);
-            let exact = -0.5 * inner(along, cross(turn, cross(turn, arms)))
+            let expected_second_order = -0.5 * inner(along, cross(turn, cross(turn, arms)))
                 - 0.5 * force * length * inner(across, across);
             let scale = elastic.max(taper);
-            assert!((work.sum::<f64>() - exact).abs() < 1e-13 * scale, "{exact}");
+            assert!(
+                (work.sum::<f64>() - expected_second_order).abs() < 1e-13 * scale,
+                "{expected_second_order}"
+            );
         }
     }
 }
@@ -121,10 +129,11 @@ fn an_axial_force_works_on_a_rigid_rotation() {
 /// no force, and the mass of a translation is the whole mass.
 #[test]
 fn rigid_motions_cause_no_force() {
-    for released in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED_DIRECTIONS] {
+    for released_directions in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED_DIRECTIONS]
+    {
         let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
-            .and_then(|beam| beam.with_releases(1, released))
+            .and_then(|beam| beam.with_releases(1, released_directions))
             .unwrap()
             .with_rotary_inertia();
         let span = add(
@@ -146,7 +155,7 @@ fn rigid_motions_cause_no_force() {
                 .collect();
             for row in stiffness.chunks(12) {
                 let force: f64 = row.iter().zip(&motion).map(|(a, b)| a * b).sum();
-                assert!(force.abs() < 1e-13 * scale, "{released:?} {kind}: {force}");
+                assert!(force.abs() < 1e-13 * scale, "{released_directions:?} {kind}: {force}");
             }
             if kind < 3 {
                 let momentum: f64 =
@@ -157,7 +166,7 @@ fn rigid_motions_cause_no_force() {
         let rows: Vec<Vec<f64>> = stiffness.chunks(12).map(<[f64]>::to_vec).collect();
         let values = eigenpairs(&rows).0;
         let zeros = values.iter().filter(|value| value.abs() < 1e-9 * scale).count();
-        assert_eq!(zeros, 6 + released.len(), "{released:?}: {values:?}");
+        assert_eq!(zeros, 6 + released_directions.len(), "{released_directions:?}: {values:?}");
         assert!(values[0] > -1e-13 * scale, "{values:?}");
     }
 }
@@ -168,8 +177,8 @@ fn a_hinge_carries_no_moment() {
     for (section, ratio) in
         [(section(), 0.0), (section_with_shear(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
     {
-        let exact = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
-        assert_near("hinged cantilever", hinged_cantilever(section), exact, 1e-12);
+        let expected = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
+        assert_near("hinged cantilever", hinged_cantilever(section), expected, 1e-12);
     }
 }
 
@@ -206,19 +215,19 @@ fn a_deep_beam_vibrates_as_tabulated() {
 /// 0.3 % from Timoshenko's closed form in two modes of each direction with the consistent mass.
 #[test]
 fn a_thick_cantilever_has_the_frequencies_of_timoshenko() {
-    let closed = [4.128_065, 5.436_274, 23.67972, 29.49179];
+    let closed_form = [4.128_065, 5.436_274, 23.67972, 29.49179];
     for (kind, table) in [
         (MassKind::Consistent, [4.128_245, 5.436_675, 23.7123, 29.55256, 59.8951, 71.38831]),
         (MassKind::Lumped, [4.096_018, 5.395_115, 23.05549, 28.77253, 56.83891, 67.75244]),
     ] {
         let scene = thick_cantilever(8, &[Z, RZ]);
-        let found = scene.frequencies(kind, 6);
-        for (found, value) in found.iter().zip(table) {
-            assert_near("cantilever, Hz", *found, value, 1e-6);
+        let computed = scene.frequencies(kind, 6);
+        for (computed, value) in computed.iter().zip(table) {
+            assert_near("cantilever, Hz", *computed, value, 1e-6);
         }
         if kind == MassKind::Consistent {
-            for (found, value) in found.iter().zip(closed) {
-                assert_near("Timoshenko, Hz", *found, value, 3e-3);
+            for (computed, value) in computed.iter().zip(closed_form) {
+                assert_near("Timoshenko, Hz", *computed, value, 3e-3);
             }
         }
     }

@@ -87,9 +87,9 @@ fn a_straight_cantilever_of_bricks_deflects_as_tabulated() {
 /// PROBLEM: the twisted cantilever, 12 × 2 × 1 bricks. RESULT: the table's values, 0.992 and 0.986 of those of 96 beams.
 #[test]
 fn a_twisted_cantilever_of_bricks_deflects_as_tabulated() {
-    let found = bricks::twisted_cantilever([12, 2, 1]);
-    assert_near("twisted cantilever, along its width", found[0], 5.38036e-3, 2e-6);
-    assert_near("twisted cantilever, across", found[1], 1.73007e-3, 2e-6);
+    let computed = bricks::twisted_cantilever([12, 2, 1]);
+    assert_near("twisted cantilever, along its width", computed[0], 5.38036e-3, 2e-6);
+    assert_near("twisted cantilever, across", computed[1], 1.73007e-3, 2e-6);
 }
 
 /// PROBLEM: a thick cylinder under inner pressure, up to ν = 0.4999. RESULT: the table's values, 0.4 to 0.9 % from
@@ -100,11 +100,12 @@ fn a_thick_cylinder_does_not_lock() {
         [(0.3, 4.56138e-3), (0.49, 4.99587e-3), (0.499, 5.01463e-3), (0.4999, 5.0165e-3)]
     {
         assert_near("thick cylinder", bricks::thick_cylinder(poisson), value, 2e-6);
-        let inner = 9.0_f64;
-        let outer = 81.0;
-        let exact = (1.0 + poisson) * inner / (1000.0 * (outer - inner)) / 3.0
-            * ((1.0 - 2.0 * poisson) * inner + outer);
-        assert_near("Lamé", value, exact, 1e-2);
+        let inner_square = 9.0_f64;
+        let outer_square = 81.0;
+        let expected =
+            (1.0 + poisson) * inner_square / (1000.0 * (outer_square - inner_square)) / 3.0
+                * ((1.0 - 2.0 * poisson) * inner_square + outer_square);
+        assert_near("Lamé", value, expected, 1e-2);
     }
 }
 
@@ -126,9 +127,9 @@ fn a_thick_plate_of_bricks_vibrates_as_tabulated() {
         (MassKind::Consistent, [46.9557, 117.673, 117.673, 182.231, 240.535, 240.535]),
         (MassKind::Lumped, [45.5914, 109.409, 109.409, 162.449, 208.477, 208.477]),
     ] {
-        let found = scene.frequencies(kind, 9);
+        let computed = scene.frequencies(kind, 9);
         for value in table {
-            let nearest = found
+            let nearest = computed
                 .iter()
                 .min_by(|a, b| (*a - value).abs().total_cmp(&(*b - value).abs()))
                 .unwrap();

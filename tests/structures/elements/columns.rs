@@ -29,12 +29,12 @@ fn columns_have_the_buckling_loads_of_euler_and_engesser() {
     for (table, effective, foot, head, tolerance) in cases {
         let euler = BENDING_STIFFNESS * (PI / (effective * COLUMN_LENGTH)).powi(2);
         let engesser = euler / (1.0 + euler / (12.5e9 * 0.1));
-        let found = supported(section(), 4, foot, head);
-        assert_near("Euler's column, table", found, table[0], 1e-6);
-        assert_near("Euler's column", found, euler, tolerance);
-        let found = supported(section_with_shear(), 8, foot, head);
-        assert_near("Engesser's column, table", found, table[1], 1e-6);
-        assert_near("Engesser's column", found, engesser, tolerance);
+        let computed = supported(section(), 4, foot, head);
+        assert_near("Euler's column, table", computed, table[0], 1e-6);
+        assert_near("Euler's column", computed, euler, tolerance);
+        let computed = supported(section_with_shear(), 8, foot, head);
+        assert_near("Engesser's column, table", computed, table[1], 1e-6);
+        assert_near("Engesser's column", computed, engesser, tolerance);
     }
 }
 
@@ -43,12 +43,12 @@ fn columns_have_the_buckling_loads_of_euler_and_engesser() {
 #[test]
 fn a_column_in_space_buckles_under_its_own_weight() {
     for (count, table) in [(2, 1.32587e7), (4, 1.32282e7), (8, 1.32257e7)] {
-        let found = self_weight_buckling(count);
-        assert_near("column under its weight, table", found, table, 1e-6);
+        let computed = self_weight_buckling(count);
+        assert_near("column under its weight, table", computed, table, 1e-6);
         if count == 4 {
             assert_near(
                 "Greenhill",
-                found,
+                computed,
                 GREENHILL_FACTOR * BENDING_STIFFNESS / COLUMN_LENGTH.powi(2),
                 2e-3,
             );
@@ -89,9 +89,9 @@ fn the_weight_of_a_structure_in_space_compresses_its_beams() {
 #[test]
 fn a_rigid_arm_bears_on_the_column_below_it() {
     for (count, table) in [(1, 4_511_159.0), (2, 4_504_775.0), (4, 4_504_377.0)] {
-        let found = rigid_head(count);
-        assert_near("rigid arm, table", found, table, 1e-6);
-        let bend = 2.5 * (found / BENDING_STIFFNESS).sqrt();
+        let computed = rigid_head(count);
+        assert_near("rigid arm, table", computed, table, 1e-6);
+        let bend = 2.5 * (computed / BENDING_STIFFNESS).sqrt();
         assert_near("rigid arm, closed form", bend * bend.tan(), 2.5 / 1.5, 5e-3);
     }
 }

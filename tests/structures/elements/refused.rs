@@ -1,4 +1,4 @@
-//! GOAL: invalid elements in space are refused.
+//! GOAL: invalid elements in space are errors.
 //! SCENE: beams along their orientation, without length, with mechanisms; inverted bricks; negative values.
 //! REFERENCE: the texts of the errors.
 
@@ -27,9 +27,9 @@ fn a_beam_needs_a_length_and_an_orientation_across_it() {
          1e-6: an orientation that is not along the beam"
     );
     let arms = [[0.0, 0.0, 1.0], [0.0, 0.0, -2.0]];
-    let short = beam([1.0, 0.0, 0.0]).and_then(|beam| beam.with_offsets(arms));
+    let short_beam = beam([1.0, 0.0, 0.0]).and_then(|beam| beam.with_offsets(arms));
     assert_eq!(
-        text(short.and_then(|beam| mesh.add(beam))),
+        text(short_beam.and_then(|beam| mesh.add(beam))),
         "beam between nodes 0 and 1: length of the beam is 0, but must be finite and above zero"
     );
     assert!(text(beam([0.0; 3])).contains("length of the beam's orientation is 0"));
@@ -48,7 +48,7 @@ fn released_beam(first: &[Direction], second: &[Direction]) -> basemat::Result<S
 }
 
 #[test]
-fn releases_that_leave_a_mechanism_are_refused() {
+fn releases_that_leave_a_mechanism_are_errors() {
     for (first, second) in [
         (&[X][..], &[X][..]),
         (&[RX], &[RX]),
@@ -60,7 +60,7 @@ fn releases_that_leave_a_mechanism_are_refused() {
         let text = text(released_beam(first, second));
         assert!(text.starts_with("beam between nodes 0 and 1: releases of the beam"), "{text}");
     }
-    // Different planes, and one end altogether.
+    // Releases in different planes and of a whole end are valid.
     for (first, second) in [
         (&[RY, RZ][..], &[RY, RZ, RX][..]),
         (&[Y, Z], &[RY, RZ]),
@@ -85,7 +85,7 @@ fn shear_area_error(areas: [f64; 2]) -> String {
 }
 
 #[test]
-fn invalid_values_are_refused() {
+fn invalid_values_are_errors() {
     for (error, beginning) in [
         (section_error(0.0, [1.0; 2], 1.0), "area of the section is 0"),
         (section_error(1.0, [-1.0, 1.0], 1.0), "second moment I_y of the section is -1"),
@@ -100,8 +100,9 @@ fn invalid_values_are_refused() {
     assert!(text(Spring::axial_in_space([0, 1], 0.0)).contains("coefficient of the spring"));
     assert!(text(LumpedMass::in_space(0, -1.0, [0.0; 3])).contains("lumped mass"));
     assert!(text(LumpedMass::in_space(0, 1.0, [0.0, 0.0, -1.0])).contains("rotary inertia"));
-    let turned = LumpedMass::in_space(0, 1.0, [0.0; 3]).and_then(|m| m.with_rotary_inertia(1.0));
-    assert!(text(turned).contains("LumpedMass::in_space"));
+    let mass_with_plane_inertia =
+        LumpedMass::in_space(0, 1.0, [0.0; 3]).and_then(|m| m.with_rotary_inertia(1.0));
+    assert!(text(mass_with_plane_inertia).contains("LumpedMass::in_space"));
 }
 
 fn add_brick(nodes: [usize; 8], height: f64) -> basemat::Result<usize> {

@@ -61,7 +61,7 @@ fn beams_have_the_matrices_of_the_tables() {
     let level = [[0.0; 3], [4.0, 0.0, 0.0]];
     compare("beam3d_1", &beam([0.0, 0.0, 1.0]), &level);
 
-    // 2.5 MN from a shortening, and 0.4 MN more below from gravity.
+    // The beam carries 2.5 MN by its shortening, and 0.4 MN more at its foot by gravity.
     let along = [1.5, -1.0, 3.0];
     let strain = 2.5e6 / (30.0e9 * 0.12);
     let mut displacement = [0.0; 12];
@@ -71,11 +71,11 @@ fn beams_have_the_matrices_of_the_tables() {
     let compressed = beam([1.0, 1.0, 0.0]).in_static_state(&points, &displacement, gravity);
     compare("beam3d_2", &compressed.unwrap(), &points);
 
-    let hinged = beam([1.0, 0.0, 0.0])
+    let hinged_beam = beam([1.0, 0.0, 0.0])
         .with_compression(1.0e6)
         .and_then(|beam| beam.with_offsets([[0.0, 0.0, 0.4], [0.1, -0.2, -0.3]]))
         .and_then(|beam| beam.with_releases(1, &[RY, RZ]));
-    compare("beam3d_3", &hinged.unwrap(), &[[0.0; 3], [0.0, 0.0, 4.0]]);
+    compare("beam3d_3", &hinged_beam.unwrap(), &[[0.0; 3], [0.0, 0.0, 4.0]]);
 }
 
 #[test]

@@ -39,16 +39,16 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 #[track_caller]
-fn near(found: f64, expected: f64, scale: f64) {
+fn assert_near(found: f64, expected: f64, scale: f64) {
     assert!((found - expected).abs() < 1e-8 * scale, "{found} {expected}");
 }
 
 #[track_caller]
-fn near_by_ratio(found: f64, expected: f64) {
+fn assert_near_by_ratio(found: f64, expected: f64) {
     assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
 }
 
-/// The first `count` degrees of freedom, fixed.
+/// Zero displacement of the first `count` degrees of freedom.
 fn fixed_dofs(count: usize) -> Vec<(usize, f64)> {
     (0..count).map(|index| (index, 0.0)).collect()
 }
@@ -59,13 +59,13 @@ fn a_cantilever_in_the_plane_has_its_loads_moments() {
         let tip = [5.0 * angle.cos(), 5.0 * angle.sin()];
         let mut mesh = Mesh::new();
         let foot = mesh.add_node(0.0, 0.0).unwrap();
-        let other = mesh.add_node(0.1, 0.0).unwrap();
+        let other_node = mesh.add_node(0.1, 0.0).unwrap();
         let end = mesh.add_node(tip[0], tip[1]).unwrap();
-        let stub = Beam::new([foot, other], YOUNG_MODULUS, 0.4, 0.02, 0.0).unwrap();
+        let stub = Beam::new([foot, other_node], YOUNG_MODULUS, 0.4, 0.02, 0.0).unwrap();
         mesh.add(stub).unwrap();
         let beam =
             mesh.add(Beam::new([foot, end], YOUNG_MODULUS, 0.4, 0.02, 0.0).unwrap()).unwrap();
-        let model = FemModel::new(mesh, &[foot, other]).unwrap();
+        let model = FemModel::new(mesh, &[foot, other_node]).unwrap();
         let mut load = vec![0.0; model.dofs()];
         let x = 700.0;
         let y = -300.0;
@@ -80,18 +80,18 @@ fn a_cantilever_in_the_plane_has_its_loads_moments() {
         let c = angle.cos();
         let s = angle.sin();
         for section in &rows.ends {
-            near(value(&section.axial, &u), c * x + s * y, 1e3);
-            near(value(&section.shears[0], &u), c * y - s * x, 1e3);
+            assert_near(value(&section.axial, &u), c * x + s * y, 1e3);
+            assert_near(value(&section.shears[0], &u), c * y - s * x, 1e3);
             assert!(section.shears[1].displacement.is_empty());
             assert!(section.torque.displacement.is_empty());
             assert_eq!((section.axial.unit, section.moments[1].unit), ("N/m", "N·m/m"));
         }
-        near(value(&rows.ends[1].moments[1], &u), turn, 1e3);
-        near(value(&rows.ends[0].moments[1], &u), turn + tip[0] * y - tip[1] * x, 1e4);
+        assert_near(value(&rows.ends[1].moments[1], &u), turn, 1e3);
+        assert_near(value(&rows.ends[0].moments[1], &u), turn + tip[0] * y - tip[1] * x, 1e4);
     }
 }
 
-/// Adds a beam of the portal, hardly extensible.
+/// Adds a beam of the portal, which hardly changes its length.
 fn add_portal_beam(mesh: &mut Mesh, ends: [usize; 2], inertia: f64) -> usize {
     mesh.add(Beam::new(ends, YOUNG_MODULUS, 1.0e6, inertia, 0.0).unwrap()).unwrap()
 }
@@ -120,16 +120,19 @@ fn a_clamped_portal_has_kleinlogels_moments() {
     for element in [left, right] {
         let rows = model.beam_rows(element).unwrap();
         // x of a column is up, so that its y is to the left.
-        near_by_ratio(value(&rows.ends[0].moments[1], &u), -foot);
-        near_by_ratio(value(&rows.ends[1].moments[1], &u), corner);
-        near_by_ratio(value(&rows.ends[0].shears[0], &u), -0.5 * force);
+        assert_near_by_ratio(value(&rows.ends[0].moments[1], &u), -foot);
+        assert_near_by_ratio(value(&rows.ends[1].moments[1], &u), corner);
+        assert_near_by_ratio(value(&rows.ends[0].shears[0], &u), -0.5 * force);
     }
     let rows = model.beam_rows(top).unwrap();
-    near_by_ratio(value(&rows.ends[0].moments[1], &u), corner);
-    near_by_ratio(value(&rows.ends[1].moments[1], &u), -corner);
+    assert_near_by_ratio(value(&rows.ends[0].moments[1], &u), corner);
+    assert_near_by_ratio(value(&rows.ends[1].moments[1], &u), -corner);
     // The slope of the moment is minus the shear force.
-    near_by_ratio(value(&rows.ends[0].shears[0], &u), 2.0 * corner / span);
-    near_by_ratio(value(&model.beam_rows(left).unwrap().ends[0].axial, &u), 2.0 * corner / span);
+    assert_near_by_ratio(value(&rows.ends[0].shears[0], &u), 2.0 * corner / span);
+    assert_near_by_ratio(
+        value(&model.beam_rows(left).unwrap().ends[0].axial, &u),
+        2.0 * corner / span,
+    );
 }
 
 /// Moment at the foot H tan(kL)/k with k² = P/EI; the force across the undeformed axis stays H.
@@ -148,9 +151,10 @@ fn a_beam_column_has_the_moment_of_its_deformed_state() {
             let beam = Beam::new([k, k + 1], YOUNG_MODULUS, 0.4, inertia, 0.0).unwrap();
             mesh.add(beam.with_compression(compression).unwrap()).unwrap();
         }
-        let other = mesh.add_node(1.0, 0.0).unwrap();
-        mesh.add(Beam::new([0, other], YOUNG_MODULUS, 0.4, inertia, 0.0).unwrap()).unwrap();
-        let model = FemModel::new(mesh, &[0, other]).unwrap();
+        let other_node = mesh.add_node(1.0, 0.0).unwrap();
+        mesh.add(Beam::new([0, other_node], YOUNG_MODULUS, 0.4, inertia, 0.0).unwrap())
+            .unwrap();
+        let model = FemModel::new(mesh, &[0, other_node]).unwrap();
         let n = model.dofs();
         let mut force = vec![0.0; n];
         force[model.dof(count, Direction::X).unwrap()] = load;
@@ -158,11 +162,11 @@ fn a_beam_column_has_the_moment_of_its_deformed_state() {
         let u = solve_with_prescribed(&stiffness(&model), &force, &fixed);
         let k = (compression.abs() / (YOUNG_MODULUS * inertia)).sqrt();
         let curve = if compression > 0.0 { (k * length).tan() } else { (k * length).tanh() };
-        let found = value(&model.beam_rows(0).unwrap().ends[0].moments[1], &u);
-        assert!((found / (-load * curve / k) - 1.0).abs() < 1e-6, "{compression}: {found}");
+        let computed = value(&model.beam_rows(0).unwrap().ends[0].moments[1], &u);
+        assert!((computed / (-load * curve / k) - 1.0).abs() < 1e-6, "{compression}: {computed}");
         for element in 0..count {
             for section in model.beam_rows(element).unwrap().ends {
-                near(value(&section.shears[0], &u), -load, 1e4);
+                assert_near(value(&section.shears[0], &u), -load, 1e4);
             }
         }
     }
@@ -175,7 +179,7 @@ fn member(nodes: [usize; 2], orientation: [f64; 3]) -> SpaceBeam {
         .unwrap()
 }
 
-/// A square base on the ground that holds a mesh in space.
+/// A square base on the ground, to which a mesh in space is connected.
 fn base(mesh: &mut Mesh) -> Vec<usize> {
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
     let nodes: Vec<usize> =
@@ -210,11 +214,11 @@ fn a_cantilever_in_space_has_its_loads_moments() {
         let rows = model.beam_rows(beam).unwrap();
         for (index, from) in [[0.0; 3], tip].iter().enumerate() {
             let arm = [0, 1, 2].map(|k| tip[k] - from[k] - offsets[index][k]);
-            let found = end_forces(&rows, index, &u);
+            let computed = end_forces(&rows, index, &u);
             let about = cross(arm, force);
             for k in 0..3 {
-                near(found.force[k], force[k], 1e4);
-                near(found.moment[k], moment[k] + about[k], 1e4);
+                assert_near(computed.force[k], force[k], 1e4);
+                assert_near(computed.moment[k], moment[k] + about[k], 1e4);
             }
         }
         assert_eq!((rows.ends[0].axial.unit, rows.ends[1].torque.unit), ("N", "N·m"));
@@ -270,7 +274,7 @@ fn spring_stretch(model: &FemModel, u: &[f64]) -> f64 {
     displacements[1] - displacements[0]
 }
 
-/// Beams and springs hold every free node in equilibrium: their sum is the assembled stiffness times u.
+/// Beams and springs balance the forces on every free node: their sum is the assembled stiffness times u.
 #[test]
 fn end_forces_add_up_to_the_stiffness_of_a_linked_frame() {
     let model = frame();
@@ -337,7 +341,7 @@ fn ends_add_up_to_the_section() {
     force[1] += pull;
     moment[2] += pull * (0.0 - 0.7);
     let scale = moment.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let found = [
+    let computed = [
         &section.shear[0],
         &section.shear[1],
         &section.compression,
@@ -347,13 +351,13 @@ fn ends_add_up_to_the_section() {
     ]
     .map(|rows| rows.displacement.value(&u));
     let expected = [force[0], force[1], -force[2], moment[0], moment[1], moment[2]];
-    for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() < 1e-10 * scale, "{found} {expected}");
+    for (computed, expected) in computed.iter().zip(expected) {
+        assert!((computed - expected).abs() < 1e-10 * scale, "{computed} {expected}");
     }
 }
 
 #[test]
-fn other_elements_are_refused() {
+fn other_elements_are_errors() {
     let model = frame();
     let spring = model.mesh().elements().len() - 1;
     assert!(matches!(model.beam_rows(spring), Err(Error::Part { .. } | Error::Item { .. })));

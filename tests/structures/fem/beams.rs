@@ -30,9 +30,9 @@ fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> F
         };
         mesh.add(beam).unwrap();
     }
-    let other = mesh.add_node(-1.0, 0.0).unwrap();
-    mesh.add(Truss::new([other, 0], 1.0, 1.0, 0.0).unwrap()).unwrap();
-    FemModel::new(mesh, &[other, 0]).unwrap()
+    let other_node = mesh.add_node(-1.0, 0.0).unwrap();
+    mesh.add(Truss::new([other_node, 0], 1.0, 1.0, 0.0).unwrap()).unwrap();
+    FemModel::new(mesh, &[other_node, 0]).unwrap()
 }
 
 /// All degrees of freedom except at the clamped foot and at the bar's far end.
@@ -56,15 +56,15 @@ fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
             // Across the beam, to the left: turns its tip counter-clockwise.
             force[x] = -load * angle.sin();
             force[y] = load * angle.cos();
-            let found = solve_with_prescribed(&stiffness(&model), &force, &fixed);
-            let deflection = -found[x] * angle.sin() + found[y] * angle.cos();
-            let exact = load * length.powi(3) / (3.0 * YOUNG_MODULUS * SECOND_MOMENT)
+            let computed = solve_with_prescribed(&stiffness(&model), &force, &fixed);
+            let deflection = -computed[x] * angle.sin() + computed[y] * angle.cos();
+            let expected = load * length.powi(3) / (3.0 * YOUNG_MODULUS * SECOND_MOMENT)
                 + shear.map_or(0.0, |stiffness| load * length / stiffness);
-            assert!((deflection / exact - 1.0).abs() < 1e-11, "{angle} {shear:?}");
+            assert!((deflection / expected - 1.0).abs() < 1e-11, "{angle} {shear:?}");
             let slope = load * length.powi(2) / (2.0 * YOUNG_MODULUS * SECOND_MOMENT);
-            assert!((found[turn] / slope - 1.0).abs() < 1e-11);
-            let along = found[x] * angle.cos() + found[y] * angle.sin();
-            assert!(along.abs() < 1e-11 * exact);
+            assert!((computed[turn] / slope - 1.0).abs() < 1e-11);
+            let along = computed[x] * angle.cos() + computed[y] * angle.sin();
+            assert!(along.abs() < 1e-11 * expected);
         }
     }
 }
@@ -72,13 +72,13 @@ fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
 /// Error of the squared frequency of a cantilever of 8 m.
 fn frequency_error(elements: usize, kind: MassKind) -> f64 {
     let length = 8.0;
-    let exact = (1.875_104_068_711_961_f64.powi(4)) * YOUNG_MODULUS * SECOND_MOMENT
+    let expected = (1.875_104_068_711_961_f64.powi(4)) * YOUNG_MODULUS * SECOND_MOMENT
         / (MASS_DENSITY * SECTION_AREA * f64::powi(length, 4));
     let model = cantilever(length, 0.7, elements, None).with_mass(kind);
     let free = free_dofs(&model);
-    let found =
+    let computed =
         eigenvalues(&submatrix(&stiffness(&model), &free), &submatrix(&mass(&model), &free))[0];
-    found / exact - 1.0
+    computed / expected - 1.0
 }
 
 /// First bending frequency of a cantilever, (1.87510407)² √(EI/(ρ A L⁴)): fourth order with
@@ -90,17 +90,19 @@ fn cantilever_frequency_converges_with_its_order() {
         let fine = frequency_error(8, kind);
         println!("{kind:?}, square of the frequency, four and eight elements: {coarse:e} {fine:e}");
         assert_eq!(fine > 0.0, kind == MassKind::Consistent, "bound from above or below");
-        let found: f64 = (coarse / fine).log2();
-        assert!((found - order).abs() < 0.1, "{kind:?}: {found}");
+        let computed: f64 = (coarse / fine).log2();
+        assert!((computed - order).abs() < 0.1, "{kind:?}: {computed}");
     }
 }
 
 /// With very small shear flexibility, Timoshenko's matrices become Euler–Bernoulli's.
 #[test]
 fn timoshenko_tends_to_euler_bernoulli() {
-    let thin = cantilever(3.0, 0.3, 1, None);
-    let stiff = cantilever(3.0, 0.3, 1, Some(1.0e22));
-    for (a, b) in [(stiffness(&thin), stiffness(&stiff)), (mass(&thin), mass(&stiff))] {
+    let thin_beam = cantilever(3.0, 0.3, 1, None);
+    let stiff_beam = cantilever(3.0, 0.3, 1, Some(1.0e22));
+    for (a, b) in
+        [(stiffness(&thin_beam), stiffness(&stiff_beam)), (mass(&thin_beam), mass(&stiff_beam))]
+    {
         for (x, y) in a.iter().flatten().zip(b.iter().flatten()) {
             assert!((x - y).abs() <= 1e-9 * a[4][4]);
         }
@@ -116,9 +118,9 @@ fn consistent_mass_carries_constant_curvature_exactly() {
         let mut field = vec![0.0; model.dofs()];
         field[4] = length.powi(2);
         field[5] = 2.0 * length;
-        let found = form(&field, &mass(&model), &field);
-        let exact = MASS_DENSITY * SECTION_AREA * length.powi(5) / 5.0;
-        assert!((found / exact - 1.0).abs() < 1e-13, "{shear:?}");
+        let computed = form(&field, &mass(&model), &field);
+        let expected = MASS_DENSITY * SECTION_AREA * length.powi(5) / 5.0;
+        assert!((computed / expected - 1.0).abs() < 1e-13, "{shear:?}");
     }
 }
 
@@ -135,8 +137,8 @@ fn bracket_of_two_trusses_sinks_by_its_closed_form() {
     let model = FemModel::on_base(mesh).unwrap();
     let fixed: Vec<(usize, f64)> = (0..4).map(|index| (index, 0.0)).collect();
     let load = [0.0, 0.0, 0.0, 0.0, 700.0, -1000.0];
-    let found = solve_with_prescribed(&stiffness(&model), &load, &fixed);
+    let computed = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     let flexibility = 8.0_f64.sqrt() / (YOUNG_MODULUS * 0.01);
-    assert!((found[5] / (-1000.0 * flexibility) - 1.0).abs() < 1e-12);
-    assert!((found[4] / (700.0 * flexibility) - 1.0).abs() < 1e-12);
+    assert!((computed[5] / (-1000.0 * flexibility) - 1.0).abs() < 1e-12);
+    assert!((computed[4] / (700.0 * flexibility) - 1.0).abs() < 1e-12);
 }

@@ -32,18 +32,19 @@ fn tip_ratio(mesh: [usize; 2], nu: f64, kind: QuadFormulation) -> f64 {
         let part = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
         load[model.dof(node, Direction::X).unwrap()] = part / (top.len() - 1) as f64;
     }
-    let found = solve_with_prescribed(&stiffness(&model), &load, &fixed_base(&model));
+    let computed = solve_with_prescribed(&stiffness(&model), &load, &fixed_base(&model));
     let bending = length.powi(3) / (3.0 * YOUNG_MODULUS / (1.0 - nu * nu) / 12.0);
     let shear = length / (5.0 / 6.0 * 0.5 * YOUNG_MODULUS / (1.0 + nu));
-    dot(&load, &found) / (bending + shear)
+    dot(&load, &computed) / (bending + shear)
 }
 
 #[test]
 fn cantilever_locks_with_full_integration_and_not_with_incompatible_modes() {
-    let full = QuadFormulation::Full;
+    let full_integration = QuadFormulation::Full;
     let free = QuadFormulation::IncompatibleModes;
     let table = [[1, 10], [2, 20], [4, 40]].map(|mesh| {
-        let row = [full, free, QuadFormulation::OnePoint].map(|kind| tip_ratio(mesh, 0.3, kind));
+        let row = [full_integration, free, QuadFormulation::OnePoint]
+            .map(|kind| tip_ratio(mesh, 0.3, kind));
         println!("{mesh:?}: full, incompatible, one point: {row:?}");
         row
     });
@@ -62,11 +63,14 @@ fn cantilever_locks_with_full_integration_and_not_with_incompatible_modes() {
 #[test]
 fn nearly_incompressible_material_locks_only_with_full_integration() {
     assert!(tip_ratio([2, 20], 0.4999, QuadFormulation::Full) < 0.5);
-    let free = tip_ratio([2, 20], 0.4999, QuadFormulation::IncompatibleModes);
-    let fine = tip_ratio([4, 40], 0.4999, QuadFormulation::IncompatibleModes);
-    println!("incompatible modes at 0.4999: {free} {fine}");
+    let coarse_ratio = tip_ratio([2, 20], 0.4999, QuadFormulation::IncompatibleModes);
+    let fine_ratio = tip_ratio([4, 40], 0.4999, QuadFormulation::IncompatibleModes);
+    println!("incompatible modes at 0.4999: {coarse_ratio} {fine_ratio}");
     // A fixed base also hinders the strain across it, which beam theory leaves out.
-    assert!((free - fine).abs() < 0.02 && (fine - 1.0).abs() < 0.05, "{free} {fine}");
+    assert!(
+        (coarse_ratio - fine_ratio).abs() < 0.02 && (fine_ratio - 1.0).abs() < 0.05,
+        "{coarse_ratio} {fine_ratio}"
+    );
 }
 
 #[test]
@@ -75,7 +79,7 @@ fn mean_dilatation_does_not_lock_in_nearly_incompressible_material() {
         [0.3, 0.49, 0.4999].map(|nu| tip_ratio(mesh, nu, QuadFormulation::MeanDilatation))
     });
     println!("mean dilatation at 0.3, 0.49, 0.4999: {ratios:?}");
-    // Two elements across are too soft, four are right. A fixed base also hinders the strain across it.
+    // Two elements across the column are too soft; four are accurate. A fixed base also hinders the strain across it.
     for (row, tolerance) in ratios.iter().zip([0.1, 0.02, 0.02]) {
         assert!(row.iter().all(|ratio| (ratio - 1.0).abs() < tolerance), "{row:?}");
         assert!((row[2] - row[1]).abs() < 2e-3, "{row:?}");
@@ -97,10 +101,10 @@ fn pure_bending_of_rectangles_is_exact() {
         // The base may widen: only its left node is fixed sideways.
         let fixed: Vec<(usize, f64)> =
             fixed_base(&model).into_iter().filter(|&(index, _)| index != 2).collect();
-        let found = solve_with_prescribed(&stiffness(&model), &load, &fixed);
+        let computed = solve_with_prescribed(&stiffness(&model), &load, &fixed);
         let rotation = length / (YOUNG_MODULUS / (1.0 - nu * nu) / 12.0);
         // The couple of two unit forces 1 m apart does work on the end's rotation.
-        assert!((dot(&load, &found) / rotation - 1.0).abs() < 1e-10);
+        assert!((dot(&load, &computed) / rotation - 1.0).abs() < 1e-10);
     }
 }
 
@@ -120,29 +124,37 @@ fn locking_of_one_rectangle_is_that_of_its_closed_form() {
     let a = 2.0_f64;
     let b = 0.7;
     let nu = 0.3;
-    let direct = YOUNG_MODULUS * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    let direct_modulus = YOUNG_MODULUS * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
     let shear = YOUNG_MODULUS / (2.0 * (1.0 + nu));
     let twice_energy = (4.0 / (a * b)).powi(2) * a * b / 12.0;
-    let full = form(
+    let fully_integrated = form(
         &HOURGLASS_PATTERN,
         &element_matrix(QuadFormulation::Full, [a, b], nu),
         &HOURGLASS_PATTERN,
     );
-    let locked = twice_energy * (direct * b * b + shear * a * a);
-    assert!((full / locked - 1.0).abs() < 1e-12);
-    let cured = element_matrix(QuadFormulation::IncompatibleModes, [a, b], nu);
+    let locked_energy = twice_energy * (direct_modulus * b * b + shear * a * a);
+    assert!((fully_integrated / locked_energy - 1.0).abs() < 1e-12);
+    let with_incompatible_modes = element_matrix(QuadFormulation::IncompatibleModes, [a, b], nu);
     let exact = twice_energy * YOUNG_MODULUS / (1.0 - nu * nu) * b * b;
-    assert!((form(&HOURGLASS_PATTERN, &cured, &HOURGLASS_PATTERN) / exact - 1.0).abs() < 1e-12);
-    let one = element_matrix(QuadFormulation::OnePoint, [a, b], nu);
     assert!(
-        form(&HOURGLASS_PATTERN, &one, &HOURGLASS_PATTERN).abs() < 1e-9 * exact,
+        (form(&HOURGLASS_PATTERN, &with_incompatible_modes, &HOURGLASS_PATTERN) / exact - 1.0)
+            .abs()
+            < 1e-12
+    );
+    let one_point_matrix = element_matrix(QuadFormulation::OnePoint, [a, b], nu);
+    assert!(
+        form(&HOURGLASS_PATTERN, &one_point_matrix, &HOURGLASS_PATTERN).abs() < 1e-9 * exact,
         "no resistance"
     );
     for percent in [1, 5, 100] {
-        let some = element_matrix(QuadFormulation::Hourglass { percent }, [a, b], nu);
-        let expected = 0.01 * f64::from(percent) * locked;
+        let with_hourglass_stiffness =
+            element_matrix(QuadFormulation::Hourglass { percent }, [a, b], nu);
+        let expected = 0.01 * f64::from(percent) * locked_energy;
         assert!(
-            (form(&HOURGLASS_PATTERN, &some, &HOURGLASS_PATTERN) / expected - 1.0).abs() < 1e-9,
+            (form(&HOURGLASS_PATTERN, &with_hourglass_stiffness, &HOURGLASS_PATTERN) / expected
+                - 1.0)
+                .abs()
+                < 1e-9,
             "{percent}"
         );
     }
@@ -151,15 +163,17 @@ fn locking_of_one_rectangle_is_that_of_its_closed_form() {
 /// On a rectangle, incompatible modes add only hourglass stiffness to the one-point element.
 #[test]
 fn incompatible_modes_are_one_point_plus_hourglass_stiffness() {
-    let one = element_matrix(QuadFormulation::OnePoint, [2.0, 0.7], 0.3);
-    let cured = element_matrix(QuadFormulation::IncompatibleModes, [2.0, 0.7], 0.3);
+    let one_point_matrix = element_matrix(QuadFormulation::OnePoint, [2.0, 0.7], 0.3);
+    let with_incompatible_modes =
+        element_matrix(QuadFormulation::IncompatibleModes, [2.0, 0.7], 0.3);
     for i in 0..8 {
         for j in 0..8 {
-            let difference = cured[i % 2][i % 2] - one[i % 2][i % 2];
+            let difference = with_incompatible_modes[i % 2][i % 2] - one_point_matrix[i % 2][i % 2];
             let sign = HOURGLASS_PATTERN[2 * (i / 2)] * HOURGLASS_PATTERN[2 * (j / 2)];
             let expected = if i % 2 == j % 2 { sign * difference } else { 0.0 };
             assert!(
-                (cured[i][j] - one[i][j] - expected).abs() < 1e-9 * YOUNG_MODULUS,
+                (with_incompatible_modes[i][j] - one_point_matrix[i][j] - expected).abs()
+                    < 1e-9 * YOUNG_MODULUS,
                 "({i}, {j})"
             );
         }

@@ -38,20 +38,20 @@ fn column_mesh(dashpot: Option<f64>) -> Mesh {
 fn damping_matrix_is_alpha_m_plus_beta_k_plus_dashpots() {
     let rayleigh = RayleighDamping::new(0.3, 0.002).unwrap();
     let model = FemModel::on_base(column_mesh(Some(500.0))).unwrap().with_rayleigh(rayleigh);
-    let found = damping(&model);
+    let computed = damping(&model);
     let m = mass(&model);
     let k = stiffness(&model);
-    for i in 0..found.len() {
-        for j in 0..found.len() {
+    for i in 0..computed.len() {
+        for j in 0..computed.len() {
             let dashpot = match (i, j) {
                 (4, 4) | (8, 8) => 500.0,
                 (4, 8) | (8, 4) => -500.0,
                 _ => 0.0,
             };
             let expected = 0.3 * m[i][j] + 0.002 * k[i][j] + dashpot;
-            assert!((found[i][j] - expected).abs() < 1e-9 * found[i][i], "({i}, {j})");
+            assert!((computed[i][j] - expected).abs() < 1e-9 * computed[i][i], "({i}, {j})");
         }
     }
-    let bare = FemModel::on_base(column_mesh(None)).unwrap();
-    assert!(damping(&bare).iter().flatten().all(|&value| value == 0.0));
+    let undamped_model = FemModel::on_base(column_mesh(None)).unwrap();
+    assert!(damping(&undamped_model).iter().flatten().all(|&value| value == 0.0));
 }

@@ -1,4 +1,4 @@
-//! Parts that nothing holds on the base: no simulation is built, and the error names the nodes.
+//! Parts without a connection to the base: the build returns an error that names the nodes.
 
 use basemat::bem::SpringGround;
 use basemat::coupled::StabilityError;
@@ -27,14 +27,14 @@ fn build(structure: impl Structure + 'static) -> Result<Simulation> {
         .build()
 }
 
-/// What a refusal says of a detached part.
+/// Data of the error of a detached part.
 struct DetachedPart {
     dofs: Vec<usize>,
     place: String,
 }
 
 #[track_caller]
-fn refused(structure: impl Structure + 'static) -> DetachedPart {
+fn detached_part(structure: impl Structure + 'static) -> DetachedPart {
     match build(structure) {
         Err(Error::Structure(StructureError::Detached { dofs, place })) => {
             DetachedPart { dofs, place }
@@ -78,14 +78,15 @@ fn standing_weight(mesh: Mesh) -> Result<f64> {
     build(FemModel::on_base(mesh).unwrap()).map(|simulation| simulation.state().normal_force)
 }
 
-/// GOAL: a stack whose nodes at a seam are not merged is refused by the nodes above it, with the two
+/// GOAL: a stack whose nodes at a seam are not merged is an error with the nodes above it, and with the two
 /// at one place; merged, it has all of its weight.
 #[test]
 fn a_seam_that_is_not_merged_is_named() {
     for rows in [2, 5, 20] {
-        let full = 2.0 * rows as f64 * 2400.0 * STANDARD_GRAVITY;
-        assert!((standing_weight(stack(rows, true)).unwrap() / full - 1.0).abs() < 1e-8);
-        let DetachedPart { dofs, place } = refused(FemModel::on_base(stack(rows, false)).unwrap());
+        let weight = 2.0 * rows as f64 * 2400.0 * STANDARD_GRAVITY;
+        assert!((standing_weight(stack(rows, true)).unwrap() / weight - 1.0).abs() < 1e-8);
+        let DetachedPart { dofs, place } =
+            detached_part(FemModel::on_base(stack(rows, false)).unwrap());
         assert_eq!(dofs, (12..6 * (rows + 2)).collect::<Vec<_>>());
         assert!(place.starts_with("node 6 at (-1, 1), node 7 at (0, 1), "), "{place}");
         assert!(place.ends_with("; node 6 lies where node 3 is, but is not merged with it"));
@@ -107,16 +108,16 @@ fn links_and_springs_tie_parts() {
         assert!(build(FemModel::on_base(mesh).unwrap()).is_ok(), "{stiffness:e}");
     }
     let model = FemModel::on_base(stack(3, false)).unwrap();
-    let mut isolated = WithSprings::new(model.clone());
+    let mut isolated_model = WithSprings::new(model.clone());
     for (low, high) in seam {
         for direction in [Direction::X, Direction::Y] {
             let law = Bilinear::new(1e9, 1e8, 0.1).unwrap();
             let high = model.row(high, direction).unwrap();
             let low = model.row(low, direction).unwrap();
-            isolated = isolated.spring(high - low, law).unwrap();
+            isolated_model = isolated_model.spring(high - low, law).unwrap();
         }
     }
-    assert!(build(isolated).is_ok());
+    assert!(build(isolated_model).is_ok());
 
     // Two columns on one line, the upper one on the lower by a rigid link.
     let mut mesh = Mesh::new();
@@ -128,7 +129,7 @@ fn links_and_springs_tie_parts() {
         mesh.add(Beam::new(ends, 30.0e9, 0.1, 1e-3, 2400.0).unwrap()).unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();
-    let DetachedPart { dofs, place } = refused(model.clone());
+    let DetachedPart { dofs, place } = detached_part(model.clone());
     assert_eq!(dofs, [12, 13, 14, 15, 16, 17]);
     let seam = "node 4 at (0, 3), node 5 at (0, 6); node 4 lies where node 3 is, but is not merged";
     assert!(place.starts_with(seam), "{place}");
@@ -138,46 +139,46 @@ fn links_and_springs_tie_parts() {
 /// Middle node at the top of a stack of one row.
 const TOP_NODE: usize = 4;
 
-/// Refusal of a stack of one row with a node 4 m above it, and what `add` puts on that node.
-fn refused_with_node(add: impl FnOnce(&mut Mesh, usize)) -> DetachedPart {
+/// Error of a stack of one row with a node 4 m above it, and with what `add` puts on that node.
+fn detached_part_with_node(add: impl FnOnce(&mut Mesh, usize)) -> DetachedPart {
     let mut mesh = stack(1, true);
     let node = mesh.add_node(0.0, 5.0).unwrap();
     add(&mut mesh, node);
-    refused(FemModel::on_base(mesh).unwrap())
+    detached_part(FemModel::on_base(mesh).unwrap())
 }
 
 fn mass_at(node: usize) -> LumpedMass {
     LumpedMass::new(node, 100.0).unwrap()
 }
 
-/// GOAL: single degrees of freedom are named with their direction: a rotation that nothing holds, a mass that
-/// hangs on nothing, on a bar across its way, on a dashpot.
+/// GOAL: single degrees of freedom are named with their direction: a rotation without stiffness; a mass
+/// without a connection, on a bar across its motion, on a dashpot.
 #[test]
 fn single_dofs_are_named() {
-    let DetachedPart { dofs, place } = refused_with_node(|mesh, _| {
+    let DetachedPart { dofs, place } = detached_part_with_node(|mesh, _| {
         mesh.add(mass_at(TOP_NODE).with_rotary_inertia(10.0).unwrap()).unwrap();
     });
     assert_eq!((dofs, place.as_str()), (vec![10], "node 4 at (0, 1) in Rotation"));
-    let DetachedPart { dofs, place } = refused_with_node(|mesh, node| {
+    let DetachedPart { dofs, place } = detached_part_with_node(|mesh, node| {
         mesh.add(mass_at(node)).unwrap();
     });
     assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
-    let DetachedPart { dofs, place } = refused_with_node(|mesh, node| {
+    let DetachedPart { dofs, place } = detached_part_with_node(|mesh, node| {
         mesh.add(mass_at(node)).unwrap();
         mesh.add(Truss::new([TOP_NODE, node], 1e9, 0.1, 0.0).unwrap()).unwrap();
     });
     assert_eq!((dofs, place.as_str()), (vec![12], "node 6 at (0, 5) in X"));
-    let on_dashpot = refused_with_node(|mesh, node| {
+    let on_dashpot = detached_part_with_node(|mesh, node| {
         mesh.add(mass_at(node)).unwrap();
         mesh.add(Dashpot::axial([TOP_NODE, node], 1e6).unwrap()).unwrap();
     });
     assert_eq!(on_dashpot.dofs, [12, 13]);
     // Two nodes and a spring between them: stiffness without mass, and none to the base.
-    let floating = refused_with_node(|mesh, node| {
-        let other = mesh.add_node(0.0, 6.0).unwrap();
-        mesh.add(Spring::new([node, other], Direction::Y, 0.1).unwrap()).unwrap();
+    let free_pair = detached_part_with_node(|mesh, node| {
+        let other_node = mesh.add_node(0.0, 6.0).unwrap();
+        mesh.add(Spring::new([node, other_node], Direction::Y, 0.1).unwrap()).unwrap();
     });
-    assert_eq!(floating.dofs, [12, 13]);
+    assert_eq!(free_pair.dofs, [12, 13]);
 }
 
 /// GOAL: what has neither mass nor stiffness is named, though it weighs nothing.
@@ -192,8 +193,8 @@ fn a_node_on_a_dashpot_alone_is_a_mechanism() {
             .structure(model.clone())
             .interface(Bonded)
             .ground(SpringGround::new(-1.0..1.0, 4, 4.0e7, 2.0e7).unwrap());
-        let built = if fixed_base { builder.on_fixed_base().build() } else { builder.build() };
-        let Err(Error::Stability(cause)) = built else { panic!("{:?}", built.err()) };
+        let result = if fixed_base { builder.on_fixed_base().build() } else { builder.build() };
+        let Err(Error::Stability(cause)) = result else { panic!("{:?}", result.err()) };
         let StabilityError::Mechanism { dofs, place, massless: false } = *cause else {
             panic!("{cause}")
         };
@@ -205,43 +206,43 @@ fn torn_stack() -> FemModel {
     FemModel::on_base(stack(2, false)).unwrap()
 }
 
-/// Groups and reductions say whose nodes they are.
+/// In groups and reductions the error names the structure of the nodes.
 #[test]
 fn wrappers_lead_to_the_nodes() {
     let block = RigidBlock::new(2.0, 1.0, 2000.0).unwrap();
     let group = StructureGroup::new().with(block, -4.0).unwrap();
     let group = group.with(torn_stack(), 0.0).unwrap();
     let strips = [-5.0..-3.0, -1.0..1.0].map(|x| basemat::bem::Strip::uniform(x, 4).unwrap());
-    let built = Simulation::builder(0.01)
+    let result = Simulation::builder(0.01)
         .structure(group)
         .ground(SpringGround::on_strips(&strips, 4.0e7, 2.0e7).unwrap())
         .interface(Bonded)
         .build();
-    let Err(Error::Structure(StructureError::Detached { dofs, place })) = built else {
-        panic!("{:?}", built.err())
+    let Err(Error::Structure(StructureError::Detached { dofs, place })) = result else {
+        panic!("{:?}", result.err())
     };
     assert_eq!(dofs, (15..27).collect::<Vec<_>>());
     assert!(place.starts_with("structure 1: node 6 at (-1, 1), "), "{place}");
 
-    let reduced = CraigBampton::new(3).reduce(torn_stack());
-    let Err(Error::Structure(StructureError::Detached { dofs, place })) = reduced else {
+    let reduced_structure = CraigBampton::new(3).reduce(torn_stack());
+    let Err(Error::Structure(StructureError::Detached { dofs, place })) = reduced_structure else {
         panic!("reduced")
     };
     assert_eq!(dofs, (12..24).collect::<Vec<_>>());
     assert!(place.starts_with("node 6 at (-1, 1)"), "{place}");
     // Kept degrees of freedom may be tied later.
-    let kept: Vec<usize> = (6..18).collect();
-    let reduced = CraigBampton::new(3).keep(&kept).reduce(torn_stack()).unwrap();
-    let DetachedPart { dofs, place } = refused(reduced);
+    let kept_dofs: Vec<usize> = (6..18).collect();
+    let reduced_structure = CraigBampton::new(3).keep(&kept_dofs).reduce(torn_stack()).unwrap();
+    let DetachedPart { dofs, place } = detached_part(reduced_structure);
     assert_eq!(dofs, [12, 13, 14, 15, 16, 17]);
     assert!(place.starts_with("node 6 at (-1, 1), "), "{place}");
-    let reduced = CraigBampton::new(3).keep(&kept).reduce(torn_stack()).unwrap();
-    let mut tied = WithSprings::new(reduced);
+    let reduced_structure = CraigBampton::new(3).keep(&kept_dofs).reduce(torn_stack()).unwrap();
+    let mut tied_model = WithSprings::new(reduced_structure);
     for k in 6..12 {
         let row = DofCombination::from(k + 6) - DofCombination::from(k);
-        tied = tied.spring(row, Bilinear::new(1e9, 1e8, 0.1).unwrap()).unwrap();
+        tied_model = tied_model.spring(row, Bilinear::new(1e9, 1e8, 0.1).unwrap()).unwrap();
     }
-    assert!(build(tied).is_ok());
+    assert!(build(tied_model).is_ok());
 }
 
 /// A block on [u_x, u_y, θ] and more degrees of freedom: masses on the diagonal, further entries of M and K.
@@ -280,8 +281,8 @@ fn relative_tower(m: [f64; 2], h: [f64; 2]) -> MatrixModel {
     }
     // Floors that move with the base: (u_x − h θ)².
     coupling.push((0, 2, -(m[0] * h[0] + m[1] * h[1])));
-    let whole = [m[0] + m[1], m[0] * h[0] * h[0] + m[1] * h[1] * h[1]];
-    let halves = [(0, 0, 0.5 * whole[0]), (2, 2, 0.5 * whole[1])];
+    let inertia = [m[0] + m[1], m[0] * h[0] * h[0] + m[1] * h[1] * h[1]];
+    let halves = [(0, 0, 0.5 * inertia[0]), (2, 2, 0.5 * inertia[1])];
     appended(&m, &[&coupling[..], &halves].concat(), chain)
 }
 
@@ -307,26 +308,26 @@ fn last_base_shear(model: MatrixModel) -> f64 {
 fn relative_coordinates_are_no_part() {
     let m = [2.0e3, 1.0e3];
     let h = [3.0, 6.0];
-    let absolute = appended(&m, &[], |matrix| {
+    let absolute_tower = appended(&m, &[], |matrix| {
         matrix.add_outer([(3, 1.0), (0, -1.0), (2, h[0])], 4.0e6);
         matrix.add_outer([(4, 1.0), (3, -1.0), (2, h[1] - h[0])], 3.0e6);
     });
-    let found = last_base_shear(relative_tower(m, h));
-    let expected = last_base_shear(absolute);
-    assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
+    let computed = last_base_shear(relative_tower(m, h));
+    let expected = last_base_shear(absolute_tower);
+    assert!((computed / expected - 1.0).abs() < 1e-7, "{computed} {expected}");
 
-    assert_eq!(refused(appended(&m, &[], chain)).dofs, [3, 4]);
-    let coupled = [(0, 3, 100.0)];
+    assert_eq!(detached_part(appended(&m, &[], chain)).dofs, [3, 4]);
+    let mass_coupling = [(0, 3, 100.0)];
     for stiffness in [1.0, 3.0e6, 1.0 / 3.0] {
-        let floating = appended(&m, &coupled, |matrix| matrix.add_spring(3, 4, stiffness));
-        assert_eq!(refused(floating).dofs, [3, 4]);
+        let free_tower = appended(&m, &mass_coupling, |matrix| matrix.add_spring(3, 4, stiffness));
+        assert_eq!(detached_part(free_tower).dofs, [3, 4]);
     }
     // A mass on a spring to a point in space, and one without any.
     let on_spring = appended(&[50.0], &[], |matrix| matrix.add(3, 3, 1e5));
-    let DetachedPart { dofs, place } = refused(on_spring);
+    let DetachedPart { dofs, place } = detached_part(on_spring);
     assert_eq!((dofs, place.as_str()), (vec![3], "degree of freedom 3"));
     let beside_spring = appended(&[50.0, 0.0], &[], |matrix| matrix.add(4, 4, 1e5));
-    assert_eq!(refused(beside_spring).dofs, [3]);
+    assert_eq!(detached_part(beside_spring).dofs, [3]);
     // A mode that the base does not excite, and a massless degree of freedom on a spring to a fixed point.
     assert!(build(appended(&[1.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());
     assert!(build(appended(&[0.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());

@@ -1,4 +1,4 @@
-//! GOAL: elements, meshes and structures refuse bad input with a typed error that names it.
+//! GOAL: elements, meshes and structures return typed errors that name bad input.
 //! SCENE: bad numbers, nodes, shapes, grids and contact lines.
 //! REFERENCE: the fields of the error.
 
@@ -14,8 +14,8 @@ const INVALID_NUMBERS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 const NEGATIVE_OR_NAN: [f64; 3] = [-1.0, f64::NAN, f64::NEG_INFINITY];
 const NOT_FINITE: [f64; 2] = [f64::NAN, f64::INFINITY];
 
-fn refused<T: Debug>(bad: &[f64], build: impl Fn(f64) -> basemat::Result<T>) {
-    for &value in bad {
+fn assert_errors<T: Debug>(values: &[f64], build: impl Fn(f64) -> basemat::Result<T>) {
+    for &value in values {
         match build(value) {
             Err(Error::Input { value: reported, .. }) => {
                 assert!(reported == value || !value.is_finite(), "{reported} {value}");
@@ -37,25 +37,27 @@ fn two_nodes() -> Mesh {
 }
 
 #[test]
-fn elements_refuse_bad_numbers() {
-    refused(&INVALID_NUMBERS, |x| Material::new(x, 0.2, 1.0));
-    refused(&[-1.0, 0.5, 0.7, f64::NAN], |x| Material::new(1.0, x, 1.0));
-    refused(&NEGATIVE_OR_NAN, |x| Material::new(1.0, 0.2, x));
-    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], x, 1.0, 1.0, 1.0));
-    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, x, 1.0, 1.0));
-    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, 1.0, x, 1.0));
-    refused(&NEGATIVE_OR_NAN, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, x));
-    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, 1.0)?.with_shear_stiffness(x));
-    refused(&INVALID_NUMBERS, |x| Truss::new([0, 1], x, 1.0, 1.0));
-    refused(&INVALID_NUMBERS, |x| Truss::new([0, 1], 1.0, x, 1.0));
-    refused(&NEGATIVE_OR_NAN, |x| Truss::new([0, 1], 1.0, 1.0, x));
-    refused(&INVALID_NUMBERS, |x| Spring::new([0, 1], Direction::X, x));
-    refused(&INVALID_NUMBERS, |x| Spring::axial([0, 1], x));
-    refused(&INVALID_NUMBERS, |x| Dashpot::new([0, 1], Direction::X, x));
-    refused(&INVALID_NUMBERS, |x| Dashpot::axial([0, 1], x));
-    refused(&INVALID_NUMBERS, |x| LumpedMass::new(0, x));
-    refused(&NEGATIVE_OR_NAN, |x| LumpedMass::new(0, 1.0)?.with_rotary_inertia(x));
-    // products that overflow
+fn elements_return_errors_for_bad_numbers() {
+    assert_errors(&INVALID_NUMBERS, |x| Material::new(x, 0.2, 1.0));
+    assert_errors(&[-1.0, 0.5, 0.7, f64::NAN], |x| Material::new(1.0, x, 1.0));
+    assert_errors(&NEGATIVE_OR_NAN, |x| Material::new(1.0, 0.2, x));
+    assert_errors(&INVALID_NUMBERS, |x| Beam::new([0, 1], x, 1.0, 1.0, 1.0));
+    assert_errors(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, x, 1.0, 1.0));
+    assert_errors(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, 1.0, x, 1.0));
+    assert_errors(&NEGATIVE_OR_NAN, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, x));
+    assert_errors(&INVALID_NUMBERS, |x| {
+        Beam::new([0, 1], 1.0, 1.0, 1.0, 1.0)?.with_shear_stiffness(x)
+    });
+    assert_errors(&INVALID_NUMBERS, |x| Truss::new([0, 1], x, 1.0, 1.0));
+    assert_errors(&INVALID_NUMBERS, |x| Truss::new([0, 1], 1.0, x, 1.0));
+    assert_errors(&NEGATIVE_OR_NAN, |x| Truss::new([0, 1], 1.0, 1.0, x));
+    assert_errors(&INVALID_NUMBERS, |x| Spring::new([0, 1], Direction::X, x));
+    assert_errors(&INVALID_NUMBERS, |x| Spring::axial([0, 1], x));
+    assert_errors(&INVALID_NUMBERS, |x| Dashpot::new([0, 1], Direction::X, x));
+    assert_errors(&INVALID_NUMBERS, |x| Dashpot::axial([0, 1], x));
+    assert_errors(&INVALID_NUMBERS, |x| LumpedMass::new(0, x));
+    assert_errors(&NEGATIVE_OR_NAN, |x| LumpedMass::new(0, 1.0)?.with_rotary_inertia(x));
+    // Products of valid numbers overflow.
     assert!(Beam::new([0, 1], 1e200, 1e200, 1.0, 1.0).is_err());
     assert!(Truss::new([0, 1], 1e200, 1e200, 1.0).is_err());
 }
@@ -69,15 +71,18 @@ fn add_quad(points: [[f64; 2]; 4]) -> basemat::Result<usize> {
 }
 
 #[test]
-fn meshes_refuse_bad_nodes_and_shapes() {
-    refused(&NOT_FINITE, |x| Mesh::new().add_node(x, 0.0));
-    refused(&NOT_FINITE, |x| Mesh::new().add_node(0.0, x));
-    refused(&NOT_FINITE, |x| two_nodes().nodes_at_height(x, 0.0));
-    refused(&NEGATIVE_OR_NAN, |x| two_nodes().nodes_at_height(0.0, x));
-    let far = two_nodes().add(Truss::new([0, 7], 1.0, 1.0, 0.0).unwrap());
-    assert_eq!(far, Err(Error::Index { quantity: "node of the element", index: 7, bound: 2 }));
-    let twice = two_nodes().add(Truss::new([1, 1], 1.0, 1.0, 0.0).unwrap());
-    assert!(matches!(twice, Err(Error::Scene { .. })));
+fn meshes_return_errors_for_bad_nodes_and_shapes() {
+    assert_errors(&NOT_FINITE, |x| Mesh::new().add_node(x, 0.0));
+    assert_errors(&NOT_FINITE, |x| Mesh::new().add_node(0.0, x));
+    assert_errors(&NOT_FINITE, |x| two_nodes().nodes_at_height(x, 0.0));
+    assert_errors(&NEGATIVE_OR_NAN, |x| two_nodes().nodes_at_height(0.0, x));
+    let missing_node = two_nodes().add(Truss::new([0, 7], 1.0, 1.0, 0.0).unwrap());
+    assert_eq!(
+        missing_node,
+        Err(Error::Index { quantity: "node of the element", index: 7, bound: 2 })
+    );
+    let repeated_node = two_nodes().add(Truss::new([1, 1], 1.0, 1.0, 0.0).unwrap());
+    assert!(matches!(repeated_node, Err(Error::Scene { .. })));
     let mut coincident = two_nodes();
     coincident.add_node(1.0, 0.0).unwrap();
     assert!(coincident.add(Truss::new([1, 2], 1.0, 1.0, 0.0).unwrap()).is_err());
@@ -107,7 +112,7 @@ fn bar_of_density(ends: [usize; 2], density: f64) -> Truss {
     Truss::new(ends, 1e9, 0.3, density).unwrap()
 }
 
-/// GOAL: an element that counts twice is refused; what acts in parallel is not.
+/// GOAL: an element that counts twice is an error; what acts in parallel is not.
 #[test]
 fn elements_count_once() {
     let mut mesh = Mesh::new();
@@ -117,22 +122,26 @@ fn elements_count_once() {
     for [x, y] in [[1.0, 0.5], [0.5, 1.0], [0.0, 0.5]] {
         mesh.add_node(x, y).unwrap();
     }
-    let full = QuadFormulation::Full;
-    mesh.add(Quad4::new([0, 1, 2, 3], material(), full)).unwrap();
-    let other = Material::new(2.0e7, 0.3, 0.0).unwrap();
-    assert_twice(&mesh.add(Quad4::new([0, 1, 2, 3], material(), full)), 0, &[0, 1, 2, 3]);
+    let full_integration = QuadFormulation::Full;
+    mesh.add(Quad4::new([0, 1, 2, 3], material(), full_integration)).unwrap();
+    let other_material = Material::new(2.0e7, 0.3, 0.0).unwrap();
     assert_twice(
-        &mesh.add(Quad4::new([2, 3, 0, 1], other, QuadFormulation::OnePoint)),
+        &mesh.add(Quad4::new([0, 1, 2, 3], material(), full_integration)),
+        0,
+        &[0, 1, 2, 3],
+    );
+    assert_twice(
+        &mesh.add(Quad4::new([2, 3, 0, 1], other_material, QuadFormulation::OnePoint)),
         0,
         &[2, 3, 0, 1],
     );
-    let boxed: Box<dyn Element> = Box::new(Quad4::new([1, 2, 3, 0], material(), full));
+    let boxed: Box<dyn Element> = Box::new(Quad4::new([1, 2, 3, 0], material(), full_integration));
     assert_twice(&mesh.add(boxed), 0, &[1, 2, 3, 0]);
     let eight = [0, 1, 2, 3, 4, 5, 6, 7];
-    assert_twice(&mesh.add(Quad8::new(eight, other)), 0, &eight);
+    assert_twice(&mesh.add(Quad8::new(eight, other_material)), 0, &eight);
     assert_eq!(mesh.elements().len(), 1);
 
-    // A beam on an edge, one of another section beside it, and the bar of a tie.
+    // Beams on an edge, of two sections, and the bar of a tie are accepted.
     assert_eq!(mesh.add(beam_of_area([0, 1], 0.1)), Ok(1));
     assert_eq!(mesh.add(beam_of_area([0, 1], 0.2)), Ok(2));
     assert_eq!(mesh.add(bar_of_density([0, 1], 2400.0)), Ok(3));
@@ -149,7 +158,7 @@ fn elements_count_once() {
         mesh.add(LumpedMass::new(2, 10.0).unwrap()).unwrap();
     }
     assert_eq!(mesh.elements().len(), 13);
-    // A clone contains the elements so far.
+    // A clone contains the elements that were added before.
     assert_twice(&mesh.clone().add(beam_of_area([0, 1], 0.1)), 1, &[0, 1]);
 }
 
@@ -170,29 +179,29 @@ impl Element for NodelessElement {
 }
 
 #[test]
-fn element_without_dofs_is_refused() {
+fn element_without_dofs_is_an_error() {
     assert!(matches!(two_nodes().add(NodelessElement), Err(Error::Size { .. })));
 }
 
 #[test]
-fn blocks_refuse_bad_grids_and_layers() {
-    let good = [Layer::new(1.0, 1, material())];
-    refused(&INVALID_NUMBERS, |x| Mesh::layered_block(0.0..x, 2, &good));
-    refused(&NOT_FINITE, |x| Mesh::layered_block(x..1.0, 2, &good));
-    refused(&INVALID_NUMBERS, |x| {
+fn blocks_return_errors_for_bad_grids_and_layers() {
+    let layers = [Layer::new(1.0, 1, material())];
+    assert_errors(&INVALID_NUMBERS, |x| Mesh::layered_block(0.0..x, 2, &layers));
+    assert_errors(&NOT_FINITE, |x| Mesh::layered_block(x..1.0, 2, &layers));
+    assert_errors(&INVALID_NUMBERS, |x| {
         Mesh::layered_block(0.0..1.0, 2, &[Layer::new(x, 1, material())])
     });
-    let empty = [Layer::new(1.0, 0, material())];
+    let layer_without_elements = [Layer::new(1.0, 0, material())];
     for block in [
-        Mesh::layered_block(0.0..1.0, 0, &good),
+        Mesh::layered_block(0.0..1.0, 0, &layers),
         Mesh::layered_block::<Material>(0.0..1.0, 1, &[]),
-        Mesh::layered_block(0.0..1.0, 1, &empty),
+        Mesh::layered_block(0.0..1.0, 1, &layer_without_elements),
     ] {
         assert!(matches!(block, Err(Error::Size { .. })));
     }
-    refused(&NOT_FINITE, |x| Mesh::graded_block(&[0.0, x, 1.0], &good));
-    assert!(Mesh::graded_block(&[0.0, 0.5, 0.5], &good).is_err());
-    assert!(Mesh::graded_block(&[0.0], &good).is_err());
+    assert_errors(&NOT_FINITE, |x| Mesh::graded_block(&[0.0, x, 1.0], &layers));
+    assert!(Mesh::graded_block(&[0.0, 0.5, 0.5], &layers).is_err());
+    assert!(Mesh::graded_block(&[0.0], &layers).is_err());
 }
 
 fn contact_error(contact: &[usize]) -> Error {
@@ -221,41 +230,45 @@ fn building_with(storey: Storey) -> basemat::Result<ShearBuilding> {
 }
 
 #[test]
-fn structures_refuse_bad_numbers() {
-    refused(&NEGATIVE_OR_NAN, |x| RayleighDamping::new(x, 0.0));
-    refused(&NEGATIVE_OR_NAN, |x| RayleighDamping::new(0.0, x));
-    refused(&INVALID_NUMBERS, |x| RayleighDamping::from_ratios([1.0, x], [0.1, 0.1]));
-    refused(&NEGATIVE_OR_NAN, |x| RayleighDamping::from_ratios([1.0, 2.0], [x, 0.1]));
+fn structures_return_errors_for_bad_numbers() {
+    assert_errors(&NEGATIVE_OR_NAN, |x| RayleighDamping::new(x, 0.0));
+    assert_errors(&NEGATIVE_OR_NAN, |x| RayleighDamping::new(0.0, x));
+    assert_errors(&INVALID_NUMBERS, |x| RayleighDamping::from_ratios([1.0, x], [0.1, 0.1]));
+    assert_errors(&NEGATIVE_OR_NAN, |x| RayleighDamping::from_ratios([1.0, 2.0], [x, 0.1]));
     assert!(RayleighDamping::from_ratios([2.0, 2.0], [0.1, 0.1]).is_err());
     assert!(RayleighDamping::from_ratios([1.0, 2.0], [0.5, 0.01]).is_err(), "negative β");
 
-    refused(&INVALID_NUMBERS, |x| RigidBlock::new(x, 1.0, 1.0));
-    refused(&INVALID_NUMBERS, |x| RigidBlock::new(1.0, x, 1.0));
-    refused(&INVALID_NUMBERS, |x| RigidBlock::new(1.0, 1.0, x));
-    refused(&INVALID_NUMBERS, |x| RigidBlock::from_mass(1.0, x, 1.0, 1.0));
-    refused(&INVALID_NUMBERS, |x| RigidBlock::from_mass(1.0, 1.0, x, 1.0));
-    refused(&NEGATIVE_OR_NAN, |x| RigidBlock::from_mass(1.0, 1.0, 1.0, x));
+    assert_errors(&INVALID_NUMBERS, |x| RigidBlock::new(x, 1.0, 1.0));
+    assert_errors(&INVALID_NUMBERS, |x| RigidBlock::new(1.0, x, 1.0));
+    assert_errors(&INVALID_NUMBERS, |x| RigidBlock::new(1.0, 1.0, x));
+    assert_errors(&INVALID_NUMBERS, |x| RigidBlock::from_mass(1.0, x, 1.0, 1.0));
+    assert_errors(&INVALID_NUMBERS, |x| RigidBlock::from_mass(1.0, 1.0, x, 1.0));
+    assert_errors(&NEGATIVE_OR_NAN, |x| RigidBlock::from_mass(1.0, 1.0, 1.0, x));
     let block = RigidBlock::new(1.0, 1.0, 1.0).unwrap();
-    refused(&NOT_FINITE, |x| block.clone().centered_at(x));
-    refused(&NEGATIVE_OR_NAN, |x| block.clone().with_p_delta(x));
+    assert_errors(&NOT_FINITE, |x| block.clone().centered_at(x));
+    assert_errors(&NEGATIVE_OR_NAN, |x| block.clone().with_p_delta(x));
 
-    let good = good_storey();
-    refused(&INVALID_NUMBERS, |height| building_with(Storey { height, ..good }));
-    refused(&INVALID_NUMBERS, |mass| building_with(Storey { mass, ..good }));
-    refused(&INVALID_NUMBERS, |stiffness| building_with(Storey { stiffness, ..good }));
-    refused(&NEGATIVE_OR_NAN, |rotary_inertia| building_with(Storey { rotary_inertia, ..good }));
-    refused(&NEGATIVE_OR_NAN, |damping| building_with(Storey { damping, ..good }));
-    refused(&INVALID_NUMBERS, |x| ShearBuilding::new(x, 1.0, 1.0, &[good]));
-    refused(&INVALID_NUMBERS, |x| ShearBuilding::new(1.0, x, 1.0, &[good]));
-    refused(&NEGATIVE_OR_NAN, |x| ShearBuilding::new(1.0, 1.0, x, &[good]));
+    let valid_storey = good_storey();
+    assert_errors(&INVALID_NUMBERS, |height| building_with(Storey { height, ..valid_storey }));
+    assert_errors(&INVALID_NUMBERS, |mass| building_with(Storey { mass, ..valid_storey }));
+    assert_errors(&INVALID_NUMBERS, |stiffness| {
+        building_with(Storey { stiffness, ..valid_storey })
+    });
+    assert_errors(&NEGATIVE_OR_NAN, |rotary_inertia| {
+        building_with(Storey { rotary_inertia, ..valid_storey })
+    });
+    assert_errors(&NEGATIVE_OR_NAN, |damping| building_with(Storey { damping, ..valid_storey }));
+    assert_errors(&INVALID_NUMBERS, |x| ShearBuilding::new(x, 1.0, 1.0, &[valid_storey]));
+    assert_errors(&INVALID_NUMBERS, |x| ShearBuilding::new(1.0, x, 1.0, &[valid_storey]));
+    assert_errors(&NEGATIVE_OR_NAN, |x| ShearBuilding::new(1.0, 1.0, x, &[valid_storey]));
     assert!(matches!(ShearBuilding::new(1.0, 1.0, 1.0, &[]), Err(Error::Size { .. })));
     assert!(ShearBuilding::new(1.0, 1.0, 0.0, &[Storey::new(1.0, 1.0, 1.0)]).is_err());
-    refused(&NOT_FINITE, |x| building_with(good)?.centered_at(x));
-    refused(&NEGATIVE_OR_NAN, |x| building_with(good)?.with_p_delta(x));
-    refused(&NEGATIVE_OR_NAN, |x| building_with(good)?.with_stiffness_damping(x));
-    let building = building_with(good).unwrap();
-    for found in [building.floor(2).map(drop), building.drift(2).map(drop)] {
-        assert!(matches!(found, Err(Error::Index { index: 2, bound: 2, .. })));
+    assert_errors(&NOT_FINITE, |x| building_with(valid_storey)?.centered_at(x));
+    assert_errors(&NEGATIVE_OR_NAN, |x| building_with(valid_storey)?.with_p_delta(x));
+    assert_errors(&NEGATIVE_OR_NAN, |x| building_with(valid_storey)?.with_stiffness_damping(x));
+    let building = building_with(valid_storey).unwrap();
+    for computed in [building.floor(2).map(drop), building.drift(2).map(drop)] {
+        assert!(matches!(computed, Err(Error::Index { index: 2, bound: 2, .. })));
     }
     assert!(building.shear(9).is_err());
 }

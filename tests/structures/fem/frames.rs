@@ -27,9 +27,9 @@ fn column(elements: usize, change: impl Fn(Beam) -> Beam) -> FemModel {
             .unwrap();
         mesh.add(change(beam)).unwrap();
     }
-    let other = mesh.add_node(1.0, 0.0).unwrap();
-    mesh.add(LumpedMass::new(other, 1.0).unwrap()).unwrap();
-    FemModel::new(mesh, &[0, other]).unwrap()
+    let other_node = mesh.add_node(1.0, 0.0).unwrap();
+    mesh.add(LumpedMass::new(other_node, 1.0).unwrap()).unwrap();
+    FemModel::new(mesh, &[0, other_node]).unwrap()
 }
 
 /// Degrees of freedom above the clamped foot.
@@ -53,11 +53,11 @@ fn columns_buckle_under_eulers_load() {
                 beam.with_compression(factor * critical).unwrap()
             });
             let free = above(&model);
-            let lowest = eigenvalues(
+            let lowest_square = eigenvalues(
                 &submatrix(&stiffness(&model), &free),
                 &submatrix(&mass(&model), &free),
             )[0];
-            assert_eq!(lowest > 0.0, stands, "{shear:?} {factor}: {lowest}");
+            assert_eq!(lowest_square > 0.0, stands, "{shear:?} {factor}: {lowest_square}");
         }
     }
 }
@@ -73,15 +73,15 @@ fn beam_columns_sway_by_their_closed_form() {
         let tip = model.dof(20, Direction::X).unwrap();
         force[tip] = load;
         let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
-        let found = solve_with_prescribed(&stiffness(&model), &force, &fixed)[tip];
+        let computed = solve_with_prescribed(&stiffness(&model), &force, &fixed)[tip];
         let k = (compression.abs() / (YOUNG_MODULUS * SECOND_MOMENT)).sqrt();
         let curve = if compression > 0.0 {
             (k * COLUMN_LENGTH).tan()
         } else {
             (k * COLUMN_LENGTH).tanh()
         };
-        let exact = load / compression * (curve / k - COLUMN_LENGTH);
-        assert!((found / exact - 1.0).abs() < 1e-6, "{compression}: {found} {exact}");
+        let expected = load / compression * (curve / k - COLUMN_LENGTH);
+        assert!((computed / expected - 1.0).abs() < 1e-6, "{compression}: {computed} {expected}");
     }
 }
 
@@ -90,8 +90,8 @@ fn beam_columns_sway_by_their_closed_form() {
 fn leaning_columns_overturn() {
     let compression = 3.0e6;
     let model = column(3, |beam| {
-        let flexible = beam.with_shear_stiffness(SHEAR_STIFFNESS).unwrap();
-        flexible.with_compression(compression).unwrap()
+        let shear_flexible_beam = beam.with_shear_stiffness(SHEAR_STIFFNESS).unwrap();
+        shear_flexible_beam.with_compression(compression).unwrap()
     });
     let matrix = stiffness(&model);
     for direction in [Direction::X, Direction::Y] {
@@ -120,7 +120,7 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
                 .map(|(node, direction)| model.dof(node, direction).unwrap());
             let free: Vec<usize> =
                 (0..model.dofs() - 2).filter(|dof| !fixed.contains(dof)).collect();
-            let found = eigenvalues(
+            let computed = eigenvalues(
                 &submatrix(&stiffness(&model), &free),
                 &submatrix(&mass(&model), &free),
             );
@@ -132,7 +132,7 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
                 let c = YOUNG_MODULUS * SECOND_MOMENT * k.powi(4) / (MASS_DENSITY * SECTION_AREA);
                 let square = 2.0 * c / (b + (b * b - 4.0 * a * c).sqrt());
                 // The nearest one: axial vibrations are among them.
-                let errors = found.iter().map(|x| x / square - 1.0);
+                let errors = computed.iter().map(|x| x / square - 1.0);
                 errors.min_by(|x, y| x.abs().total_cmp(&y.abs())).unwrap()
             })
         });
@@ -156,10 +156,13 @@ fn trace(matrix: &[Vec<f64>]) -> f64 {
 
 #[test]
 fn lumped_rotary_inertia_is_that_of_the_sections() {
-    let with = column(2, Beam::with_rotary_inertia).with_mass(MassKind::Lumped);
-    let without = column(2, |beam| beam).with_mass(MassKind::Lumped);
-    let more = trace(&mass(&with)) - trace(&mass(&without));
-    assert!((more / (MASS_DENSITY * SECOND_MOMENT * COLUMN_LENGTH) - 1.0).abs() < 1e-9, "{more}");
+    let with_rotary_inertia = column(2, Beam::with_rotary_inertia).with_mass(MassKind::Lumped);
+    let without_rotary_inertia = column(2, |beam| beam).with_mass(MassKind::Lumped);
+    let rotary_inertia = trace(&mass(&with_rotary_inertia)) - trace(&mass(&without_rotary_inertia));
+    assert!(
+        (rotary_inertia / (MASS_DENSITY * SECOND_MOMENT * COLUMN_LENGTH) - 1.0).abs() < 1e-9,
+        "{rotary_inertia}"
+    );
 }
 
 /// All nodes of a block of quadrilaterals tied to one: the rigid block of the same shape.
@@ -170,15 +173,15 @@ fn a_block_of_followers_is_a_rigid_block() {
     let leader = mesh.node_at(0.0, 0.0).unwrap();
     let mark = LumpedMass::new(leader, 1e-12).unwrap().with_rotary_inertia(1e-12).unwrap();
     mesh.add(mark).unwrap();
-    let all: Vec<usize> = (0..mesh.nodes().len()).filter(|node| *node != leader).collect();
-    let linked = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &all).unwrap();
+    let followers: Vec<usize> = (0..mesh.nodes().len()).filter(|node| *node != leader).collect();
+    let linked = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &followers).unwrap();
     assert_eq!(linked.dofs(), 3);
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
-    let found = mass(&linked);
+    let computed = mass(&linked);
     let expected = mass(&block);
     for i in 0..3 {
         for j in 0..3 {
-            assert!((found[i][j] - expected[i][j]).abs() < 1e-9 * expected[2][2], "{i} {j}");
+            assert!((computed[i][j] - expected[i][j]).abs() < 1e-9 * expected[2][2], "{i} {j}");
         }
         assert!(largest(&stiffness(&linked)[i]) < 1e-4);
     }
@@ -187,7 +190,7 @@ fn a_block_of_followers_is_a_rigid_block() {
     assert_eq!(feet.len(), 5);
     assert_eq!(*feet[0], BaseNode::rigid(-2.0, 0.0, [0, 1, 2]));
     assert_eq!(feet[2].vertical, DofCombination::from(1));
-    // The section at the base sees the same resultants in either numbering.
+    // The section at the base has the same resultants in either numbering.
     let section = linked.section(0.0, 0.0).unwrap();
     let up = [0.0, 1.0, 0.0];
     let weight = section.compression.value(&[0.0; 3], &[0.0; 3], &up);
@@ -207,15 +210,18 @@ fn arms_lengthen_a_cantilever() {
     let nodes: Vec<usize> = [0.0, COLUMN_LENGTH, COLUMN_LENGTH + arm, COLUMN_LENGTH + 2.0 * arm]
         .map(|y| mesh.add_node(0.0, y).unwrap())
         .to_vec();
-    let other = mesh.add_node(1.0, 0.0).unwrap();
-    mesh.add(LumpedMass::new(other, 1.0).unwrap()).unwrap();
+    let other_node = mesh.add_node(1.0, 0.0).unwrap();
+    mesh.add(LumpedMass::new(other_node, 1.0).unwrap()).unwrap();
     mesh.add(LumpedMass::new(nodes[2], 1.0).unwrap()).unwrap();
     mesh.add(Beam::new([0, 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY).unwrap())
         .unwrap();
     // A beam between the arm and a free end strains nothing and checks the rotation.
     mesh.add(Beam::new([2, 3], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY).unwrap())
         .unwrap();
-    let model = FemModel::new(mesh, &[0, other]).unwrap().with_rigid_link(1, &[nodes[2]]).unwrap();
+    let model = FemModel::new(mesh, &[0, other_node])
+        .unwrap()
+        .with_rigid_link(1, &[nodes[2]])
+        .unwrap();
     assert_eq!(model.dof(2, Direction::X), None);
     let n = model.dofs();
     let row = model.row(2, Direction::X).unwrap();
@@ -228,16 +234,16 @@ fn arms_lengthen_a_cantilever() {
         force[index] += 1000.0 * weight;
     }
     let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
-    let found = solve_with_prescribed(&stiffness(&model), &force, &fixed);
-    let deflection = row_value(&row, &found);
+    let computed = solve_with_prescribed(&stiffness(&model), &force, &fixed);
+    let deflection = row_value(&row, &computed);
     let l = COLUMN_LENGTH;
     let a = arm;
-    let exact =
+    let expected =
         1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (YOUNG_MODULUS * SECOND_MOMENT);
-    assert!((deflection / exact - 1.0).abs() < 1e-10);
-    let turn = row_value(&model.row(2, Direction::Rotation).unwrap(), &found);
-    let tip = found[model.dof(3, Direction::X).unwrap()];
-    assert!((tip - (deflection - arm * turn)).abs() < 1e-10 * exact);
+    assert!((deflection / expected - 1.0).abs() < 1e-10);
+    let turn = row_value(&model.row(2, Direction::Rotation).unwrap(), &computed);
+    let tip = computed[model.dof(3, Direction::X).unwrap()];
+    assert!((tip - (deflection - arm * turn)).abs() < 1e-10 * expected);
     // A rigid motion is still one.
     let shift = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-12 * YOUNG_MODULUS);
@@ -261,7 +267,7 @@ fn a_column_with_tied_sides_is_a_shear_beam() {
     let row_height = COLUMN_HEIGHT / ROW_COUNT as f64;
     let wave_number = 0.5 * std::f64::consts::PI / COLUMN_HEIGHT;
     let cosine = (wave_number * row_height).cos();
-    let exact = shear_wave_speed * (6.0 * (1.0 - cosine) / (2.0 + cosine)).sqrt() / row_height;
+    let expected = shear_wave_speed * (6.0 * (1.0 - cosine) / (2.0 + cosine)).sqrt() / row_height;
     // Rayleigh's quotient of the exact mode shape sin kz.
     let mut mode = vec![0.0; column.dofs()];
     for row in 1..=ROW_COUNT {
@@ -272,7 +278,7 @@ fn a_column_with_tied_sides_is_a_shear_beam() {
     let forces = multiply(&stiffness(&column), &mode);
     let inertia = multiply(&mass(&column), &mode);
     let squared_frequency = dot(&mode, &forces) / dot(&mode, &inertia);
-    assert!((squared_frequency.sqrt() - exact).abs() < 1e-12 * exact);
+    assert!((squared_frequency.sqrt() - expected).abs() < 1e-12 * expected);
     for (i, inertia) in inertia.iter().enumerate().skip(4) {
         assert!((forces[i] - squared_frequency * inertia).abs() < 1e-9 * largest(&forces));
     }
@@ -285,10 +291,10 @@ fn is_scene(result: &basemat::Result<FemModel>) -> bool {
 }
 
 #[test]
-fn bad_frames_are_refused() {
+fn bad_frames_are_errors() {
     let beam = Beam::new([0, 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY).unwrap();
-    for bad in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(beam.clone().with_compression(bad), Err(Error::Input { .. })));
+    for invalid_value in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(beam.clone().with_compression(invalid_value), Err(Error::Input { .. })));
     }
     let model = column(3, |beam| beam);
     for (leader, follower) in [(9, 0), (0, 9)] {

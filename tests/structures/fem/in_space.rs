@@ -1,4 +1,4 @@
-//! GOAL: meshes in three coordinates take what belongs there, and nothing of the plane; models of them stand on faces.
+//! GOAL: meshes in three coordinates accept elements of space, and none of the plane; models of them stand on faces.
 //! SCENE: a few nodes and elements, a tower on a mat, bricks.
 //! REFERENCE: by hand.
 
@@ -59,8 +59,8 @@ fn a_mesh_takes_elements_of_its_kind_only() {
     let direction =
         "direction of the element: x, y, z, rotation_x, rotation_y or rotation_z in space";
     assert_eq!(text(space.add(Beam::new([0, 4], 1.0, 1.0, 1.0, 0.0).unwrap())), direction);
-    let turned = Spring::new([0, 4], Direction::Rotation, 1.0).unwrap();
-    assert_eq!(text(space.add(turned.clone())), direction);
+    let rotational_spring = Spring::new([0, 4], Direction::Rotation, 1.0).unwrap();
+    assert_eq!(text(space.add(rotational_spring.clone())), direction);
     let plane = "element of the plane: must be in a mesh in the plane, but this one is in space";
     assert_eq!(text(space.add(Truss::new([0, 4], 1.0, 1.0, 0.0).unwrap())), plane);
     assert_eq!(text(space.add(Spring::axial([0, 4], 1.0).unwrap())), plane);
@@ -80,9 +80,9 @@ fn a_mesh_takes_elements_of_its_kind_only() {
     };
     assert_eq!(value, 0.5);
     mesh.add(Spring::new([0, 1], Direction::Rotation, 1.0).unwrap()).unwrap();
-    for absent in [Direction::Z, Direction::RotationX, Direction::RotationY, Direction::RotationZ] {
-        let refused = text(mesh.add(Spring::new([0, 1], absent, 1.0).unwrap()));
-        assert_eq!(refused, "direction of the element: x, y or rotation in the plane");
+    for axis in [Direction::Z, Direction::RotationX, Direction::RotationY, Direction::RotationZ] {
+        let result = text(mesh.add(Spring::new([0, 1], axis, 1.0).unwrap()));
+        assert_eq!(result, "direction of the element: x, y or rotation in the plane");
     }
 }
 
@@ -102,7 +102,7 @@ fn assert_free(model: &FemModel) {
     for direction in DIRECTIONS {
         let motion = model.rigid_motion(direction, point);
         assert!(largest(&multiply(&stiffness, &motion)) < 1e-13 * 1e12, "{direction:?}");
-        let mut exact = 0.0;
+        let mut expected = 0.0;
         for node in cube().nodes() {
             let x = node[0] - point[0];
             let y = node[1] - point[1];
@@ -114,10 +114,10 @@ fn assert_free(model: &FemModel) {
                 _ => 1.0,
             };
             let mass = if z < 0.0 { 30.0 } else { 20.0 };
-            exact += mass * square;
+            expected += mass * square;
         }
-        let found = form(&motion, &mass, &motion);
-        assert!((found / exact - 1.0).abs() < 1e-12, "{direction:?} {found} {exact}");
+        let computed = form(&motion, &mass, &motion);
+        assert!((computed / expected - 1.0).abs() < 1e-12, "{direction:?} {computed} {expected}");
     }
     assert_eq!(model.rigid_motion(Direction::Rotation, point), vec![0.0; model.dofs()]);
 }
@@ -137,14 +137,14 @@ fn rigid_motions_in_space_meet_no_force() {
     // The elements get the motion of all their nodes, followers included.
     let motion = floor.rigid_motion(Direction::RotationY, [0.0; 3]);
     for element in floor.mesh().elements() {
-        let exact = element.nodes().iter().flat_map(|&node| {
+        let expected = element.nodes().iter().flat_map(|&node| {
             let place = floor.mesh().nodes()[node];
             [place[2], 0.0, -place[0], 0.0, 1.0, 0.0]
         });
-        let found = floor.element_displacements(element, &motion).unwrap();
-        assert_eq!(found.len(), element.order());
-        for (found, exact) in found.into_iter().zip(exact) {
-            assert!((found - exact).abs() < 1e-14, "{found} {exact}");
+        let computed = floor.element_displacements(element, &motion).unwrap();
+        assert_eq!(computed.len(), element.order());
+        for (computed, expected) in computed.into_iter().zip(expected) {
+            assert!((computed - expected).abs() < 1e-14, "{computed} {expected}");
         }
         assert!(matches!(
             floor.element_displacements(element, &motion[1..]),
@@ -196,10 +196,10 @@ fn a_mat_stands_on_its_underside() {
     // Faces of bare nodes: the same outline from the shell's corners in another order is the shell, three corners
     // are not.
     let mesh = tower().mesh().clone();
-    let turned = FemModel::on_faces(mesh.clone(), &[vec![4, 5, 7, 6]]).unwrap();
-    assert_eq!(turned.base().nodes().next().unwrap().horizontal.len(), 2);
-    let bare = FemModel::on_faces(mesh, &[vec![7, 6, 4]]).unwrap();
-    assert!(bare.base().nodes().all(|node| node.horizontal.len() == 1));
+    let reordered_face = FemModel::on_faces(mesh.clone(), &[vec![4, 5, 7, 6]]).unwrap();
+    assert_eq!(reordered_face.base().nodes().next().unwrap().horizontal.len(), 2);
+    let triangular_face = FemModel::on_faces(mesh, &[vec![7, 6, 4]]).unwrap();
+    assert!(triangular_face.base().nodes().all(|node| node.horizontal.len() == 1));
 }
 
 #[test]
@@ -212,8 +212,8 @@ fn a_diaphragm_ties_its_plane_only() {
     assert_eq!(model.row(0, Direction::X).unwrap()[..], [(x, 1.0), (about_z, -2.0)]);
     assert_eq!(model.row(0, Direction::Y).unwrap()[..], [(y, 1.0), (about_z, 2.0)]);
     assert_eq!(model.row(0, Direction::RotationZ).unwrap()[..], [(about_z, 1.0)]);
-    for tied in [Direction::X, Direction::Y, Direction::RotationZ] {
-        assert_eq!(model.dof(0, tied), None);
+    for tied_direction in [Direction::X, Direction::Y, Direction::RotationZ] {
+        assert_eq!(model.dof(0, tied_direction), None);
     }
     for free in [Direction::Z, Direction::RotationX, Direction::RotationY] {
         let dof = model.dof(0, free).unwrap();
@@ -229,7 +229,7 @@ fn a_diaphragm_ties_its_plane_only() {
         text(plane.with_rigid_diaphragm(0, &[1])),
         "rigid diaphragm: must be in a mesh in space, but this one is in the plane"
     );
-    // Bricks cannot lead.
+    // A node of bricks cannot lead a rigid link.
     let mut mesh = cube();
     mesh.add(StiffElement::brick([7, 6, 4, 5, 3, 2, 0, 1], 1.0, 1.0)).unwrap();
     let brick = FemModel::on_base(mesh).unwrap();
@@ -282,8 +282,8 @@ fn model_on_faces(mesh: &Mesh, faces: &[&[usize]]) -> basemat::Result<FemModel> 
 #[test]
 fn bricks_stand_on_their_lower_sides() {
     let mut mesh = brick_mesh();
-    let again = mesh.add(brick_on(1)).unwrap_err().to_string();
-    assert!(again.contains("it duplicates element 1, and would count twice"), "{again}");
+    let error = mesh.add(brick_on(1)).unwrap_err().to_string();
+    assert!(error.contains("it duplicates element 1, and would count twice"), "{error}");
     let model = FemModel::on_base(mesh).unwrap();
     let Base::Faces(faces) = model.base() else {
         panic!("a base in space has faces")
@@ -298,34 +298,34 @@ fn bricks_stand_on_their_lower_sides() {
     let rise = model.rigid_motion(Direction::Z, [0.0; 3]);
     // Two nodes belong to no element.
     assert_eq!(count_moved(&shape, &rise, [0.0, 1.0, 0.0]), 16);
-    let away = model.rigid_motion(Direction::Y, [0.0; 3]);
-    assert_eq!(count_moved(&shape, &away, [0.0, 0.0, 1.0]), 16);
+    let shift = model.rigid_motion(Direction::Y, [0.0; 3]);
+    assert_eq!(count_moved(&shape, &shift, [0.0, 0.0, 1.0]), 16);
     let free = model.describe(&[0, 1, 2, 5]).unwrap();
     assert_eq!(free, "node 0 at (0, 0, -1), node 1 at (1, 0, -1) in Z");
 }
 
 #[test]
-fn faces_on_which_nothing_stands_are_refused() {
+fn faces_on_which_nothing_stands_are_errors() {
     let mesh = brick_mesh();
     assert!(matches!(model_on_faces(&mesh, &[]), Err(Error::Size { .. })));
     assert!(matches!(model_on_faces(&mesh, &[&[0, 1]]), Err(Error::Size { .. })));
-    let outside = model_on_faces(&mesh, &[&[0, 1, 18]]);
-    assert!(matches!(outside, Err(Error::Index { index: 18, bound: 18, .. })));
-    let inclined = model_on_faces(&mesh, &[&[0, 1, 3], &[1, 2, 10]]);
-    let Err(Error::Input { value, .. }) = inclined else { panic!() };
+    let error_of_a_missing_node = model_on_faces(&mesh, &[&[0, 1, 18]]);
+    assert!(matches!(error_of_a_missing_node, Err(Error::Index { index: 18, bound: 18, .. })));
+    let error_of_inclined_faces = model_on_faces(&mesh, &[&[0, 1, 3], &[1, 2, 10]]);
+    let Err(Error::Input { value, .. }) = error_of_inclined_faces else { panic!() };
     assert_eq!(value, 0.0);
     // Node 14 is no brick's.
-    let loose = text(model_on_faces(&mesh, &[&[12, 13, 14]]));
-    assert!(loose.starts_with("contact node: must have three displacements"));
+    let error_of_a_free_node = text(model_on_faces(&mesh, &[&[12, 13, 14]]));
+    assert!(error_of_a_free_node.starts_with("contact node: must have three displacements"));
     assert_eq!(
         text(FemModel::new(mesh, &[0, 1])),
         "line of contact nodes: must be in a mesh in the plane, but this one is in space"
     );
     let needed = "base of a mesh in space: must have shells or sides of solids at the lowest height of the mesh, which stand \
 on the ground: add them there, or name the faces that do";
-    let mut bare = cube();
-    bare.add(StiffElement::solid(&[0, 1, 2, 4], 1.0, 1.0)).unwrap();
-    assert_eq!(text(FemModel::on_base(bare)), needed);
+    let mut cube_without_shells = cube();
+    cube_without_shells.add(StiffElement::solid(&[0, 1, 2, 4], 1.0, 1.0)).unwrap();
+    assert_eq!(text(FemModel::on_base(cube_without_shells)), needed);
     let plane = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(1.0, 1, solid())]).unwrap();
     assert_eq!(
         text(FemModel::on_faces(plane, &[vec![0, 1, 2]])),

@@ -43,9 +43,9 @@ fn pressure_does_the_work_of_quadratic_displacements() {
         displacement[model.dof(node, Direction::X).unwrap()] = y * y;
     }
     assert!((row.value(&displacement) - 9.0).abs() < 1e-12);
-    // The other way round it pulls; without the middle node it takes the ends alone.
-    let back = model.pressure_row(&[0, 7, 3]).unwrap();
-    assert!((back.value(&displacement) + 9.0).abs() < 1e-12);
+    // In the other order of nodes the pressure is suction; without the middle node the load acts on the ends alone.
+    let suction_row = model.pressure_row(&[0, 7, 3]).unwrap();
+    assert!((suction_row.value(&displacement) + 9.0).abs() < 1e-12);
     let ends = model.pressure_row(&[3, 0]).unwrap();
     assert!((ends.value(&displacement) - 13.5).abs() < 1e-12);
     // A resultant of 1 N upwards along the roof turns nothing about its middle.
@@ -76,7 +76,7 @@ fn wind_on_a_wall_meets_the_ground() {
 }
 
 #[test]
-fn lines_that_are_none_are_refused() {
+fn lines_that_are_none_are_errors() {
     let model = block_of_eight_nodes();
     assert!(matches!(model.pressure_row(&[0]), Err(Error::Size { found: 1, .. })));
     assert!(matches!(model.pressure_row(&[0, 99]), Err(Error::Index { index: 99, .. })));

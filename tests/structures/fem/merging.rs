@@ -23,14 +23,14 @@ type MakeElement = fn(&[usize]) -> Box<dyn Element>;
 /// A mesh on common nodes, and the same elements on separate ones.
 struct MeshPair {
     common: Mesh,
-    separate: Mesh,
+    separate_mesh: Mesh,
 }
 
 impl MeshPair {
     /// The separate nodes are off by up to a hundredth of a millimetre.
     fn new((places, elements): &MeshParts, makes: &[MakeElement], in_space: bool) -> Self {
         let mut common = if in_space { Mesh::in_space() } else { Mesh::new() };
-        let mut separate = common.clone();
+        let mut separate_mesh = common.clone();
         for &place in places {
             common.add_node_at(place).unwrap();
         }
@@ -42,11 +42,11 @@ impl MeshPair {
                 let mut place = places[node];
                 count += 1;
                 place[0] += 1e-5 * f64::from(count % 3 - 1);
-                separate_nodes.push(separate.add_node_at(place).unwrap());
+                separate_nodes.push(separate_mesh.add_node_at(place).unwrap());
             }
-            separate.add(make(&separate_nodes)).unwrap();
+            separate_mesh.add(make(&separate_nodes)).unwrap();
         }
-        Self { common, separate }
+        Self { common, separate_mesh }
     }
 }
 
@@ -108,31 +108,34 @@ fn in_plane() -> (MeshParts, Vec<MakeElement>) {
 
 /// Degrees of freedom of the node at a place.
 fn dofs_at(model: &FemModel, place: [f64; 3]) -> Vec<usize> {
-    let nearest = model.mesh().nearest_node_to(place).unwrap();
+    let nearest_node = model.mesh().nearest_node_to(place).unwrap();
     let directions = model.mesh().directions();
-    directions.iter().filter_map(|&direction| model.dof(nearest, direction)).collect()
+    directions
+        .iter()
+        .filter_map(|&direction| model.dof(nearest_node, direction))
+        .collect()
 }
 
 #[test]
 fn merged_meshes_are_those_on_common_nodes() {
     for (depth, (parts, makes)) in [(true, in_space()), (false, in_plane())] {
-        let MeshPair { common, mut separate } = MeshPair::new(&parts, &makes, depth);
-        let before = separate.nodes().len();
+        let MeshPair { common, mut separate_mesh } = MeshPair::new(&parts, &makes, depth);
+        let before = separate_mesh.nodes().len();
         assert!(before > common.nodes().len() + 5);
-        let merged = separate.merge_nodes(1e-3).unwrap();
+        let merged = separate_mesh.merge_nodes(1e-3).unwrap();
         assert_eq!(
-            (merged.count, separate.nodes().len()),
+            (merged.count, separate_mesh.nodes().len()),
             (before - common.nodes().len(), common.nodes().len())
         );
         assert_eq!(
-            (merged.indices.len(), separate.elements().len()),
+            (merged.indices.len(), separate_mesh.elements().len()),
             (before, common.elements().len())
         );
-        // Again: nothing to do.
-        assert_eq!(separate.clone().merge_nodes(1e-3).unwrap().count, 0);
-        // Types remain, so that forces of beams and shells can be asked for.
+        // A second merge finds no pair.
+        assert_eq!(separate_mesh.clone().merge_nodes(1e-3).unwrap().count, 0);
+        // Element types are kept, so that forces of beams and shells can be computed.
         let expected_model = FemModel::on_base(common).unwrap();
-        let merged_model = FemModel::on_base(separate).unwrap();
+        let merged_model = FemModel::on_base(separate_mesh).unwrap();
         assert_eq!(expected_model.dofs(), merged_model.dofs());
         for &place in &parts.0 {
             // Nodes come in another order.
@@ -142,9 +145,12 @@ fn merged_meshes_are_those_on_common_nodes() {
                 let expected_matrix = matrix(&expected_model);
                 let merged_matrix = matrix(&merged_model);
                 for (&i, &j) in expected_dofs.iter().zip(&merged_dofs) {
-                    let found = merged_matrix[j][j];
+                    let computed = merged_matrix[j][j];
                     let expected = expected_matrix[i][i];
-                    assert!((found / expected - 1.0).abs() < 1e-3, "{place:?}: {found} {expected}");
+                    assert!(
+                        (computed / expected - 1.0).abs() < 1e-3,
+                        "{place:?}: {computed} {expected}"
+                    );
                 }
             }
         }
@@ -162,26 +168,26 @@ fn degenerate_elements_and_rows_of_nodes_are_named() {
     let nodes: Vec<usize> =
         [0.0, 0.5, 1.0, 5.0].iter().map(|&x| mesh.add_node(x, 0.0).unwrap()).collect();
     mesh.add(Beam::new([nodes[0], nodes[1]], 30.0e9, 0.4, 0.02, 0.0).unwrap()).unwrap();
-    let unchanged = mesh.nodes().to_vec();
+    let nodes_before = mesh.nodes().to_vec();
     let row = merge_error(&mut mesh, 0.6);
     assert!(row.contains("nodes") && row.contains("tolerance"), "{row}");
-    let mut short = Mesh::new();
-    let ends = [short.add_node(0.0, 0.0).unwrap(), short.add_node(0.01, 0.0).unwrap()];
-    short.add(Beam::new(ends, 30.0e9, 0.4, 0.02, 0.0).unwrap()).unwrap();
-    let degenerate = merge_error(&mut short, 0.05);
+    let mut short_mesh = Mesh::new();
+    let ends = [short_mesh.add_node(0.0, 0.0).unwrap(), short_mesh.add_node(0.01, 0.0).unwrap()];
+    short_mesh.add(Beam::new(ends, 30.0e9, 0.4, 0.02, 0.0).unwrap()).unwrap();
+    let degenerate = merge_error(&mut short_mesh, 0.05);
     assert!(degenerate.contains("element 0 on nodes [0, 1]"), "{degenerate}");
     for tolerance in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(mesh.merge_nodes(tolerance), Err(Error::Input { .. })));
     }
-    assert_eq!((mesh.nodes(), short.nodes().len()), (&unchanged[..], 2));
+    assert_eq!((mesh.nodes(), short_mesh.nodes().len()), (&nodes_before[..], 2));
     // Two equal beams would count twice.
     let mut double = Mesh::new();
     for _ in 0..2 {
         let ends = [0.0, 3.0].map(|x| double.add_node(x, 0.0).unwrap());
         double.add(Beam::new(ends, 30.0e9, 0.4, 0.02, 2400.0).unwrap()).unwrap();
     }
-    let twice = merge_error(&mut double, 1e-6);
-    assert!(twice.contains("element 1") && twice.contains("count twice"), "{twice}");
+    let error = merge_error(&mut double, 1e-6);
+    assert!(error.contains("element 1") && error.contains("count twice"), "{error}");
     // An element of a user without new nodes.
     mesh.add(Tie([nodes[2], nodes[3]])).unwrap();
     let tie = merge_error(&mut mesh, 1e-6);

@@ -14,11 +14,11 @@ fn soft() -> Material {
 
 #[test]
 fn layered_block_runs_from_the_base_upwards() {
-    let stiff = Material::new(30.0e9, 0.2, 2400.0).unwrap();
+    let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     let layers = [
-        Layer::new(1.0, 1, stiff),
+        Layer::new(1.0, 1, concrete),
         Layer { formulation: QuadFormulation::OnePoint, ..Layer::new(4.0, 2, soft()) },
-        Layer::new(2.0, 1, stiff),
+        Layer::new(2.0, 1, concrete),
     ];
     let mesh = Mesh::layered_block(-3.0..3.0, 3, &layers).unwrap();
     assert_eq!(mesh.elements().len(), 12);
@@ -31,20 +31,22 @@ fn layered_block_runs_from_the_base_upwards() {
     assert_eq!(mesh.nearest_node(1.4, 4.8), Some(14));
     assert_eq!(Mesh::new().nearest_node(0.0, 0.0), None);
     assert_eq!(mesh.elements().len(), 12);
-    // A clone grows by itself.
-    let mut larger = mesh.clone();
-    let low = larger.add_node(5.0, 0.0).unwrap();
-    let high = larger.add_node(5.0, 1.0).unwrap();
-    larger.add(Quad4::new([3, low, high, 7], stiff, QuadFormulation::OnePoint)).unwrap();
-    assert_eq!((mesh.elements().len(), larger.elements().len()), (12, 13));
-    let last = larger.elements().last().unwrap();
-    assert_eq!(last.nodes(), [3, 20, 21, 7]);
-    assert_eq!((mesh.nodes().len(), larger.nodes().len()), (20, 22));
+    // A clone is independent.
+    let mut larger_mesh = mesh.clone();
+    let low = larger_mesh.add_node(5.0, 0.0).unwrap();
+    let high = larger_mesh.add_node(5.0, 1.0).unwrap();
+    larger_mesh
+        .add(Quad4::new([3, low, high, 7], concrete, QuadFormulation::OnePoint))
+        .unwrap();
+    assert_eq!((mesh.elements().len(), larger_mesh.elements().len()), (12, 13));
+    let last_element = larger_mesh.elements().last().unwrap();
+    assert_eq!(last_element.nodes(), [3, 20, 21, 7]);
+    assert_eq!((mesh.nodes().len(), larger_mesh.nodes().len()), (20, 22));
     let model = FemModel::on_base(mesh).unwrap();
     assert_eq!(model.clone().dofs(), model.dofs());
 }
 
-/// A point without a node is refused, however near the next one: nobody shall read the wrong one.
+/// A point without a node is an error, however near the next one, so that no wrong node is taken.
 #[test]
 fn a_node_is_where_it_is_looked_for_or_nowhere() {
     let mesh = Mesh::layered_block(-2.0..2.0, 3, &[Layer::new(20.0, 10, soft())]).unwrap();
@@ -62,12 +64,12 @@ fn a_node_is_where_it_is_looked_for_or_nowhere() {
     }
     let error = model.mesh().node_at(2.0, 200.0).unwrap_err().to_string();
     assert_eq!(error, "no node at (2, 200): the nearest, at (2, 20), is 180 m away");
-    for bad in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(model.mesh().node_at(bad, 0.0), Err(Error::Input { .. })));
-        assert!(matches!(model.mesh().node_at(0.0, bad), Err(Error::Input { .. })));
+    for invalid_value in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(model.mesh().node_at(invalid_value, 0.0), Err(Error::Input { .. })));
+        assert!(matches!(model.mesh().node_at(0.0, invalid_value), Err(Error::Input { .. })));
     }
     assert!(matches!(Mesh::new().node_at(0.0, 0.0), Err(Error::Size { .. })));
-    // A single node has no size: only its exact place will do.
+    // A mesh of one node has no size: only the exact place finds it.
     let mut point = Mesh::new();
     point.add_node(1.0, 2.0).unwrap();
     assert_eq!(point.node_at(1.0, 2.0), Ok(0));
@@ -75,17 +77,17 @@ fn a_node_is_where_it_is_looked_for_or_nowhere() {
 }
 
 #[test]
-fn rows_that_no_node_has_are_refused() {
+fn rows_that_no_node_has_are_errors() {
     let mesh = Mesh::layered_block(-2.0..2.0, 2, &[Layer::new(2.0, 1, soft())]).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     assert_eq!(model.row(5, Direction::Y), Ok(DofCombination::from(11)));
-    let none = Error::part(
+    let expected = Error::part(
         "node 5",
         "it has no degree of freedom in direction rotation: no element needs one there",
     );
-    assert_eq!(model.row(5, Direction::Rotation), Err(none));
-    let none = Error::Index { quantity: "node", index: 6, bound: 6 };
-    assert_eq!(model.row(6, Direction::X), Err(none));
+    assert_eq!(model.row(5, Direction::Rotation), Err(expected));
+    let expected = Error::Index { quantity: "node", index: 6, bound: 6 };
+    assert_eq!(model.row(6, Direction::X), Err(expected));
 }
 
 #[test]

@@ -25,19 +25,19 @@ fn tower() -> FemModel {
 fn every_mode_has_its_ratio() {
     let model = tower();
     let squares = eigenvalues(&stiffness(&model), &mass(&model));
-    let damped = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap();
-    let found = eigenvalues(&damping(&damped), &mass(&model));
+    let damped_structure = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap();
+    let computed = eigenvalues(&damping(&damped_structure), &mass(&model));
     let top = squares[squares.len() - 1].sqrt();
-    for (rate, square) in found.iter().zip(&squares).skip(3) {
+    for (rate, square) in computed.iter().zip(&squares).skip(3) {
         assert!((rate - 2.0 * 0.05 * square.sqrt()).abs() < 1e-9 * top, "{rate} {square}");
     }
-    for (frequency, square) in damped.frequencies().iter().zip(&squares[3..]) {
+    for (frequency, square) in damped_structure.frequencies().iter().zip(&squares[3..]) {
         let expected = square.sqrt() / std::f64::consts::TAU;
         assert!((frequency / expected - 1.0).abs() < 1e-9);
     }
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
         let shift = model.rigid_motion(direction, [0.0; 3]);
-        let force = largest(&multiply(&damping(&damped), &shift));
+        let force = largest(&multiply(&damping(&damped_structure), &shift));
         assert!(force < 1e-9 * top * 2000.0, "{direction:?} {force}");
     }
 }
@@ -50,20 +50,21 @@ fn three_storeys() -> ShearBuilding {
 #[test]
 fn ratios_go_from_the_lowest_mode_and_the_last_one_stays() {
     let squares = eigenvalues(&stiffness(&three_storeys()), &mass(&three_storeys()));
-    let damped = ModalDamping::new(&[0.05, 0.02]).unwrap().on(three_storeys()).unwrap();
+    let damped_structure = ModalDamping::new(&[0.05, 0.02]).unwrap().on(three_storeys()).unwrap();
     let mut expected: Vec<f64> = squares[3..]
         .iter()
         .zip([0.05, 0.02, 0.02])
         .map(|(square, ratio)| 2.0 * ratio * square.sqrt())
         .collect();
     expected.sort_by(f64::total_cmp);
-    let found = eigenvalues(&damping(&damped), &mass(&three_storeys()));
-    for (a, b) in found[3..].iter().zip(&expected) {
+    let computed = eigenvalues(&damping(&damped_structure), &mass(&three_storeys()));
+    for (a, b) in computed[3..].iter().zip(&expected) {
         assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
     }
     let rayleigh = RayleighDamping::new(0.3, 0.0).unwrap();
-    let both = ModalDamping::new(&[0.0]).unwrap().on(tower().with_rayleigh(rayleigh)).unwrap();
-    assert_eq!(damping(&both), damping(&tower().with_rayleigh(rayleigh)));
+    let damped_twice =
+        ModalDamping::new(&[0.0]).unwrap().on(tower().with_rayleigh(rayleigh)).unwrap();
+    assert_eq!(damping(&damped_twice), damping(&tower().with_rayleigh(rayleigh)));
 }
 
 const FLOOR_COUNT: usize = 5;
@@ -99,9 +100,10 @@ fn modal_damping(c: &Vec<Vec<f64>>, j: usize, k: usize) -> f64 {
 #[test]
 fn modes_on_a_fixed_base_have_their_ratio() {
     let ratios = [0.05, 0.03, 0.02];
-    let damped = ModalDamping::new(&ratios).unwrap().on_fixed_base(uniform_building()).unwrap();
-    assert_eq!(damped.frequencies().len(), FLOOR_COUNT);
-    let on_fixed_base = damping(&damped);
+    let damped_structure =
+        ModalDamping::new(&ratios).unwrap().on_fixed_base(uniform_building()).unwrap();
+    assert_eq!(damped_structure.frequencies().len(), FLOOR_COUNT);
+    let on_fixed_base = damping(&damped_structure);
     let free = damping(&ModalDamping::new(&[0.05]).unwrap().on(uniform_building()).unwrap());
     // Σ sin² 2iα is (2n + 1)/4.
     let modal_mass = FLOOR_MASS * 11.0 / 4.0;
@@ -109,11 +111,11 @@ fn modes_on_a_fixed_base_have_their_ratio() {
         let circular = 2.0 * (STOREY_STIFFNESS / FLOOR_MASS).sqrt() * mode_angle(j).sin();
         let ratio = modal_damping(&on_fixed_base, j, j) / (2.0 * circular * modal_mass);
         assert!((ratio / ratios[j.min(2)] - 1.0).abs() < 1e-4, "{j} {ratio}");
-        let found = damped.frequencies()[j] * std::f64::consts::TAU;
-        assert!((found / circular - 1.0).abs() < 1e-5, "{j} {found} {circular}");
+        let computed = damped_structure.frequencies()[j] * std::f64::consts::TAU;
+        assert!((computed / circular - 1.0).abs() < 1e-5, "{j} {computed} {circular}");
         for k in 0..j {
-            let both = modal_damping(&on_fixed_base, j, k) / (2.0 * circular * modal_mass);
-            assert!(both.abs() < 1e-5, "{j} {k} {both}");
+            let damping_ratio = modal_damping(&on_fixed_base, j, k) / (2.0 * circular * modal_mass);
+            assert!(damping_ratio.abs() < 1e-5, "{j} {k} {damping_ratio}");
         }
     }
     let first = 2.0 * (STOREY_STIFFNESS / FLOOR_MASS).sqrt() * mode_angle(0).sin();
@@ -125,8 +127,8 @@ fn modes_on_a_fixed_base_have_their_ratio() {
 #[test]
 fn damping_on_a_fixed_base_leaves_rigid_motions_alone() {
     let model = tower();
-    let damped = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(tower()).unwrap();
-    let matrix = damping(&damped);
+    let damped_structure = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(tower()).unwrap();
+    let matrix = damping(&damped_structure);
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
         let shift = model.rigid_motion(direction, [0.0; 3]);
         let force = largest(&multiply(&matrix, &shift));
@@ -146,9 +148,9 @@ fn damping_on_a_fixed_base_leaves_rigid_motions_alone() {
     let column = FemModel::on_base(mesh).unwrap();
     let ratios = ModalDamping::new(&[0.05]).unwrap();
     assert!(matches!(ratios.on(column.clone()), Err(Error::Scene { .. })));
-    let damped = ratios.on_fixed_base(column).unwrap();
+    let damped_structure = ratios.on_fixed_base(column).unwrap();
     let squares = [3.0 * 3e10 * 1e-3 / (64.0 * 5e3), 3e10 * 0.1 / (4.0 * 5e3)];
-    for (found, square) in damped.frequencies().iter().zip(squares) {
+    for (found, square) in damped_structure.frequencies().iter().zip(squares) {
         let expected = f64::sqrt(square) / std::f64::consts::TAU;
         assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
     }
@@ -204,11 +206,11 @@ fn free_bar() -> FemModel {
 #[test]
 fn the_lowest_modes_of_a_fine_mesh_are_damped() {
     let ratios = [0.05, 0.04, 0.03, 0.02];
-    let damped = ModalDamping::new(&ratios).unwrap().on(free_bar()).unwrap();
-    assert_eq!(damped.frequencies().len(), 3 * (BAR_ELEMENTS + 1) - 3);
+    let damped_structure = ModalDamping::new(&ratios).unwrap().on(free_bar()).unwrap();
+    assert_eq!(damped_structure.frequencies().len(), 3 * (BAR_ELEMENTS + 1) - 3);
     let model = free_bar();
     let mass = mass(&model);
-    let damping = damping(&damped);
+    let damping = damping(&damped_structure);
     let betas: [f64; 3] = [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_671];
     for (k, beta) in betas.into_iter().enumerate() {
         let kappa = (beta.cosh() - beta.cos()) / (beta.sinh() - beta.sin());
@@ -222,7 +224,7 @@ fn the_lowest_modes_of_a_fine_mesh_are_damped() {
             * f64::sqrt(BAR_MODULUS * BAR_SECOND_MOMENT / (BAR_DENSITY * BAR_AREA));
         let ratio = form(&mode, &damping, &mode) / (2.0 * circular * form(&mode, &mass, &mode));
         assert!((ratio / ratios[k] - 1.0).abs() < 1e-4, "mode {}: {ratio}", k + 1);
-        let frequency = damped.frequencies()[k] * std::f64::consts::TAU;
+        let frequency = damped_structure.frequencies()[k] * std::f64::consts::TAU;
         assert!((frequency / circular - 1.0).abs() < 1e-5, "mode {}: {frequency}", k + 1);
     }
 }
@@ -231,15 +233,17 @@ fn the_lowest_modes_of_a_fine_mesh_are_damped() {
 #[test]
 fn rigid_motions_are_counted_by_what_they_are() {
     use basemat::structure::StructureGroup;
-    let one = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap().frequencies().len();
-    assert_eq!(one, tower().dofs() - 3);
+    let frequency_count =
+        ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap().frequencies().len();
+    assert_eq!(frequency_count, tower().dofs() - 3);
     let block = RigidBlock::new(2.0, 2.0, 2000.0).unwrap();
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block, 9.0).unwrap();
     let two = ModalDamping::new(&[0.05]).unwrap().on(group).unwrap();
-    assert_eq!(two.frequencies().len(), one);
+    assert_eq!(two.frequencies().len(), frequency_count);
     let building = three_storeys();
-    let leaning = ModalDamping::new(&[0.05]).unwrap().on(building.with_p_delta(9.81).unwrap());
-    assert_eq!(leaning.unwrap().frequencies().len(), 3);
+    let structure_with_p_delta =
+        ModalDamping::new(&[0.05]).unwrap().on(building.with_p_delta(9.81).unwrap());
+    assert_eq!(structure_with_p_delta.unwrap().frequencies().len(), 3);
 }
 
 /// A structure whose mass matrix has a zero.
@@ -263,18 +267,18 @@ impl Structure for Massless {
 }
 
 #[test]
-fn bad_ratios_and_structures_are_refused() {
+fn bad_ratios_and_structures_are_errors() {
     assert!(matches!(ModalDamping::new(&[]), Err(Error::Size { .. })));
-    for bad in [-0.1, f64::NAN, f64::INFINITY] {
-        assert!(matches!(ModalDamping::new(&[0.05, bad]), Err(Error::Input { .. })));
+    for invalid_value in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(matches!(ModalDamping::new(&[0.05, invalid_value]), Err(Error::Input { .. })));
     }
     let damping = ModalDamping::new(&[0.05]).unwrap();
-    let massless = Massless(RigidBlock::new(2.0, 2.0, 2.0).unwrap());
-    assert!(matches!(damping.on(massless), Err(Error::Scene { .. })));
+    let massless_structure = Massless(RigidBlock::new(2.0, 2.0, 2.0).unwrap());
+    assert!(matches!(damping.on(massless_structure), Err(Error::Scene { .. })));
     let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
-    let large = Mesh::layered_block(0.0..1.0, 40, &[Layer::new(1.0, 40, material)]).unwrap();
-    let large = damping.on(FemModel::on_base(large).unwrap());
-    assert!(matches!(large, Err(Error::Input { value: 3362.0, .. })));
+    let result = Mesh::layered_block(0.0..1.0, 40, &[Layer::new(1.0, 40, material)]).unwrap();
+    let result = damping.on(FemModel::on_base(result).unwrap());
+    assert!(matches!(result, Err(Error::Input { value: 3362.0, .. })));
 }
 
 /// A structure whose base is not made of its degrees of freedom.
@@ -298,7 +302,7 @@ impl Structure for Astray {
 }
 
 #[test]
-fn a_base_of_dofs_that_are_not_there_is_refused() {
+fn a_base_of_dofs_that_are_not_there_is_an_error() {
     let fault = ModalDamping::new(&[0.05]).unwrap().on(Astray).unwrap_err();
     assert!(matches!(fault, Error::Index { index: usize::MAX, bound: 2, .. }), "{fault}");
 }

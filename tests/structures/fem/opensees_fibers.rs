@@ -189,16 +189,16 @@ fn differences(element: &str, formulation: BeamFormulation, beam_count: usize, s
         }
         let force = column.solve(&load, &prescribed);
         let displacement = column.displacement[top..top + 3].iter().copied();
-        let found: Vec<f64> = displacement.chain([force[top]]).chain(column.foot()).collect();
+        let computed: Vec<f64> = displacement.chain([force[top]]).chain(column.foot()).collect();
         for k in 0..9 {
-            errors[k] = errors[k].max((found[k] - expected[k]).abs());
+            errors[k] = errors[k].max((computed[k] - expected[k]).abs());
             scales[k] = scales[k].max(expected[k].abs());
         }
     }
-    let relative: Vec<f64> =
+    let relative_differences: Vec<f64> =
         errors.iter().zip(scales).map(|(error, scale)| error / scale).collect();
-    println!("{element}, {steel}: {relative:?}");
-    largest(&relative)
+    println!("{element}, {steel}: {relative_differences:?}");
+    largest(&relative_differences)
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn lowest(model: &FemModel, free: &[usize]) -> f64 {
 
 /// PROBLEM: Greenhill's column. RESULT: the axial force is the weight above the middle of each beam,
 /// the buckling factor tends to the closed form from above with the fourth power of the beams' length,
-/// and what stands below it and what does not is told apart.
+/// above the closed form the column is an error.
 #[test]
 fn a_column_buckles_under_its_weight_as_greenhill_says() {
     let critical = GREENHILL_FACTOR * BENDING_STIFFNESS
@@ -75,8 +75,8 @@ fn a_column_buckles_under_its_weight_as_greenhill_says() {
         let model = model.with_p_delta(0.3 * critical).unwrap();
         for (k, found) in compressions(&model).into_iter().enumerate() {
             let above = (1.0 - (k as f64 + 0.5) / elements as f64) * COLUMN_LENGTH;
-            let exact = MASS_DENSITY * SECTION_AREA * 0.3 * critical * above;
-            assert!((found / exact - 1.0).abs() < 1e-9, "{k}: {found} {exact}");
+            let expected = MASS_DENSITY * SECTION_AREA * 0.3 * critical * above;
+            assert!((found / expected - 1.0).abs() < 1e-9, "{k}: {found} {expected}");
         }
         0.3 * model.buckling_factor().unwrap() - 1.0
     });
@@ -114,11 +114,11 @@ fn frequencies_of_a_heavy_column_drop_with_its_weight() {
     for (quarters, exact) in EXACT_SQUARES.into_iter().enumerate() {
         let weight_ratio = quarters as f64 / 4.0;
         let CantileverColumn { model, free } = cantilever(20, MASS_DENSITY, 0.0);
-        let loaded = model.with_p_delta(weight_ratio * critical).unwrap();
-        let found = lowest(&loaded, &free) / unit;
-        assert!((found / exact - 1.0).abs() < 2e-6, "{weight_ratio}: {found} {exact}");
-        let linear = EXACT_SQUARES[0] * (1.0 - weight_ratio);
-        assert!((found / linear - 1.0).abs() < 5e-3, "{weight_ratio}: {found}");
+        let loaded_model = model.with_p_delta(weight_ratio * critical).unwrap();
+        let computed = lowest(&loaded_model, &free) / unit;
+        assert!((computed / exact - 1.0).abs() < 2e-6, "{weight_ratio}: {computed} {exact}");
+        let linear_square = EXACT_SQUARES[0] * (1.0 - weight_ratio);
+        assert!((computed / linear_square - 1.0).abs() < 5e-3, "{weight_ratio}: {computed}");
     }
 }
 
@@ -129,30 +129,30 @@ fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
     let euler =
         std::f64::consts::PI.powi(2) * BENDING_STIFFNESS / (4.0 * COLUMN_LENGTH * COLUMN_LENGTH);
     let tip = 1.0e5;
-    for load_ratio in [0.1, 0.5, 0.9] {
+    for ratio in [0.1, 0.5, 0.9] {
         let CantileverColumn { model, free } = cantilever(8, 0.0, tip);
-        let model = model.with_p_delta(load_ratio * euler / tip).unwrap();
+        let model = model.with_p_delta(ratio * euler / tip).unwrap();
         let factor = model.buckling_factor().unwrap();
-        assert!((factor * load_ratio - 1.0).abs() < 1e-5, "{factor} {load_ratio}");
+        assert!((factor * ratio - 1.0).abs() < 1e-5, "{factor} {ratio}");
         // Static condensation: the tip's flexibility.
         let free_stiffness = submatrix(&stiffness(&model), &free);
         let at = model.dof(8, Direction::X).unwrap() - free[0];
         let mut load = vec![0.0; free_stiffness.len()];
         load[at] = 1.0;
         let flexibility = basemat_problems::dense::solve(&free_stiffness, &load)[at];
-        let found = 1.0 / flexibility / tip;
-        let force = load_ratio * euler;
-        let k = (load_ratio * euler / BENDING_STIFFNESS).sqrt();
-        let exact = force / (tip * ((k * COLUMN_LENGTH).tan() / k - COLUMN_LENGTH));
-        let tolerance = 1e-5 / (1.0 - load_ratio);
-        assert!((found / exact - 1.0).abs() < tolerance, "{load_ratio}: {found} {exact}");
-        let straight = 3.0 * BENDING_STIFFNESS / (tip * COLUMN_LENGTH.powi(3)) * (1.0 - load_ratio);
-        assert!((found / straight - 1.0).abs() < 0.02, "{load_ratio}: {found} {straight}");
+        let computed = 1.0 / flexibility / tip;
+        let force = ratio * euler;
+        let k = (ratio * euler / BENDING_STIFFNESS).sqrt();
+        let expected = force / (tip * ((k * COLUMN_LENGTH).tan() / k - COLUMN_LENGTH));
+        let tolerance = 1e-5 / (1.0 - ratio);
+        assert!((computed / expected - 1.0).abs() < tolerance, "{ratio}: {computed} {expected}");
+        let linear_value = 3.0 * BENDING_STIFFNESS / (tip * COLUMN_LENGTH.powi(3)) * (1.0 - ratio);
+        assert!((computed / linear_value - 1.0).abs() < 0.02, "{ratio}: {computed} {linear_value}");
     }
     let model = cantilever(8, 0.0, tip).model;
-    let fallen = model.with_p_delta(1.25 * euler / tip);
+    let buckled_result = model.with_p_delta(1.25 * euler / tip);
     assert!(
-        matches!(fallen, Err(Error::Structure(StructureError::Buckling { factor })) if (factor - 0.8).abs() < 1e-5)
+        matches!(buckled_result, Err(Error::Structure(StructureError::Buckling { factor })) if (factor - 0.8).abs() < 1e-5)
     );
 }
 
@@ -186,7 +186,7 @@ fn axial_forces_of_a_portal_are_those_of_statics() {
     let gravity = 10.0;
     let load = 5.0e3;
     let model = portal(load, |_, beam| beam).with_p_delta(gravity).unwrap();
-    let found = compressions(&model);
+    let computed = compressions(&model);
     let w = 4.0e4 * 0.02 * gravity;
     let weight = load * gravity;
     let quarter = PORTAL_HEIGHT / 4.0;
@@ -194,29 +194,29 @@ fn axial_forces_of_a_portal_are_those_of_statics() {
         let column = w * (PORTAL_HEIGHT - (k as f64 + 0.5) * quarter);
         let left = column + 0.5 * w * PORTAL_SPAN + 0.75 * weight;
         let right = column + 0.5 * w * PORTAL_SPAN + 0.25 * weight;
-        assert!((found[k] / left - 1.0).abs() < 1e-6, "{k}: {} {left}", found[k]);
-        assert!((found[11 - k] / right - 1.0).abs() < 1e-6, "{k}: {} {right}", found[11 - k]);
+        assert!((computed[k] / left - 1.0).abs() < 1e-6, "{k}: {} {left}", computed[k]);
+        assert!((computed[11 - k] / right - 1.0).abs() < 1e-6, "{k}: {} {right}", computed[11 - k]);
     }
     let k = PORTAL_HEIGHT / PORTAL_SPAN;
     let a = 0.25 * PORTAL_SPAN;
     let b = 0.75 * PORTAL_SPAN;
     let thrust = w * PORTAL_SPAN * PORTAL_SPAN / (4.0 * PORTAL_HEIGHT * (2.0 * k + 3.0))
         + 3.0 * weight * a * b / (2.0 * PORTAL_HEIGHT * PORTAL_SPAN * (2.0 * k + 3.0));
-    for (place, girder) in found[4..8].iter().enumerate() {
+    for (place, girder) in computed[4..8].iter().enumerate() {
         assert!((girder / thrust - 1.0).abs() < 1e-5, "{place}: {girder} {thrust}");
     }
-    // Found anew, not added up; with no weight there is none.
-    let heavier = model.with_p_delta(2.0 * gravity).unwrap();
-    for (a, b) in compressions(&heavier).iter().zip(&found) {
+    // Forces are computed anew and do not add up; without weight there are none.
+    let heavier_model = model.with_p_delta(2.0 * gravity).unwrap();
+    for (a, b) in compressions(&heavier_model).iter().zip(&computed) {
         assert!((a / b - 2.0).abs() < 1e-12);
     }
-    let without = heavier.with_p_delta(0.0).unwrap();
-    assert!(compressions(&without).iter().all(|force| *force == 0.0));
-    assert_eq!(stiffness(&without), stiffness(&portal(load, |_, beam| beam)));
-    assert_eq!(without.buckling_factor(), Ok(f64::INFINITY));
+    let model_without_p_delta = heavier_model.with_p_delta(0.0).unwrap();
+    assert!(compressions(&model_without_p_delta).iter().all(|force| *force == 0.0));
+    assert_eq!(stiffness(&model_without_p_delta), stiffness(&portal(load, |_, beam| beam)));
+    assert_eq!(model_without_p_delta.buckling_factor(), Ok(f64::INFINITY));
 }
 
-/// Forces at the feet of the portal that a user gives.
+/// Beams of the portal; the feet have compressions that a user prescribes.
 fn with_given_feet(k: usize, beam: Beam) -> Beam {
     match k {
         0 => beam.with_compression(123.0).unwrap(),
@@ -227,11 +227,11 @@ fn with_given_feet(k: usize, beam: Beam) -> Beam {
 
 #[test]
 fn forces_given_by_hand_stay() {
-    let found = compressions(&portal(5.0e3, with_given_feet).with_p_delta(10.0).unwrap());
-    let all = compressions(&portal(5.0e3, |_, beam| beam).with_p_delta(10.0).unwrap());
-    assert_eq!((found[0], found[11]), (123.0, 0.0));
-    assert_eq!(found[1..11], all[1..11]);
-    // Too much by hand is found as well.
+    let computed = compressions(&portal(5.0e3, with_given_feet).with_p_delta(10.0).unwrap());
+    let all_forces = compressions(&portal(5.0e3, |_, beam| beam).with_p_delta(10.0).unwrap());
+    assert_eq!((computed[0], computed[11]), (123.0, 0.0));
+    assert_eq!(computed[1..11], all_forces[1..11]);
+    // Compressions beyond the buckling load that a user prescribes are errors as well.
     let model = portal(5.0e3, |_, beam| beam.with_compression(1.0e10).unwrap());
     let factor = model.buckling_factor().unwrap();
     assert!(factor > 0.0 && factor < 1.0, "{factor}");
@@ -249,19 +249,19 @@ fn p_delta_overturns_but_does_not_hold() {
     let model = portal(5.0e3, |_, beam| beam).with_p_delta(10.0).unwrap();
     let model = model.with_rayleigh(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
     let matrix = stiffness(&model);
-    let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
+    let max_stiffness = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
     for direction in [Direction::X, Direction::Y] {
         let shift = model.rigid_motion(direction, [0.0; 3]);
-        assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * stiffest);
+        assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * max_stiffness);
     }
     let turn = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     let moment = form(&turn, &matrix, &turn);
     let w = 4.0e4 * 0.02 * 10.0;
     let weight = 5.0e3 * 10.0;
-    let exact = -(2.0 * w * PORTAL_HEIGHT * 0.5 * PORTAL_HEIGHT
+    let expected = -(2.0 * w * PORTAL_HEIGHT * 0.5 * PORTAL_HEIGHT
         + (w * PORTAL_SPAN + weight) * PORTAL_HEIGHT);
-    assert!((moment / exact - 1.0).abs() < 1e-4, "{moment} {exact}");
-    // Each weight acts on its node, and the base on the ground.
+    assert!((moment / expected - 1.0).abs() < 1e-4, "{moment} {expected}");
+    // The force on each node above the base is that of its weight.
     let mut force = multiply(&matrix, &turn);
     let mass = mass(&model);
     let right = model.rigid_motion(Direction::X, [0.0; 3]);
@@ -272,21 +272,21 @@ fn p_delta_overturns_but_does_not_hold() {
         let dof = model.dof(node, Direction::X).unwrap();
         assert!(force[dof].abs() < 1e-4 * weight, "{node} {}", force[dof]);
     }
-    let undamped = portal(5.0e3, |_, beam| beam)
+    let linear_model = portal(5.0e3, |_, beam| beam)
         .with_rayleigh(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
-    assert_eq!(damping(&model), damping(&undamped));
-    // Nothing is fixed: it marches, and leans by its weight where the ground is soft.
+    assert_eq!(damping(&model), damping(&linear_model));
+    // A simulation of the frame on soft ground, in which no node is fixed, can be built.
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
-    let built = Simulation::builder(0.01)
+    let result = Simulation::builder(0.01)
         .structure(model)
         .ground(ElasticGround::new(soil, Strip::uniform(0.0..PORTAL_SPAN, 6).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .gravity(10.0)
         .build();
-    assert!(built.is_ok(), "{:?}", built.err());
+    assert!(result.is_ok(), "{:?}", result.err());
 }
 
-/// Rigid links change the way of the forces: they are found anew, in whichever order.
+/// Rigid links change the path of the forces, which are computed anew in either order of the calls.
 #[test]
 fn links_after_p_delta_find_the_forces_anew() {
     let after = portal(5.0e3, |_, beam| beam).with_p_delta(10.0).unwrap();
@@ -323,19 +323,21 @@ fn a_leaning_column_needs_its_brace() {
     let kb = 0.5 * BRACE_STIFFNESS / (BRACED_HEIGHT * 2.0_f64.sqrt());
     let critical = BRACED_HEIGHT * kb * kc / (kb + kc);
     let model = braced_column(load).with_p_delta(10.0).unwrap();
-    let found = compressions(&model);
-    assert!((found[0] / (load * 10.0) - 1.0).abs() < 1e-12 && found[1].abs() < 1e-9 * found[0]);
+    let computed = compressions(&model);
+    assert!(
+        (computed[0] / (load * 10.0) - 1.0).abs() < 1e-12 && computed[1].abs() < 1e-9 * computed[0]
+    );
     let factor = model.buckling_factor().unwrap();
-    assert!((factor * found[0] / critical - 1.0).abs() < 1e-8, "{factor}");
-    let fallen = braced_column(load).with_p_delta(1.01 * critical / load);
-    assert!(matches!(fallen, Err(Error::Structure(StructureError::Buckling { .. }))));
+    assert!((factor * computed[0] / critical - 1.0).abs() < 1e-8, "{factor}");
+    let buckled_result = braced_column(load).with_p_delta(1.01 * critical / load);
+    assert!(matches!(buckled_result, Err(Error::Structure(StructureError::Buckling { .. }))));
 }
 
 #[test]
-fn what_has_no_p_delta_is_refused() {
-    for bad in [f64::NAN, f64::INFINITY, -9.81] {
+fn what_has_no_p_delta_is_an_error() {
+    for invalid_value in [f64::NAN, f64::INFINITY, -9.81] {
         assert!(matches!(
-            portal(1.0, |_, b| b).with_p_delta(bad),
+            portal(1.0, |_, b| b).with_p_delta(invalid_value),
             Err(Error::Input { quantity: "acceleration of gravity", .. })
         ));
     }
@@ -347,18 +349,18 @@ fn what_has_no_p_delta_is_refused() {
     mesh.add(column.unwrap()).unwrap();
     mesh.add(LumpedMass::new(nodes[2], 1.0).unwrap()).unwrap();
     let model = FemModel::new(mesh, &[nodes[0], nodes[2]]).unwrap();
-    let refused = model.with_p_delta(9.81);
+    let result = model.with_p_delta(9.81);
     assert!(
         matches!(
-            refused,
+            result,
             Err(Error::Singular { .. } | Error::Structure(StructureError::Buckling { .. }))
         ),
         "{:?}",
-        refused.err()
+        result.err()
     );
 }
 
-/// A rod that goes elsewhere in the static state.
+/// A rod whose nodes change in the static state.
 struct MovingRod {
     nodes: [usize; 2],
     directions: &'static [Direction],
@@ -374,8 +376,8 @@ impl Element for MovingRod {
     fn stiffness(&self, _: &[[f64; 3]], _: &mut [f64]) {}
     fn mass(&self, _: &[[f64; 3]], _: MassKind, _: &mut [f64]) {}
     fn in_static_state(&self, _: &[[f64; 3]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
-        let elsewhere = if self.nodes[1] == 1 { [0, 999] } else { self.nodes };
-        Some(Box::new(Self { nodes: elsewhere, directions: &[Direction::Y] }))
+        let moved_nodes = if self.nodes[1] == 1 { [0, 999] } else { self.nodes };
+        Some(Box::new(Self { nodes: moved_nodes, directions: &[Direction::Y] }))
     }
 }
 

@@ -36,18 +36,18 @@ fn assert_rotates(model: &FemModel, point: [f64; 3], scene: &str) {
     let height = form(&translations[0], &mass, &rotations[1])
         / form(&translations[0], &mass, &translations[0]);
     let scale = weight * height.max(1.0);
-    let stiffest = stiffness.iter().map(|row| largest(row)).fold(0.0, f64::max);
-    let rounding = 1e-9 * scale + 1e-13 * stiffest;
+    let max_stiffness = stiffness.iter().map(|row| largest(row)).fold(0.0, f64::max);
+    let rounding = 1e-9 * scale + 1e-13 * max_stiffness;
     for motion in translations.iter().chain([&rotations[2]]) {
         let force = largest(&multiply(&stiffness, motion));
         assert!(force < rounding, "{scene}: {:.3e} of the weight", force / weight);
     }
     for a in 0..3 {
         for b in 0..3 {
-            let exact = if a == b && a < 2 { -weight * height } else { 0.0 };
-            let found = form(&rotations[a], &stiffness, &rotations[b]);
-            let error = (found - exact).abs();
-            assert!(error < 10.0 * rounding, "{scene}: {a} {b} {found} {exact}");
+            let expected = if a == b && a < 2 { -weight * height } else { 0.0 };
+            let computed = form(&rotations[a], &stiffness, &rotations[b]);
+            let error = (computed - expected).abs();
+            assert!(error < 10.0 * rounding, "{scene}: {a} {b} {computed} {expected}");
         }
     }
 }
@@ -125,7 +125,7 @@ fn frame(random: &mut Random) -> FemModel {
     }
 }
 
-/// Before, the axial forces alone turned: r_zᵀ K r_z of such frames was as much as −3e5 N·m.
+/// If the axial forces alone turned, r_zᵀ K r_z of such frames would be as much as −3e5 N·m.
 #[test]
 fn a_rotation_of_a_frame_about_the_vertical_meets_no_force() {
     for number in 0..60 {
@@ -134,21 +134,21 @@ fn a_rotation_of_a_frame_about_the_vertical_meets_no_force() {
     }
 }
 
-/// Frames come to rest on a ground without friction. Before, a torque that friction must carry refused some.
+/// Frames come to rest on a ground without friction, which carries no torque.
 #[test]
 fn frames_stand_without_friction() {
     for number in 0..10 {
         for stage in [GravityStage::Frictionless, GravityStage::Frictional] {
             let model = frame(&mut Random(71 + number)).with_p_delta(GRAVITY_ACCELERATION).unwrap();
             let ground = SpringGround::under(&model, 6, 5e7, 4e7).unwrap();
-            let built = Simulation::builder(0.005)
+            let result = Simulation::builder(0.005)
                 .gravity(GRAVITY_ACCELERATION)
                 .gravity_stage(stage)
                 .ground(ground.with_dashpots(4e5, 3e5).unwrap())
                 .structure(model)
                 .interface(Coulomb::new(0.0).unwrap())
                 .build();
-            assert!(built.is_ok(), "{number}: {}", built.err().unwrap());
+            assert!(result.is_ok(), "{number}: {}", result.err().unwrap());
         }
     }
 }
@@ -204,7 +204,7 @@ fn solids() -> [FemModel; 2] {
     }
     let mut row = raft.row(1).to_vec();
     for level in 1..4_usize {
-        let next: Vec<usize> = row
+        let next_nodes: Vec<usize> = row
             .iter()
             .map(|&node| {
                 let place = mesh.nodes()[node];
@@ -213,16 +213,16 @@ fn solids() -> [FemModel; 2] {
             })
             .collect();
         for k in 0..row.len() - 1 {
-            let nodes = [row[k], row[k + 1], next[k + 1], next[k]];
+            let nodes = [row[k], row[k + 1], next_nodes[k + 1], next_nodes[k]];
             if (k + level).is_multiple_of(2) {
                 mesh.add(Shell::new(nodes, concrete(), 0.3).unwrap()).unwrap();
             } else {
-                for three in [[nodes[0], nodes[1], nodes[2]], [nodes[0], nodes[2], nodes[3]]] {
-                    mesh.add(Shell::new(three, concrete(), 0.3).unwrap()).unwrap();
+                for corners in [[nodes[0], nodes[1], nodes[2]], [nodes[0], nodes[2], nodes[3]]] {
+                    mesh.add(Shell::new(corners, concrete(), 0.3).unwrap()).unwrap();
                 }
             }
         }
-        row = next;
+        row = next_nodes;
     }
     mesh.add(LumpedMass::in_space(row[0], 60e3, [0.0; 3]).unwrap()).unwrap();
     [bricks, FemModel::on_base(mesh).unwrap()]
@@ -247,7 +247,7 @@ fn bricks_and_shells_rotate_with_their_forces() {
 fn a_column_of_bricks_buckles_as_euler_says() {
     let length = 12.0_f64;
     let side = 0.5_f64;
-    let light = Material::new(30e9, 0.0, 1e-3).unwrap();
+    let light_material = Material::new(30e9, 0.0, 1e-3).unwrap();
     let euler = std::f64::consts::PI.powi(2) * 30e9 * side.powi(4) / 12.0 / (4.0 * length * length);
     let errors = [6, 12].map(|count| {
         let mut mesh = Mesh::in_space();
@@ -256,7 +256,7 @@ fn a_column_of_bricks_buckles_as_euler_says() {
         let heights: Vec<f64> =
             (1..=count).map(|k| length * f64::from(k) / f64::from(count)).collect();
         for brick in foot.unwrap().extrude(&mut mesh, &heights).unwrap() {
-            mesh.add(Hex8::new(brick, light)).unwrap();
+            mesh.add(Hex8::new(brick, light_material)).unwrap();
         }
         for node in mesh.nodes_at_height(length, 1e-6).unwrap() {
             mesh.add(LumpedMass::in_space(node, 1e3, [0.0; 3]).unwrap()).unwrap();
@@ -269,33 +269,36 @@ fn a_column_of_bricks_buckles_as_euler_says() {
 }
 
 /// PROBLEM: a narrow cantilever with a mass at its tip twists and bends sideways at 4.0126 √(EI GJ)/L² (Prandtl 1899;
-/// Timoshenko & Gere, Theory of Elastic Stability, eq. 6-24). Before, nothing but axial forces buckled a beam.
+/// Timoshenko & Gere, Theory of Elastic Stability, eq. 6-24): without axial forces.
 #[test]
 fn a_narrow_cantilever_buckles_sideways() {
     let length = 5.0;
     let mass = 100.0;
     let lateral = 2.0e-7;
     let torsion = 6.0e-7;
-    let light = Material::new(200e9, 0.25, 1e-6).unwrap();
-    let exact = 4.0126 * 200e9 * (lateral * torsion / 2.5_f64).sqrt() / (length * length);
+    let light_material = Material::new(200e9, 0.25, 1e-6).unwrap();
+    let expected = 4.0126 * 200e9 * (lateral * torsion / 2.5_f64).sqrt() / (length * length);
     let errors = [8, 16].map(|count| {
         let mut mesh = Mesh::in_space();
         let foot = mesh.add_grid(2, 2, |row, column| [column as f64, row as f64, 0.0]).unwrap();
         for brick in foot.extrude(&mut mesh, &[1.0]).unwrap() {
-            mesh.add(Hex8::new(brick, light)).unwrap();
+            mesh.add(Hex8::new(brick, light_material)).unwrap();
         }
         let root = mesh.add_node_at([0.5, 0.5, 0.0]).unwrap();
-        let mut last = root;
+        let mut end_node = root;
         for k in 1..=count {
-            let next = mesh.add_node_at([0.5 + length * f64::from(k) / f64::from(count), 0.5, 0.0]);
-            let next = next.unwrap();
+            let next_node =
+                mesh.add_node_at([0.5 + length * f64::from(k) / f64::from(count), 0.5, 0.0]);
+            let next_node = next_node.unwrap();
             // Much stiffer in the vertical plane.
             let section = BeamSection::new(1e-2, [lateral * 1e4, lateral], torsion).unwrap();
-            let beam = SpaceBeam::new([last, next], light, section, [0.0, 1.0, 0.0]).unwrap();
+            let beam =
+                SpaceBeam::new([end_node, next_node], light_material, section, [0.0, 1.0, 0.0])
+                    .unwrap();
             mesh.add(beam).unwrap();
-            last = next;
+            end_node = next_node;
         }
-        mesh.add(LumpedMass::in_space(last, mass, [0.0; 3]).unwrap()).unwrap();
+        mesh.add(LumpedMass::in_space(end_node, mass, [0.0; 3]).unwrap()).unwrap();
         let leader = mesh.node_at_point([0.0; 3]).unwrap();
         mesh.add(LumpedMass::in_space(leader, 1.0, [1.0; 3]).unwrap()).unwrap();
         let corners: Vec<usize> = mesh
@@ -310,7 +313,7 @@ fn a_narrow_cantilever_buckles_sideways() {
             .collect();
         let model = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &corners).unwrap();
         let model = model.with_p_delta(GRAVITY_ACCELERATION).unwrap();
-        model.buckling_factor().unwrap() * mass * GRAVITY_ACCELERATION / exact - 1.0
+        model.buckling_factor().unwrap() * mass * GRAVITY_ACCELERATION / expected - 1.0
     });
     println!("{errors:?}");
     assert!(errors[1].abs() < 0.01 && errors[1].abs() < 0.4 * errors[0].abs(), "{errors:?}");

@@ -40,9 +40,9 @@ fn moved(arm: [f64; 3], u: &[f64; 6]) -> [f64; 3] {
     } else {
         [1.0, 0.5]
     };
-    let once = cross(vector, arm);
-    let twice = cross(vector, once);
-    std::array::from_fn(|k| u[k] + arm[k] + a * once[k] + b * twice[k])
+    let first_product = cross(vector, arm);
+    let second_product = cross(vector, first_product);
+    std::array::from_fn(|k| u[k] + arm[k] + a * first_product[k] + b * second_product[k])
 }
 
 impl LinkedSlab {
@@ -122,13 +122,13 @@ fn linked_model() -> LinkedModel {
 }
 
 /// PROBLEM: a rigid slab of linked nodes on inclined bars. RESULT: the second derivatives of its potential, by finite
-/// differences of finite rotations. Before, the links had no part in P–Δ.
+/// differences of finite rotations.
 #[test]
 fn linked_nodes_move_by_finite_rotations() {
     let LinkedModel { slab, model, leader } = linked_model();
     let dofs = NODE_DIRECTIONS.map(|direction| model.dof(leader, direction).unwrap());
-    let found = stiffness(&model);
-    // Equilibrium.
+    let computed = stiffness(&model);
+    // The forces are in equilibrium.
     for i in 0..6 {
         let [above, below] = [1.0, -1.0].map(|sign| {
             let mut u = [0.0; 6];
@@ -141,9 +141,9 @@ fn linked_nodes_move_by_finite_rotations() {
     let weight: f64 = slab.masses.iter().map(|(_, mass)| mass * GRAVITY_ACCELERATION).sum();
     for i in 0..6 {
         for j in 0..6 {
-            let exact = crate::structures::curvature(|u| slab.potential(u), [i, j], 1e-4);
-            let error = (found[dofs[i]][dofs[j]] - exact).abs();
-            assert!(error < 1e-3 * weight, "{i} {j}: {} {exact}", found[dofs[i]][dofs[j]]);
+            let expected = crate::structures::curvature(|u| slab.potential(u), [i, j], 1e-4);
+            let error = (computed[dofs[i]][dofs[j]] - expected).abs();
+            assert!(error < 1e-3 * weight, "{i} {j}: {} {expected}", computed[dofs[i]][dofs[j]]);
         }
     }
 }

@@ -41,11 +41,12 @@ fn constant_strain_is_reproduced_on_distorted_quads() {
         ] {
             let model = patch(formulation, poisson);
             let stiffness = collect(&model, |k| model.stiffness(k));
-            let exact = exact(&model);
-            let prescribed: Vec<(usize, f64)> = (0..8).map(|index| (index, exact[index])).collect();
-            let found = solve_with_prescribed(&stiffness, &[0.0; 16], &prescribed);
-            let error: Vec<f64> = found.iter().zip(&exact).map(|(a, b)| a - b).collect();
-            assert!(largest(&error) < 1e-11 * largest(&exact), "{formulation:?} {poisson}");
+            let expected = exact(&model);
+            let prescribed: Vec<(usize, f64)> =
+                (0..8).map(|index| (index, expected[index])).collect();
+            let computed = solve_with_prescribed(&stiffness, &[0.0; 16], &prescribed);
+            let error: Vec<f64> = computed.iter().zip(&expected).map(|(a, b)| a - b).collect();
+            assert!(largest(&error) < 1e-11 * largest(&expected), "{formulation:?} {poisson}");
         }
     }
 }
@@ -60,11 +61,11 @@ fn strain_energy_is_that_of_the_uniform_strain() {
         QuadFormulation::Hourglass { percent: 5 },
     ] {
         let model = patch(formulation, 0.25);
-        let exact = exact(&model);
+        let expected = exact(&model);
         // E = 1e6, ν = 1/4: λ = G = 4e5; ε = 1e-3 [1, 1, 1], so σ = [1600, 1600, 400].
         let energy = 0.5 * 1e-3 * (1600.0 + 1600.0 + 400.0) * 0.24 * 0.12;
-        let found = 0.5 * form(&exact, &collect(&model, |k| model.stiffness(k)), &exact);
-        assert!((found / energy - 1.0).abs() < 1e-12, "{formulation:?}: {found} {energy}");
+        let computed = 0.5 * form(&expected, &collect(&model, |k| model.stiffness(k)), &expected);
+        assert!((computed / energy - 1.0).abs() < 1e-12, "{formulation:?}: {computed} {energy}");
     }
 }
 

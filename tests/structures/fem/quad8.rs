@@ -78,8 +78,9 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
             .map(|dof| (dof, field[dof]))
             .collect();
         assert!(prescribed.len() < field.len(), "something is free");
-        let found = solve_with_prescribed(&stiffness(&model), &vec![0.0; field.len()], &prescribed);
-        let error: Vec<f64> = found.iter().zip(&field).map(|(a, b)| a - b).collect();
+        let computed =
+            solve_with_prescribed(&stiffness(&model), &vec![0.0; field.len()], &prescribed);
+        let error: Vec<f64> = computed.iter().zip(&field).map(|(a, b)| a - b).collect();
         let error = largest(&error);
         assert!(error < 1e-12, "{integration:?} {poisson} {bulge}: {error:e}");
     }
@@ -100,8 +101,8 @@ fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
         for direction in [Direction::X, Direction::Y, Direction::Rotation] {
             let shift = model.rigid_motion(direction, [0.0; 3]);
             let matrix = stiffness(&model);
-            let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
-            assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * stiffest);
+            let max_stiffness = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
+            assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * max_stiffness);
         }
     }
     // A rectangle 2 × 3 of density 5 about its corner: m and m (w² + h²)/3.
@@ -143,10 +144,10 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
     for (&node, part) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
         load[model.dof(node, Direction::X).unwrap()] = part;
     }
-    let found = solve_with_prescribed(&stiffness(&model), &load, &fixed);
+    let computed = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     let bending = length.powi(3) / (3.0 * young / (1.0 - nu * nu) / 12.0);
     let shear = length / (5.0 / 6.0 * 0.5 * young / (1.0 + nu));
-    dot(&load, &found) / (bending + shear)
+    dot(&load, &computed) / (bending + shear)
 }
 
 #[test]
@@ -157,7 +158,8 @@ fn one_row_bends_as_it_should() {
             (Quad8Integration::Full, 0.3, 0.03),
             (Quad8Integration::Reduced, 0.4999, 0.1),
         ] {
-            // The clamped foot stiffens it, the more the nearer ν is to ½; locking would halve it.
+            // The clamped foot stiffens the cantilever, the more the nearer ν is to ½; locking would halve the
+            // deflection.
             let ratio = tip_ratio(elements, nu, integration);
             println!("{elements} {integration:?} {nu}: {ratio}");
             assert!((ratio - 1.0).abs() < tolerance, "{elements} {integration:?} {nu}: {ratio}");
@@ -181,16 +183,19 @@ fn pure_bending_is_exact() {
         for [x, y, _] in nodes {
             field.extend([-0.5 * (y * y + nu / (1.0 - nu) * x * x), x * y]);
         }
-        let twice = form(&field, &stiffness(&model), &field);
-        let exact = young / (1.0 - nu * nu) / 12.0 * 3.0;
-        assert!((twice / exact - 1.0).abs() < 1e-12, "{integration:?}: {twice} {exact}");
+        let twice_energy = form(&field, &stiffness(&model), &field);
+        let expected = young / (1.0 - nu * nu) / 12.0 * 3.0;
+        assert!(
+            (twice_energy / expected - 1.0).abs() < 1e-12,
+            "{integration:?}: {twice_energy} {expected}"
+        );
     }
 }
 
 #[test]
-fn bad_shapes_are_refused() {
+fn bad_shapes_are_errors() {
     let quad = Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], Material::new(1.0, 0.3, 1.0).unwrap());
-    let good = [
+    let valid_nodes = [
         [0.0, 0.0],
         [2.0, 0.0],
         [2.0, 1.0],
@@ -201,18 +206,18 @@ fn bad_shapes_are_refused() {
         [0.0, 0.5],
     ]
     .map(|[x, y]| [x, y, 0.0]);
-    assert!(quad.check(&good).is_ok());
-    assert!(matches!(quad.check(&good[..7]), Err(Error::Size { .. })));
-    let mut clockwise = good;
+    assert!(quad.check(&valid_nodes).is_ok());
+    assert!(matches!(quad.check(&valid_nodes[..7]), Err(Error::Size { .. })));
+    let mut clockwise = valid_nodes;
     clockwise.swap(1, 3);
     clockwise.swap(4, 7);
     clockwise.swap(5, 6);
     assert!(matches!(quad.check(&clockwise), Err(Error::Input { .. })));
     // The node of an edge beyond its quarter: the map folds at the corner.
-    let mut folded = good;
-    folded[4][0] = 0.4;
-    assert!(matches!(quad.check(&folded), Err(Error::Input { .. })));
-    let mut missing = good;
-    missing[2][0] = f64::NAN;
-    assert!(matches!(quad.check(&missing), Err(Error::Input { .. })));
+    let mut folded_nodes = valid_nodes;
+    folded_nodes[4][0] = 0.4;
+    assert!(matches!(quad.check(&folded_nodes), Err(Error::Input { .. })));
+    let mut nodes_with_a_missing_one = valid_nodes;
+    nodes_with_a_missing_one[2][0] = f64::NAN;
+    assert!(matches!(quad.check(&nodes_with_a_missing_one), Err(Error::Input { .. })));
 }

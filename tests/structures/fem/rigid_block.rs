@@ -44,9 +44,9 @@ fn point_rows_follow_a_true_small_rotation() {
     // The point (x, z) beside the middle goes to (x cos − z sin, x sin + z cos).
     let x = 0.8;
     let z = 3.0;
-    let exact = [x * angle.cos() - z * angle.sin() - x, x * angle.sin() + z * angle.cos() - z];
-    assert!((row_value(&block.horizontal_at(z), &dofs) - exact[0]).abs() < 1e-11);
-    assert!((row_value(&block.vertical_at(5.0 + x), &dofs) - exact[1]).abs() < 1e-11);
+    let expected = [x * angle.cos() - z * angle.sin() - x, x * angle.sin() + z * angle.cos() - z];
+    assert!((row_value(&block.horizontal_at(z), &dofs) - expected[0]).abs() < 1e-11);
+    assert!((row_value(&block.vertical_at(5.0 + x), &dofs) - expected[1]).abs() < 1e-11);
     let base = block.base();
     let nodes: Vec<_> = base.nodes().collect();
     assert_eq!([nodes[0].x, nodes[1].x], [4.0, 6.0]);
@@ -65,7 +65,7 @@ fn p_delta_is_the_curvature_of_the_potential_energy() {
         [1e-3, 0.0, -1e-3_f64].map(|angle| 900.0 * 9.81 * 4.0 * angle.cos());
     let step = 1e-3;
     let curvature = (above - 2.0 * at_rest + below) / (step * step);
-    let found = stiffness(&block)[2][2];
-    assert!(found < 0.0);
-    assert!((found / curvature - 1.0).abs() < 1e-6);
+    let computed = stiffness(&block)[2][2];
+    assert!(computed < 0.0);
+    assert!((computed / curvature - 1.0).abs() < 1e-6);
 }

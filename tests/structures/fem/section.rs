@@ -10,7 +10,7 @@ use basemat_problems::dense::{
     damping, dot, form, mass, multiply, noise, solve_with_prescribed, stiffness,
 };
 
-/// Of the section, m.
+/// Height of the section, m.
 const CUT_HEIGHT: f64 = 2.0;
 
 /// A frame on a block, and everything above the section as a separate model.
@@ -46,8 +46,8 @@ fn frame_on_block() -> CutFrame {
         mesh.add(LumpedMass::new(top, 3000.0).unwrap().with_rotary_inertia(500.0).unwrap())
             .unwrap();
         mesh.add(Dashpot::axial([foot, roof], 6.0e4).unwrap()).unwrap();
-        let lowest = mesh.nodes().iter().map(|node| node[1]).fold(f64::INFINITY, f64::min);
-        let base = mesh.nodes_at_height(lowest, 1e-9).unwrap();
+        let base_height = mesh.nodes().iter().map(|node| node[1]).fold(f64::INFINITY, f64::min);
+        let base = mesh.nodes_at_height(base_height, 1e-9).unwrap();
         let model = FemModel::new(mesh, &base).unwrap();
         model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
     });
@@ -111,9 +111,12 @@ fn moving_structure_keeps_the_balance_of_its_upper_part() {
     ] {
         let motion = upper.rigid_motion(direction, [0.3, CUT_HEIGHT, 0.0]);
         let balance = dot(&motion, &on_upper) - form(&motion, &inertia, &a[skip..]);
-        let found = rows.value(&u, &v, &a);
-        assert!((found - sign * balance).abs() < 1e-11 * 2.0e8, "{direction:?} {found} {balance}");
-        assert!(found.abs() > 1e3, "the balance is not an empty one");
+        let computed = rows.value(&u, &v, &a);
+        assert!(
+            (computed - sign * balance).abs() < 1e-11 * 2.0e8,
+            "{direction:?} {computed} {balance}"
+        );
+        assert!(computed.abs() > 1e3, "the balance is not an empty one");
     }
 }
 

@@ -39,14 +39,14 @@ fn uniform_building_has_its_closed_form_frequencies() {
     let n = 5_u32;
     let building = ShearBuilding::new(10.0, 1.0e4, 1.0e4, &[Storey::new(3.0, m, k); 5]).unwrap();
     let floors: Vec<usize> = (3..8).collect();
-    let found = eigenvalues(
+    let computed = eigenvalues(
         &submatrix(&stiffness(&building), &floors),
         &submatrix(&mass(&building), &floors),
     );
-    for (j, square) in (1..=n).zip(found) {
+    for (j, square) in (1..=n).zip(computed) {
         let angle = f64::from(2 * j - 1) * PI / f64::from(2 * (2 * n + 1));
-        let exact = 2.0 * f64::sqrt(k / m) * angle.sin();
-        assert!((square.sqrt() / exact - 1.0).abs() < 1e-12, "mode {j}");
+        let expected = 2.0 * f64::sqrt(k / m) * angle.sin();
+        assert!((square.sqrt() / expected - 1.0).abs() < 1e-12, "mode {j}");
     }
     let first = 2.0 * f64::sqrt(k / m) * (PI / 22.0).sin();
     assert!((TAU * building.fixed_base_frequency() / first - 1.0).abs() < 1e-12);
@@ -55,11 +55,11 @@ fn uniform_building_has_its_closed_form_frequencies() {
 #[test]
 fn first_frequency_of_an_uneven_building_is_that_of_jacobi() {
     let building = uneven();
-    let found = eigenvalues(
+    let computed = eigenvalues(
         &submatrix(&stiffness(&building), &[3, 4, 5]),
         &submatrix(&mass(&building), &[3, 4, 5]),
     );
-    assert!((building.fixed_base_frequency() * TAU / found[0].sqrt() - 1.0).abs() < 1e-9);
+    assert!((building.fixed_base_frequency() * TAU / computed[0].sqrt() - 1.0).abs() < 1e-9);
 }
 
 #[test]
@@ -84,8 +84,10 @@ fn rigid_motions_meet_no_force_and_all_the_mass() {
 /// Force on the floors from `storey` upwards = shear that they pass on to what is below.
 #[test]
 fn storey_shear_is_the_sum_of_the_forces_above() {
-    let bare = uneven().with_stiffness_damping(0.03).unwrap();
-    for building in [bare.clone(), bare.with_p_delta(9.81).unwrap()] {
+    let building_without_rotary = uneven().with_stiffness_damping(0.03).unwrap();
+    for building in
+        [building_without_rotary.clone(), building_without_rotary.with_p_delta(9.81).unwrap()]
+    {
         let u = noise(6, 1);
         let v = noise(6, 2);
         let k = stiffness(&building);
@@ -94,8 +96,8 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
             multiply(&k, &u).iter().zip(multiply(&c, &v)).map(|(a, b)| a + b).collect();
         for storey in 0..3 {
             let above: f64 = force[storey + 3..].iter().sum();
-            let found = building.shear(storey).unwrap().value(&u, &v, &[]);
-            assert!((found - above).abs() < 1e-9 * largest(&force), "{storey}");
+            let computed = building.shear(storey).unwrap().value(&u, &v, &[]);
+            assert!((computed - above).abs() < 1e-9 * largest(&force), "{storey}");
         }
         // The force on the base is the opposite of the support's force.
         let base = building.shear(0).unwrap().value(&u, &v, &[]);
@@ -108,12 +110,14 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
 
 #[test]
 fn damping_ratio_is_that_of_the_first_mode() {
-    let damped = uneven().with_stiffness_damping(0.04).unwrap();
+    let damped_building = uneven().with_stiffness_damping(0.04).unwrap();
     let floors = [3, 4, 5];
-    let k = stiffness(&damped);
-    let c = damping(&damped);
+    let k = stiffness(&damped_building);
+    let c = damping(&damped_building);
     let extra = c[5][5] - damping(&uneven())[5][5];
-    let omega = eigenvalues(&submatrix(&k, &floors), &submatrix(&mass(&damped), &floors))[0].sqrt();
+    let omega = eigenvalues(&submatrix(&k, &floors), &submatrix(&mass(&damped_building), &floors))
+        [0]
+    .sqrt();
     assert!((extra / k[5][5] * omega / 2.0 - 0.04).abs() < 1e-10);
 }
 
@@ -134,18 +138,18 @@ fn potential_energy(u: &[f64; 6]) -> f64 {
 #[test]
 fn p_delta_is_the_curvature_of_the_potential_energy() {
     let building = uneven().with_p_delta(9.81).unwrap();
-    let with = stiffness(&building);
-    let without = stiffness(&uneven());
+    let with_p_delta = stiffness(&building);
+    let without_p_delta = stiffness(&uneven());
     for i in 0..6 {
         for j in 0..6 {
             let curvature = curvature(potential_energy, [i, j], 1e-3);
-            let found = with[i][j] - without[i][j];
-            assert!((found - curvature).abs() < 0.02, "({i}, {j}): {found} {curvature}");
+            let computed = with_p_delta[i][j] - without_p_delta[i][j];
+            assert!((computed - curvature).abs() < 0.02, "({i}, {j}): {computed} {curvature}");
         }
     }
     // Turning as a rigid body: −m g z for every floor.
     let moment = 9.81 * (900.0 * 4.0 + 700.0 * 7.0 + 400.0 * 10.5);
-    assert!((form(&UNIT_ROTATION, &with, &UNIT_ROTATION) / -moment - 1.0).abs() < 1e-10);
+    assert!((form(&UNIT_ROTATION, &with_p_delta, &UNIT_ROTATION) / -moment - 1.0).abs() < 1e-10);
 }
 
 #[test]
@@ -160,24 +164,24 @@ fn building_stands_where_it_is_put() {
 #[test]
 fn sway_is_the_sum_of_the_drifts_below() {
     let building = uneven();
-    let moved = [0.3, -0.2, 0.05, 0.7, -0.4, 1.1];
+    let displacement = [0.3, -0.2, 0.05, 0.7, -0.4, 1.1];
     let mut drifts = 0.0;
     for (storey, height) in [4.0, 7.0, 10.5].into_iter().enumerate() {
-        drifts += building.drift(storey).unwrap().value(&moved);
+        drifts += building.drift(storey).unwrap().value(&displacement);
         let sway = building.total_drift(storey).unwrap();
-        assert!((sway.value(&moved) - drifts).abs() < 1e-14, "{storey}");
+        assert!((sway.value(&displacement) - drifts).abs() < 1e-14, "{storey}");
         assert!(sway.value(&UNIT_ROTATION).abs() < 1e-14);
         let floor = DofCombination::from(building.floor(storey).unwrap());
         let by_base = floor.total_drift(&building, height).unwrap();
-        assert!((by_base.value(&moved) - drifts).abs() < 1e-14, "{storey}");
-        let relative = floor.relative_to_base(&building).unwrap().value(&moved);
-        assert!((relative - (moved[3 + storey] - 0.3)).abs() < 1e-14);
+        assert!((by_base.value(&displacement) - drifts).abs() < 1e-14, "{storey}");
+        let relative_drift = floor.relative_to_base(&building).unwrap().value(&displacement);
+        assert!((relative_drift - (displacement[3 + storey] - 0.3)).abs() < 1e-14);
     }
     assert_eq!(building.roof(), building.floor(2).unwrap());
     assert!(building.total_drift(3).is_err());
 }
 
-/// A frame of finite elements that only moves as a whole does not sway.
+/// A frame of finite elements that moves as a rigid body has no drift.
 #[test]
 fn rigid_motions_are_no_sway() {
     let material = Material::new(1e9, 0.3, 2000.0).unwrap();
@@ -191,9 +195,9 @@ fn rigid_motions_are_no_sway() {
     }
     // Relative to the base alone, a turn gives −6 m times it.
     let turn = model.rigid_motion(Direction::Rotation, [3.0, 0.0, 0.0]);
-    let relative = corner.relative_to_base(&model).unwrap().value(&turn);
-    assert!((relative + 6.0).abs() < 1e-14);
-    for bad in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(corner.total_drift(&model, bad), Err(Error::Input { .. })));
+    let relative_drift = corner.relative_to_base(&model).unwrap().value(&turn);
+    assert!((relative_drift + 6.0).abs() < 1e-14);
+    for invalid_value in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(corner.total_drift(&model, invalid_value), Err(Error::Input { .. })));
     }
 }

@@ -65,15 +65,16 @@ fn static_load_passes_through_every_section() {
     let u = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     for height in [0.0, 1.0, 3.0] {
         let section = model.section_in_space(height, [0.3, -0.2]).unwrap();
-        let turning = cross([head[0] - 0.3, head[1] + 0.2, head[2] - height], force);
-        let exact = force.into_iter().chain([0, 1, 2].map(|axis| turning[axis] + moment[axis]));
-        for ((rows, sign), exact) in rows(&section).into_iter().zip(exact) {
-            let found = sign * rows.value(&u, &[], &[]);
-            assert!((found - exact).abs() < 1e-6, "{height} {found} {exact}");
+        let moment_of_force = cross([head[0] - 0.3, head[1] + 0.2, head[2] - height], force);
+        let expected =
+            force.into_iter().chain([0, 1, 2].map(|axis| moment_of_force[axis] + moment[axis]));
+        for ((rows, sign), expected) in rows(&section).into_iter().zip(expected) {
+            let computed = sign * rows.value(&u, &[], &[]);
+            assert!((computed - expected).abs() < 1e-6, "{height} {computed} {expected}");
         }
         assert_eq!(rows(&section).map(|(rows, _)| rows.unit), ["N", "N", "N", "N·m", "N·m", "N·m"]);
     }
-    // No nodes, within a beam, nothing above.
+    // Planes without nodes, within a beam, or above the model are errors.
     for (height, place) in [(0.5, 0.0), (2.0, 0.0), (5.5, 0.0), (f64::NAN, 0.0), (0.0, f64::NAN)] {
         let fault = model.section_in_space(height, [0.0, place]).unwrap_err();
         assert!(matches!(fault, Error::Input { .. }), "{height} {place}");
@@ -82,7 +83,7 @@ fn static_load_passes_through_every_section() {
 }
 
 /// Levels of bricks, the lowest at this place of the list.
-fn pier(lowest: usize) -> FemModel {
+fn pier(first_level: usize) -> FemModel {
     let levels = [0.0, 1.5, 3.0, 4.0];
     let concrete = Material::new(2.0e8, 0.2, 2400.0).unwrap();
     let mut mesh = Mesh::in_space();
@@ -90,15 +91,17 @@ fn pier(lowest: usize) -> FemModel {
     let foot = mesh
         .add_grid(2, 2, |row, column| {
             let place: [f64; 2] = plan[row][column];
-            [place[0], place[1], levels[lowest]]
+            [place[0], place[1], levels[first_level]]
         })
         .unwrap();
-    let above: Vec<f64> = levels[lowest + 1..].iter().map(|z| z - levels[lowest]).collect();
+    let above: Vec<f64> =
+        levels[first_level + 1..].iter().map(|z| z - levels[first_level]).collect();
     for brick in foot.extrude(&mut mesh, &above).unwrap() {
         mesh.add(Hex8::new(brick, concrete)).unwrap();
     }
-    let last = mesh.nodes().len() - 1;
-    mesh.add(Dashpot::axial_in_space([last, last - 7], 6.0e4).unwrap()).unwrap();
+    let last_index = mesh.nodes().len() - 1;
+    mesh.add(Dashpot::axial_in_space([last_index, last_index - 7], 6.0e4).unwrap())
+        .unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
 }
@@ -123,9 +126,9 @@ fn moving_structure_keeps_the_balance_of_its_upper_part() {
     for ((rows, sign), direction) in rows(&section).into_iter().zip(DIRECTIONS) {
         let motion = upper.rigid_motion(direction, [0.3, 0.7, 1.5]);
         let balance = dot(&motion, &on_upper) - form(&motion, &inertia, &a[skip..]);
-        let found = sign * rows.value(&u, &v, &a);
-        assert!((found - balance).abs() < 1e-11 * 2.0e8, "{direction:?} {found} {balance}");
-        assert!(found.abs() > 1e3, "the balance is not an empty one");
+        let computed = sign * rows.value(&u, &v, &a);
+        assert!((computed - balance).abs() < 1e-11 * 2.0e8, "{direction:?} {computed} {balance}");
+        assert!(computed.abs() > 1e3, "the balance is not an empty one");
     }
 }
 
@@ -137,8 +140,8 @@ fn momentum(part: &dyn Structure, motion: &[f64], acceleration: &[f64]) -> f64 {
 
 /// Displacement above the origin at a height, of a body with this shift and turn of a place.
 fn displacement_at(z: f64, place: [f64; 3], shift: [f64; 3], turn: [f64; 3]) -> [f64; 3] {
-    let turned = cross(turn, [-place[0], -place[1], z - place[2]]);
-    [0, 1, 2].map(|k| shift[k] + turned[k])
+    let rotation_displacement = cross(turn, [-place[0], -place[1], z - place[2]]);
+    [0, 1, 2].map(|k| shift[k] + rotation_displacement[k])
 }
 
 /// Motion of the building as a rigid body: of its mat, and of each floor in its plane.
@@ -191,11 +194,14 @@ fn floors_pass_on_their_inertia() {
             }
             let place = [reference[0], reference[1], height];
             let motion = rigid_building_motion(&storeys, place, shift, turn);
-            let exact = momentum(below.as_ref(), &motion, &acceleration)
+            let expected = momentum(below.as_ref(), &motion, &acceleration)
                 - momentum(&building, &motion, &acceleration);
-            let found = sign * rows.value(&[], &[], &acceleration);
-            assert!((found - exact).abs() < 1e-9 * 1.0e8, "{storey} {axis} {found} {exact}");
-            assert!(found.abs() > 1e3, "the balance is not an empty one");
+            let computed = sign * rows.value(&[], &[], &acceleration);
+            assert!(
+                (computed - expected).abs() < 1e-9 * 1.0e8,
+                "{storey} {axis} {computed} {expected}"
+            );
+            assert!(computed.abs() > 1e3, "the balance is not an empty one");
         }
     }
     assert!(matches!(building.section(3, reference), Err(Error::Index { .. })));

@@ -60,15 +60,15 @@ fn layers_that_yield_are_their_quadrilaterals() {
     assert_eq!(force, nonlinear_force(&by_hand, &displacement));
 }
 
-/// GOAL: a single type of material needs no conversion, and another formulation is refused by its name.
+/// GOAL: a single type of material needs no conversion, and another formulation is an error that names it.
 #[test]
 fn layers_of_one_law_need_no_conversion() {
     let clay = Iwan::hyperbolic(20.0e6, 40.0e3, 0.4, 0.45, 1800.0).unwrap();
     let layer = Layer::new(2.0, 2, clay);
     let mesh = Mesh::layered_block(0.0..1.0, 1, std::slice::from_ref(&layer)).unwrap();
     assert!(mesh.elements().all(|element| element.inelastic().is_some()));
-    let stiff = Layer { formulation: QuadFormulation::Full, ..layer };
-    let error = Mesh::layered_block(0.0..1.0, 1, &[stiff]).unwrap_err();
+    let elastic_layer = Layer { formulation: QuadFormulation::Full, ..layer };
+    let error = Mesh::layered_block(0.0..1.0, 1, &[elastic_layer]).unwrap_err();
     assert!(matches!(error, Error::Scene { .. }), "{error}");
     assert!(error.to_string().contains("QuadFormulation::MeanDilatation"), "{error}");
 }

@@ -10,7 +10,7 @@ use basemat_problems::yielding_strip::{
     CLAY_PRESSURES, FINE_CLAY_PRESSURE, SAND_PRESSURES, StripRun, StripSoil, clay, sand,
 };
 
-/// Relative differences from pressures of reference.
+/// Relative differences from the reference pressures.
 fn differences(run: &StripRun, reference: &[f64; 6]) -> Vec<f64> {
     let pairs = run.reference_pressures().into_iter().zip(reference);
     pairs.map(|(pressure, expected)| pressure / expected - 1.0).collect()

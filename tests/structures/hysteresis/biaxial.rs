@@ -85,23 +85,23 @@ fn along_a_line_a_coupled_spring_is_the_uniaxial_one() {
             for [d, _] in path(3, 60) {
                 let at = turned([d, 0.0], angle);
                 let expected = line.response(d);
-                let found = plane.response(at);
+                let computed = plane.response(at);
                 let force = turned([expected.force, 0.0], angle);
-                assert!(distance(found.force, force) < 1e-12 * 1e6, "{name} {angle} {d}");
-                let along = tangent_along(&found.tangent, angle);
+                assert!(distance(computed.force, force) < 1e-12 * 1e6, "{name} {angle} {d}");
+                let along = tangent_along(&computed.tangent, angle);
                 assert!((along - expected.tangent).abs() < 1e-9 * 1e8, "{name} {angle} {d}");
                 let energy = [line.energy(d), plane.energy(at)];
                 let scale = energy[0].stored + energy[0].dissipated;
                 assert!((energy[0].stored - energy[1].stored).abs() < 1e-12 * scale, "{name}");
-                let lost = energy.map(|energy| energy.dissipated);
-                assert!((lost[0] - lost[1]).abs() < 1e-12 * scale, "{name} {lost:?}");
+                let dissipated_energies = energy.map(|energy| energy.dissipated);
+                assert!((dissipated_energies[0] - dissipated_energies[1]).abs() < 1e-12 * scale, "{name} {dissipated_energies:?}");
                 line.commit(d);
                 plane.commit(at);
                 if name.starts_with("Bouc") {
                     // Right after a commit the tangent is that of unloading.
                     let plane_tangent = tangent_along(&plane.response(at).tangent, angle);
-                    let next = [line.response(d).tangent, plane_tangent];
-                    assert!((next[0] - next[1]).abs() < 1e-9 * 1e8, "{name}: {next:?}");
+                    let tangents = [line.response(d).tangent, plane_tangent];
+                    assert!((tangents[0] - tangents[1]).abs() < 1e-9 * 1e8, "{name}: {tangents:?}");
                 }
             }
         }
@@ -113,25 +113,25 @@ fn along_a_line_a_coupled_spring_is_the_uniaxial_one() {
 fn a_turned_path_turns_the_force() {
     for LawPair { name, coupled, .. } in laws() {
         for angle in [0.3, TAU / 8.0, 1.9] {
-            let mut straight = coupled.clone();
+            let mut straight_spring = coupled.clone();
             let mut oblique = coupled.clone();
             for d in path(5, 100) {
                 let at = turned(d, angle);
-                let here = straight.response(d);
-                let there = oblique.response(at);
-                assert!(distance(there.force, turned(here.force, angle)) < 1e-12 * 1e6, "{name}");
+                let straight_response = straight_spring.response(d);
+                let oblique_response = oblique.response(at);
+                assert!(distance(oblique_response.force, turned(straight_response.force, angle)) < 1e-12 * 1e6, "{name}");
                 // R T Rᵀ
-                let columns = here.tangent.map(|row| turned(row, angle));
-                let rotated = [0, 1].map(|k| turned([columns[0][k], columns[1][k]], angle));
-                let error = distance(there.tangent[0], [rotated[0][0], rotated[1][0]])
-                    + distance(there.tangent[1], [rotated[0][1], rotated[1][1]]);
+                let columns = straight_response.tangent.map(|row| turned(row, angle));
+                let rotated_tangent = [0, 1].map(|k| turned([columns[0][k], columns[1][k]], angle));
+                let error = distance(oblique_response.tangent[0], [rotated_tangent[0][0], rotated_tangent[1][0]])
+                    + distance(oblique_response.tangent[1], [rotated_tangent[0][1], rotated_tangent[1][1]]);
                 assert!(error < 1e-9 * 1e8, "{name}: {error}");
-                straight.commit(d);
+                straight_spring.commit(d);
                 oblique.commit(at);
             }
-            let expected = straight.energy([0.0; 2]).dissipated;
-            let found = oblique.energy([0.0; 2]).dissipated;
-            assert!((expected - found).abs() < 1e-11 * expected, "{name}");
+            let expected = straight_spring.energy([0.0; 2]).dissipated;
+            let computed = oblique.energy([0.0; 2]).dissipated;
+            assert!((expected - computed).abs() < 1e-11 * expected, "{name}");
         }
     }
 }
@@ -144,21 +144,21 @@ fn a_turned_path_turns_the_force() {
 fn on_a_circle_the_force_lags_by_a_constant_angle() {
     let radius = 0.02;
     let yield_displacement = YIELD_FORCE / INITIAL_STIFFNESS;
-    let plastic = Bilinear::new(INITIAL_STIFFNESS, YIELD_FORCE, 0.0).unwrap().coupled();
-    let smooth = bouc_wen(0.0, 0.7).coupled().unwrap();
-    for (mut spring, steps) in [(plastic.clone(), 24), (plastic, 2000), (smooth, 2000)] {
+    let plastic_spring = Bilinear::new(INITIAL_STIFFNESS, YIELD_FORCE, 0.0).unwrap().coupled();
+    let smooth_spring = bouc_wen(0.0, 0.7).coupled().unwrap();
+    for (mut spring, steps) in [(plastic_spring.clone(), 24), (plastic_spring, 2000), (smooth_spring, 2000)] {
         let is_smooth = spring.save().len() == 5;
         let angle = TAU / f64::from(steps);
-        let mut lost = 0.0;
+        let mut dissipated_energy = 0.0;
         for k in 0..=(4 * steps) {
             let at = turned([radius, 0.0], angle * f64::from(k));
             if k == 3 * steps {
-                lost = spring.energy(at).dissipated;
+                dissipated_energy = spring.energy(at).dissipated;
             }
             spring.commit(at);
         }
         let force = spring.response([radius, 0.0]).force;
-        let per_turn = spring.energy([radius, 0.0]).dissipated - lost;
+        let per_turn = spring.energy([radius, 0.0]).dissipated - dissipated_energy;
         let half = (0.5 * angle).sin();
         let rho = (radius.powi(2) - (yield_displacement * (0.5 * angle).cos()).powi(2)).sqrt()
             - yield_displacement * half;
@@ -201,26 +201,26 @@ fn coupled_bouc_wen_follows_its_differential_equation() {
     for beta in [0.5, 0.65, 1.0] {
         let mut spring = bouc_wen(0.0, beta).coupled().unwrap();
         let mut z = [0.0; 2];
-        let mut from = [0.0; 2];
-        let mut lost = 0.0;
+        let mut start = [0.0; 2];
+        let mut work = 0.0;
         for to in path(17, 25) {
             let pieces = 600;
             let change = [0, 1]
-                .map(|k| (to[k] - from[k]) * INITIAL_STIFFNESS / YIELD_FORCE / f64::from(pieces));
+                .map(|k| (to[k] - start[k]) * INITIAL_STIFFNESS / YIELD_FORCE / f64::from(pieces));
             for _ in 0..pieces {
                 let a = bouc_wen_rate(z, change, beta);
                 let b = bouc_wen_rate(shifted(z, a, 0.5), change, beta);
                 let c = bouc_wen_rate(shifted(z, b, 0.5), change, beta);
                 let d = bouc_wen_rate(shifted(z, c, 1.0), change, beta);
-                let next = [0, 1].map(|k| z[k] + (a[k] + 2.0 * (b[k] + c[k]) + d[k]) / 6.0);
+                let next_z = [0, 1].map(|k| z[k] + (a[k] + 2.0 * (b[k] + c[k]) + d[k]) / 6.0);
                 // Simpson's rule for the work
-                let last_rate = bouc_wen_rate(next, change, beta);
-                let middle = [0, 1].map(|k| 0.5 * (z[k] + next[k]) + 0.125 * (a[k] - last_rate[k]));
-                lost += [0, 1]
-                    .map(|k| (z[k] + 4.0 * middle[k] + next[k]) / 6.0 * change[k])
+                let last_rate = bouc_wen_rate(next_z, change, beta);
+                let middle = [0, 1].map(|k| 0.5 * (z[k] + next_z[k]) + 0.125 * (a[k] - last_rate[k]));
+                work += [0, 1]
+                    .map(|k| (z[k] + 4.0 * middle[k] + next_z[k]) / 6.0 * change[k])
                     .iter()
                     .sum::<f64>();
-                z = next;
+                z = next_z;
             }
             spring.commit(to);
             let force = spring.response(to).force;
@@ -229,19 +229,19 @@ fn coupled_bouc_wen_follows_its_differential_equation() {
                 distance(force, expected) < 1e-7 * YIELD_FORCE,
                 "β = {beta}: {force:?} {expected:?}"
             );
-            from = to;
+            start = to;
         }
-        let energy = spring.energy(from);
-        let work = lost * YIELD_FORCE * YIELD_FORCE / INITIAL_STIFFNESS;
+        let energy = spring.energy(start);
+        let work = work * YIELD_FORCE * YIELD_FORCE / INITIAL_STIFFNESS;
         let expected = energy.stored + energy.dissipated;
         assert!((work / expected - 1.0).abs() < 1e-7, "β = {beta}: {work} J, not {expected} J");
     }
 }
 
 fn moved_along(point: [f64; 2], k: usize, by: f64) -> [f64; 2] {
-    let mut moved = point;
-    moved[k] += by;
-    moved
+    let mut shifted_point = point;
+    shifted_point[k] += by;
+    shifted_point
 }
 
 /// Force times the path from `start` to `end`, at this part of it.
@@ -256,12 +256,12 @@ fn work_rate(spring: &BiaxialSpring, start: [f64; 2], end: [f64; 2], part: f64) 
 fn tangent_and_force_are_slopes_of_force_and_energy() {
     for LawPair { name, coupled: mut spring, .. } in laws() {
         let is_smooth = name.starts_with("Bouc");
-        let mut compared = 0;
-        let mut lost = 0.0;
-        let mut last = [0.0; 2];
+        let mut compared_points = 0;
+        let mut dissipated_energy = 0.0;
+        let mut previous_point = [0.0; 2];
         for d in path(7, 80) {
             let h = 1e-8;
-            let here = spring.response(d);
+            let response = spring.response(d);
             let mut difference = [[0.0; 2]; 2];
             let mut is_kink = false;
             for k in 0..2 {
@@ -274,19 +274,19 @@ fn tangent_and_force_are_slopes_of_force_and_energy() {
                 }
             }
             if !is_kink {
-                compared += 1;
+                compared_points += 1;
                 let mean = 0.5 * (difference[0][1] + difference[1][0]);
-                let skew = 0.5 * (difference[0][1] - difference[1][0]).abs();
-                assert!(is_smooth || skew < 1e-5 * INITIAL_STIFFNESS, "{name}: {skew}");
-                assert!(skew < 0.15 * INITIAL_STIFFNESS, "{name}: {skew}");
-                assert_eq!(here.tangent[0][1], here.tangent[1][0], "{name}");
+                let asymmetry = 0.5 * (difference[0][1] - difference[1][0]).abs();
+                assert!(is_smooth || asymmetry < 1e-5 * INITIAL_STIFFNESS, "{name}: {asymmetry}");
+                assert!(asymmetry < 0.15 * INITIAL_STIFFNESS, "{name}: {asymmetry}");
+                assert_eq!(response.tangent[0][1], response.tangent[1][0], "{name}");
                 for (i, j, slope) in
                     [(0, 0, difference[0][0]), (1, 1, difference[1][1]), (0, 1, mean)]
                 {
-                    let found = here.tangent[i][j];
+                    let computed = response.tangent[i][j];
                     assert!(
-                        (found - slope).abs() < 1e-5 * INITIAL_STIFFNESS,
-                        "{name}: {found} {slope}"
+                        (computed - slope).abs() < 1e-5 * INITIAL_STIFFNESS,
+                        "{name}: {computed} {slope}"
                     );
                 }
             }
@@ -296,17 +296,17 @@ fn tangent_and_force_are_slopes_of_force_and_energy() {
             for piece in 0..pieces {
                 let rates = [0.0, 0.5, 1.0].map(|part| {
                     let part = (f64::from(piece) + part) / f64::from(pieces);
-                    work_rate(&spring, last, d, part)
+                    work_rate(&spring, previous_point, d, part)
                 });
                 work += (rates[0] + 4.0 * rates[1] + rates[2]) / (6.0 * f64::from(pieces));
             }
-            let start = spring.energy(last);
+            let start = spring.energy(previous_point);
             let end = spring.energy(d);
-            assert!(end.dissipated >= lost && end.stored >= 0.0, "{name}");
+            assert!(end.dissipated >= dissipated_energy && end.stored >= 0.0, "{name}");
             let expected = end.stored + end.dissipated - start.stored - start.dissipated;
             // Simpson's rule has a kink within most steps of the bilinear laws.
             let tolerance = if is_smooth { 1e-6 } else { 3e-4 };
-            let scale = YIELD_FORCE * distance(last, d) + 1e-3;
+            let scale = YIELD_FORCE * distance(previous_point, d) + 1e-3;
             assert!(
                 (work - expected).abs() < tolerance * scale,
                 "{name}: {work} J, not {expected} J"
@@ -314,9 +314,9 @@ fn tangent_and_force_are_slopes_of_force_and_energy() {
             spring.commit(d);
             let added = spring.energy(d).dissipated - end.dissipated;
             assert!(added.abs() <= 1e-15 * end.dissipated, "{name}: a commit adds {added} J");
-            lost = end.dissipated;
-            last = d;
+            dissipated_energy = end.dissipated;
+            previous_point = d;
         }
-        assert!(compared > 40 && lost > 1e3, "{name}: {compared}, {lost} J");
+        assert!(compared_points > 40 && dissipated_energy > 1e3, "{name}: {compared_points}, {dissipated_energy} J");
     }
 }

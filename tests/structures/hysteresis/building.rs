@@ -27,7 +27,7 @@ fn isolated(law: impl Hysteresis + 'static) -> ShearBuilding {
 }
 
 /// All storeys yield at 0.15 of the weight above.
-fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> ShearBuilding {
+fn yielding_building(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> ShearBuilding {
     let mut building = five_storeys();
     for storey in 0..5 {
         let weight = STANDARD_GRAVITY * 20.0e3 * (5 - storey) as f64;
@@ -40,11 +40,11 @@ fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> ShearBuilding {
 type MakeBuilding = Box<dyn Fn() -> ShearBuilding>;
 
 fn bilinear_storeys() -> ShearBuilding {
-    yielding(|force| Box::new(Bilinear::new(40e6, force, 0.03).unwrap()))
+    yielding_building(|force| Box::new(Bilinear::new(40e6, force, 0.03).unwrap()))
 }
 
 fn bouc_wen_storeys(hardening: f64) -> ShearBuilding {
-    yielding(|force| Box::new(BoucWen::new(40e6, force, hardening).unwrap()))
+    yielding_building(|force| Box::new(BoucWen::new(40e6, force, hardening).unwrap()))
 }
 
 /// Forces of the laws at these displacements.
@@ -68,16 +68,16 @@ fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBui
 #[test]
 fn clones_yield_independently() {
     let mut building = bouc_wen_storeys(0.05);
-    let past = [0.0, 0.0, 0.0, 0.02, 0.03, 0.03, 0.04, 0.05];
-    let now = [0.0; 8];
-    let new = law_force(&building, &now);
-    building.nonlinear_mut().unwrap().commit(&past);
+    let yielding_displacement = [0.0, 0.0, 0.0, 0.02, 0.03, 0.03, 0.04, 0.05];
+    let at_rest = [0.0; 8];
+    let initial_force = law_force(&building, &at_rest);
+    building.nonlinear_mut().unwrap().commit(&yielding_displacement);
     let mut clone = building.clone();
-    let yielded = law_force(&building, &now);
-    assert!(yielded != new && law_force(&clone, &now) == yielded);
-    clone.nonlinear_mut().unwrap().commit(&now);
-    clone.nonlinear_mut().unwrap().commit(&past.map(|u| -u));
-    assert!(law_force(&clone, &now) != yielded && law_force(&building, &now) == yielded);
+    let yield_force = law_force(&building, &at_rest);
+    assert!(yield_force != initial_force && law_force(&clone, &at_rest) == yield_force);
+    clone.nonlinear_mut().unwrap().commit(&at_rest);
+    clone.nonlinear_mut().unwrap().commit(&yielding_displacement.map(|u| -u));
+    assert!(law_force(&clone, &at_rest) != yield_force && law_force(&building, &at_rest) == yield_force);
 }
 
 /// ∂f/∂u of the whole structure by central differences, where no law is near a kink.
@@ -94,14 +94,14 @@ fn tangents_are_differences_of_forces() {
     }
     for j in 0..8 {
         let [above, below] = [1e-7, -1e-7].map(|step| {
-            let mut moved = u;
-            moved[j] += step;
-            law_force(&building, &moved)
+            let mut shifted_displacement = u;
+            shifted_displacement[j] += step;
+            law_force(&building, &shifted_displacement)
         });
         for i in 0..8 {
-            let found = (above[i] - below[i]) / 2e-7;
+            let computed = (above[i] - below[i]) / 2e-7;
             let expected = tangent[i][j];
-            assert!((found - expected).abs() < 1e-6 * 4e8, "{i} {j}: {found} {expected}");
+            assert!((computed - expected).abs() < 1e-6 * 4e8, "{i} {j}: {computed} {expected}");
         }
     }
 }
@@ -126,17 +126,17 @@ fn runs_converge_and_the_energy_balance_closes() {
     for (name, structure) in &runs {
         for time_step in [0.01, 0.0025] {
             let mut simulation = on_soil(structure(), time_step).build().unwrap();
-            let mut lost = 0.0;
+            let mut dissipated_energy = 0.0;
             let run = simulation
                 .run(1500, |state| {
-                    assert!(state.energy_balance.hysteresis >= lost, "{name} returns energy");
-                    lost = state.energy_balance.hysteresis;
+                    assert!(state.energy_balance.hysteresis >= dissipated_energy, "{name} returns energy");
+                    dissipated_energy = state.energy_balance.hysteresis;
                 })
                 .unwrap();
             let energy_balance = run.energy_balance;
             println!("{name}, {time_step} s: {run}");
             assert!(run.energy_error < 1e-9, "{name}: {:e}", run.energy_error);
-            assert!(lost > 0.05 * energy_balance.input, "{name} dissipates little");
+            assert!(dissipated_energy > 0.05 * energy_balance.input, "{name} dissipates little");
             assert!(energy_balance.strain >= -1e-9 * energy_balance.input, "{name}");
             // One point in a step: the error of the midpoint rule falls with the step.
             let midpoint_error = energy_balance.algorithmic.abs() / energy_balance.input;
@@ -219,7 +219,7 @@ fn marched_floor_displacement(steps: u32) -> f64 {
     let law = law.with_shape(1.5, 0.6).unwrap();
     let storey = Storey::new(1e-3, STOREY_MASS, STOREY_STIFFNESS);
     let building = ShearBuilding::new(4.0, 1e3, 1e7, &[storey]).unwrap();
-    // Rock: so stiff that the base follows the ground.
+    // Springs stand for rock: the base follows the ground.
     let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
     let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
     let mut simulation = Simulation::builder(MOTION_DURATION / f64::from(steps))
@@ -261,39 +261,39 @@ fn bearing_forces_stay_within_their_law() {
         .probe(Probe::section("shear", &shear))
         .build()
         .unwrap();
-    let mut before = 0.0;
-    let mut slid = 0;
+    let mut previous_drift = 0.0;
+    let mut sliding_steps = 0;
     simulation
         .run(3000, |state| {
             let bearing = state.probes[0];
             let force = state.probes[1];
-            let middle = 0.5 * (before + bearing);
-            let friction_part = force - weight / radius * middle;
+            let mean_drift = 0.5 * (previous_drift + bearing);
+            let friction_part = force - weight / radius * mean_drift;
             assert!(friction_part.abs() < friction * weight * (1.0 + 1e-6), "{friction_part}");
             if friction_part.abs() > 0.999 * friction * weight {
-                slid += 1;
+                sliding_steps += 1;
             }
-            before = bearing;
+            previous_drift = bearing;
         })
         .unwrap();
-    assert!(slid > 100, "slid in {slid} steps only");
-    // The base shear of a fixed-base building is more than twice the bearings' friction.
-    let mut fixed = on_soil(five_storeys(), 0.0025).build().unwrap();
-    let fixed = fixed.run(3000, |_| {}).unwrap().whole.base_shear.magnitude();
-    assert!(fixed > 2.0 * friction * weight, "{fixed}");
+    assert!(sliding_steps > 100, "slid in {sliding_steps} steps only");
+    // The base shear of the building without isolators is more than twice the bearings' friction.
+    let mut base_shear = on_soil(five_storeys(), 0.0025).build().unwrap();
+    let base_shear = base_shear.run(3000, |_| {}).unwrap().whole.base_shear.magnitude();
+    assert!(base_shear > 2.0 * friction * weight, "{base_shear}");
 }
 
 #[test]
 fn resumed_runs_have_the_states_of_the_laws() {
-    let mut whole = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
-    whole.run(250, |_| {}).unwrap();
-    let saved = whole.checkpoint().unwrap();
-    assert!(whole.state().energy_balance.hysteresis > 0.0);
-    whole.run(100, |_| {}).unwrap();
-    let mut resumed = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
-    resumed.resume(&saved).unwrap();
-    resumed.run(100, |_| {}).unwrap();
-    assert_eq!(resumed.state(), whole.state());
+    let mut uninterrupted_simulation = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
+    uninterrupted_simulation.run(250, |_| {}).unwrap();
+    let checkpoint = uninterrupted_simulation.checkpoint().unwrap();
+    assert!(uninterrupted_simulation.state().energy_balance.hysteresis > 0.0);
+    uninterrupted_simulation.run(100, |_| {}).unwrap();
+    let mut resumed_simulation = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
+    resumed_simulation.resume(&checkpoint).unwrap();
+    resumed_simulation.run(100, |_| {}).unwrap();
+    assert_eq!(resumed_simulation.state(), uninterrupted_simulation.state());
 }
 
 /// Forces vanish in the end, while the offset stays: its last digit times the stiffness is more than 1e-9 of the forces.

@@ -24,7 +24,7 @@ fn linear_building(ratio: f64) -> ShearBuilding {
     building.with_stiffness_damping(ratio).unwrap()
 }
 
-/// Columns of the same stiffness that never yield, in all storeys.
+/// Gives storeys from `below` on laws of the columns' stiffness that never yield.
 fn strong(building: ShearBuilding, below: usize) -> ShearBuilding {
     (below..below + STOREY_COUNT).fold(building, |building, storey| {
         building.with_law(storey, Bilinear::new(STOREY_STIFFNESS, 1e12, 0.1).unwrap()).unwrap()
@@ -66,41 +66,41 @@ fn largest(values: &[f64]) -> f64 {
 #[test]
 fn columns_that_never_yield_are_linear() {
     let expected = drifts(linear_building(0.05));
-    let found = drifts(strong(linear_building(0.05), 0));
+    let computed = drifts(strong(linear_building(0.05), 0));
     let peak = largest(&expected);
-    let errors: Vec<f64> = expected.iter().zip(&found).map(|(a, b)| a - b).collect();
+    let errors: Vec<f64> = expected.iter().zip(&computed).map(|(a, b)| a - b).collect();
     let error = largest(&errors);
     println!("peak drift {:.3} mm, error with laws that never yield {:.1e}", 1e3 * peak, error / peak);
     assert!(error < 1e-11 * peak, "{error:e} of {peak}");
 }
 
-/// In all structures C is independent of the laws. Isolators have no part in
-/// the damping of the building on them.
+/// In all structures C is independent of the laws. Isolators do not
+/// contribute to the damping of the building on them.
 #[test]
 fn laws_have_no_effect_on_the_damping_matrix() {
     let expected = damping(&linear_building(0.05));
     assert_eq!(damping(&strong(linear_building(0.05), 0)), expected);
     let drift = linear_building(0.05).drift(0).unwrap();
     let law = Bilinear::new(5.0e6, 2.0e4, 0.0).unwrap();
-    let yielding = strong(linear_building(0.05), 0);
-    let sprung = WithSprings::new(yielding).spring(drift, law).unwrap();
-    assert_eq!(damping(&sprung), expected);
-    let group = StructureGroup::new().with(sprung, 0.0).unwrap();
+    let yielding_building = strong(linear_building(0.05), 0);
+    let sprung_building = WithSprings::new(yielding_building).spring(drift, law).unwrap();
+    assert_eq!(damping(&sprung_building), expected);
+    let group = StructureGroup::new().with(sprung_building, 0.0).unwrap();
     assert_eq!(damping(&group), expected);
 
     // Modal damping belongs to the first tangent's modes, in addition to the structure's damping matrix.
     let modal = ModalDamping::new(&[0.03]).unwrap();
-    let one = modal.on(linear_building(0.05)).unwrap();
-    let other = modal.on(strong(linear_building(0.05), 0)).unwrap();
-    let largest = largest(&expected);
-    for (a, b) in damping(&one).into_iter().zip(damping(&other)) {
-        assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
+    let damped_linear_building = modal.on(linear_building(0.05)).unwrap();
+    let damped_yielding_building = modal.on(strong(linear_building(0.05), 0)).unwrap();
+    let max_magnitude = max_magnitude(&expected);
+    for (a, b) in damping(&damped_linear_building).into_iter().zip(damping(&damped_yielding_building)) {
+        assert!((a - b).abs() < 1e-9 * max_magnitude, "{a} {b}");
     }
 
     let level = IsolationLevel { height: 0.3, slab_mass: 3e4, slab_inertia: 2e5, damping: 7.0e3 };
-    let stiff = Bilinear::new(1.0e9, 2.0e4, 0.0).unwrap();
-    let isolated = linear_building(0.05).isolated(level, stiff).unwrap();
-    let matrix = damping(&strong(isolated, 1));
+    let stiff_bearing = Bilinear::new(1.0e9, 2.0e4, 0.0).unwrap();
+    let isolated_building = linear_building(0.05).isolated(level, stiff_bearing).unwrap();
+    let matrix = damping(&strong(isolated_building, 1));
     let n = STOREY_COUNT + 4;
     // The slab is degree of freedom 3: the bearings' dampers and the columns above act on it.
     assert_eq!(matrix[3], -level.damping);
@@ -112,13 +112,13 @@ fn laws_have_no_effect_on_the_damping_matrix() {
 #[test]
 fn dashpots_can_replace_stiffness_proportional_damping() {
     let ratio = 0.05;
-    let plain =
+    let linear_building_with_dashpots =
         ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 2e4, STOREY_STIFFNESS); 5]);
-    let plain = plain.unwrap();
-    let dashpot = ratio * STOREY_STIFFNESS / (PI * plain.fixed_base_frequency());
+    let linear_building_with_dashpots = linear_building_with_dashpots.unwrap();
+    let dashpot = ratio * STOREY_STIFFNESS / (PI * linear_building_with_dashpots.fixed_base_frequency());
     let storey = Storey { damping: dashpot, ..Storey::new(3.0, 2e4, STOREY_STIFFNESS) };
     let with_dashpots = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[storey; 5]).unwrap();
-    let expected = damping(&plain.with_stiffness_damping(ratio).unwrap());
+    let expected = damping(&linear_building_with_dashpots.with_stiffness_damping(ratio).unwrap());
     for (found, expected) in damping(&with_dashpots).into_iter().zip(expected) {
         assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found} {expected}");
     }
@@ -132,14 +132,14 @@ const INITIAL_SPEED: f64 = 0.5;
 /// Elastic drift of the floor at time t.
 fn elastic_drift(ratio: f64, t: f64) -> f64 {
     let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
-    let damped = omega * f64::sqrt(1.0 - ratio * ratio);
-    INITIAL_SPEED / damped * (-ratio * omega * t).exp() * (damped * t).sin()
+    let damped_frequency = omega * f64::sqrt(1.0 - ratio * ratio);
+    INITIAL_SPEED / damped_frequency * (-ratio * omega * t).exp() * (damped_frequency * t).sin()
 }
 
 /// Largest drift of the floor, which yields.
 fn sliding_drift(ratio: f64) -> f64 {
     let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
-    let damped = omega * f64::sqrt(1.0 - ratio * ratio);
+    let damped_frequency = omega * f64::sqrt(1.0 - ratio * ratio);
     let mut below = 0.0;
     let mut above = 0.5 / omega;
     assert!(elastic_drift(ratio, above) > YIELD_FORCE / COLUMN_STIFFNESS);
@@ -149,7 +149,7 @@ fn sliding_drift(ratio: f64) -> f64 {
         *(if yields { &mut above } else { &mut below }) = middle;
     }
     let t = below;
-    let swing = (damped * t).cos() - ratio * omega / damped * (damped * t).sin();
+    let swing = (damped_frequency * t).cos() - ratio * omega / damped_frequency * (damped_frequency * t).sin();
     let speed = INITIAL_SPEED * (-ratio * omega * t).exp() * swing;
     let c = 2.0 * ratio * omega * FLOOR_MASS;
     let slide = FLOOR_MASS / c * speed
@@ -159,7 +159,7 @@ fn sliding_drift(ratio: f64) -> f64 {
 
 /// A floor of mass m starts with the speed v₀. Elastic: d = v₀/ω_d e^(−ζωt) sin ω_d t, up to
 /// the drift F/k. From there m d̈ + c ḋ + F = 0 until it stands, (m/c) v₁ − (m F/c²) ln(1 + c v₁/F)
-/// further on; then it swings about F/k less and stays elastic.
+/// further on. Then the floor swings elastically about a drift that is F/k smaller.
 #[test]
 fn the_slide_of_a_yielding_storey_depends_on_its_damping() {
     let ratio = 0.1;
@@ -173,26 +173,26 @@ fn the_slide_of_a_yielding_storey_depends_on_its_damping() {
     let structure = building.with_law(0, law).unwrap();
     let mut simulation = Simulation::builder(2.0e-4)
         .structure(structure)
-        // Rock: so stiff that the base does not move.
+        // Springs stand for rock: the base does not move.
         .ground(SpringGround::new(-5.0..5.0, 2, 1e13, 1e13).unwrap())
         .interface(Bonded)
         .initial_velocity([0.0, 0.0, 0.0, INITIAL_SPEED])
         .probe(Probe::displacement("drift", drift))
         .build()
         .unwrap();
-    let mut largest = 0.0_f64;
-    let mut last = 0.0;
+    let mut max_value = 0.0_f64;
+    let mut previous_drift = 0.0;
     let run = simulation
         .run(50_000, |state| {
-            last = state.probes[0];
-            largest = largest.max(last);
+            previous_drift = state.probes[0];
+            max_value = max_value.max(previous_drift);
         })
         .unwrap();
     let expected = sliding_drift(ratio);
-    let undamped = sliding_drift(1e-6);
-    println!("peak {largest:.6} m, {expected:.6} m expected, {undamped:.6} m without damping");
-    assert!((largest / expected - 1.0).abs() < 1e-4, "{largest} {expected}");
+    let undamped_drift = sliding_drift(1e-6);
+    println!("peak {max_value:.6} m, {expected:.6} m expected, {undamped_drift:.6} m without damping");
+    assert!((max_value / expected - 1.0).abs() < 1e-4, "{max_value} {expected}");
     let rest = expected - YIELD_FORCE / COLUMN_STIFFNESS;
-    assert!((last / rest - 1.0).abs() < 2e-4, "{last} {rest}");
-    assert!(undamped > 1.3 * expected && run.energy_error < 1e-9);
+    assert!((previous_drift / rest - 1.0).abs() < 2e-4, "{previous_drift} {rest}");
+    assert!(undamped_drift > 1.3 * expected && run.energy_error < 1e-9);
 }

@@ -47,11 +47,11 @@ fn tangent_and_force_are_the_slopes_of_force_and_energy() {
             let h = 1e-8;
             // The slope has kinks at yield and where the path reverses: no difference across them.
             let below = law.response(d - h);
-            let here = law.response(d).tangent;
+            let tangent = law.response(d).tangent;
             let above = law.response(d + h);
-            if (above.tangent - below.tangent).abs() < 1e-3 * here.abs() {
-                let found = (above.force - below.force) / (2.0 * h);
-                assert!((found - here).abs() < 1e-5 * 2e7, "{name} at {d}: {found} {here}");
+            if (above.tangent - below.tangent).abs() < 1e-3 * tangent.abs() {
+                let computed = (above.force - below.force) / (2.0 * h);
+                assert!((computed - tangent).abs() < 1e-5 * 2e7, "{name} at {d}: {computed} {tangent}");
                 let force = (total_energy(&*law, d + h) - total_energy(&*law, d - h)) / (2.0 * h);
                 let expected = law.response(d).force;
                 // Stored energy of kilojoules, to its last digits, over 2 h
@@ -70,27 +70,27 @@ fn work_is_stored_or_dissipated() {
     for (name, mut law) in laws() {
         let mut random = Random(11);
         let mut work = 0.0;
-        let mut last = 0.0;
-        let mut lost = 0.0;
+        let mut previous_deformation = 0.0;
+        let mut dissipated_energy = 0.0;
         for d in path(&mut random, 40) {
             let pieces = 300;
-            let width = (d - last) / f64::from(pieces);
+            let width = (d - previous_deformation) / f64::from(pieces);
             for k in 0..pieces {
                 let forces = [0.0, 0.5, 1.0].map(|part| {
                     let place = f64::from(k) + part;
-                    law.response(last + (d - last) * place / f64::from(pieces)).force
+                    law.response(previous_deformation + (d - previous_deformation) * place / f64::from(pieces)).force
                 });
                 work += width / 6.0 * (forces[0] + 4.0 * forces[1] + forces[2]);
             }
             let energy = law.energy(d);
-            assert!(energy.dissipated >= lost && energy.stored >= 0.0, "{name}");
+            assert!(energy.dissipated >= dissipated_energy && energy.stored >= 0.0, "{name}");
             law.commit(d);
             assert_eq!(law.energy(d).dissipated, energy.dissipated, "{name}: commit adds nothing");
-            last = d;
-            lost = energy.dissipated;
+            previous_deformation = d;
+            dissipated_energy = energy.dissipated;
         }
-        let expected = law.energy(last).stored + lost;
-        assert!(lost > 1e3, "{name} never yielded");
+        let expected = law.energy(previous_deformation).stored + dissipated_energy;
+        assert!(dissipated_energy > 1e3, "{name} never yielded");
         // Simpson's rule has a kink within most steps of the bilinear laws.
         let tolerance = if name.starts_with("Bouc") { 1e-7 } else { 1e-4 };
         assert!(
@@ -106,7 +106,7 @@ fn steps_of_a_straight_path_have_no_effect() {
     for (name, mut law) in laws() {
         law.commit(0.013);
         for target in [-0.02, 0.004, -0.0045, 0.03] {
-            let whole = law.response(target);
+            let single_response = law.response(target);
             let energy = law.energy(target);
             let from = law.save();
             let start = if target == -0.02 { 0.013 } else { f64::NAN };
@@ -115,11 +115,11 @@ fn steps_of_a_straight_path_have_no_effect() {
                     law.commit(start + (target - start) * f64::from(k) / 37.0);
                 }
                 let parts = law.response(target);
-                assert!((parts.force - whole.force).abs() < 1e-9 * 1e5, "{name}");
-                let both = [law.energy(target).dissipated, energy.dissipated];
-                assert!((both[0] - both[1]).abs() < 1e-11 * both[1], "{name}: {both:?}");
+                assert!((parts.force - single_response.force).abs() < 1e-9 * 1e5, "{name}");
+                let losses = [law.energy(target).dissipated, energy.dissipated];
+                assert!((losses[0] - losses[1]).abs() < 1e-11 * losses[1], "{name}: {losses:?}");
                 law.restore(&from).unwrap();
-                assert_eq!(law.response(target), whole, "{name}");
+                assert_eq!(law.response(target), single_response, "{name}");
             }
             law.commit(target);
         }
@@ -145,36 +145,36 @@ fn bouc_wen_follows_its_differential_equation() {
         let w = std::f64::consts::PI;
         let fine = 20_000_u32;
         let mut z = 0.0_f64;
-        let mut largest = 0.0_f64;
+        let mut max_difference = 0.0_f64;
         // Half-cycles between turns: d runs from turn to turn like a cosine.
-        let mut from = 0.0;
+        let mut start = 0.0;
         for half in 0..8 {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let amplitude = dy * (1.5 + 0.4 * f64::from(half));
             let to = side * amplitude;
-            let middle = 0.5 * (from + to);
+            let middle = 0.5 * (start + to);
             for step in 0..fine {
                 let h = 1.0 / f64::from(fine);
                 let t = f64::from(step) * h;
                 let [v0, v1, v2] =
-                    [t, t + 0.5 * h, t + h].map(|t| 0.5 * (to - from) * w * (w * t).sin());
+                    [t, t + 0.5 * h, t + h].map(|t| 0.5 * (to - start) * w * (w * t).sin());
                 let a = bouc_wen_rate(z, v0, n, beta, dy);
                 let b = bouc_wen_rate(z + 0.5 * h * a, v1, n, beta, dy);
                 let c = bouc_wen_rate(z + 0.5 * h * b, v1, n, beta, dy);
                 let d = bouc_wen_rate(z + h * c, v2, n, beta, dy);
                 z += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
                 if (step + 1) % 500 == 0 {
-                    let at = middle - 0.5 * (to - from) * (w * (t + h)).cos();
+                    let at = middle - 0.5 * (to - start) * (w * (t + h)).cos();
                     law.commit(at);
                     let expected = alpha * k * at + (1.0 - alpha) * fy * z;
-                    largest = largest.max((law.response(at).force - expected).abs() / fy);
+                    max_difference = max_difference.max((law.response(at).force - expected).abs() / fy);
                 }
             }
-            from = to;
+            start = to;
         }
-        println!("n = {n}, β = {beta}: error {largest:.1e} F_y");
+        println!("n = {n}, β = {beta}: error {max_difference:.1e} F_y");
         // Fourth order, but only second where |z|ⁿ has its kink at z = 0.
-        assert!(largest < 1e-8, "n = {n}, β = {beta}: error {largest:e} F_y");
+        assert!(max_difference < 1e-8, "n = {n}, β = {beta}: error {max_difference:e} F_y");
     }
 }
 

@@ -50,7 +50,7 @@ fn largest_drift(gravity: f64, law: impl Hysteresis + 'static) -> f64 {
     run.probe("drift").unwrap().magnitude()
 }
 
-/// The weight alone would give bearings 0.3 m high −4.2 MN/m, against their 0.6 to 0.9 MN/m.
+/// The weight alone would give bearings 0.3 m high −4.2 MN/m; they have 0.6 MN/m after yielding.
 #[test]
 fn isolators_drift_as_they_do_without_p_delta() {
     let pendulum = FrictionPendulum::new(ISOLATED_WEIGHT, 2.0, 0.06).unwrap();
@@ -69,20 +69,20 @@ fn isolators_drift_as_they_do_without_p_delta() {
 /// Stiffness matrix of the isolated building.
 fn isolated_stiffness(gravity: f64) -> [[f64; 9]; 9] {
     let law = Bilinear::new(1.0e6, 1.0e4, 0.1).unwrap();
-    let isolated = building(gravity).isolated(ISOLATION_LEVEL, law).unwrap();
+    let isolated_building = building(gravity).isolated(ISOLATION_LEVEL, law).unwrap();
     let mut triplets = Triplets::new(9);
-    isolated.stiffness(&mut triplets).unwrap();
-    let mut full = [[0.0; 9]; 9];
+    isolated_building.stiffness(&mut triplets).unwrap();
+    let mut matrix = [[0.0; 9]; 9];
     for &(i, j, value) in triplets.entries() {
-        full[i][j] += value;
+        matrix[i][j] += value;
     }
-    full
+    matrix
 }
 
 /// Potential energy of the weights on inextensible columns.
 fn potential_energy(u: &[f64; 9]) -> f64 {
     let (sin, cos) = u[2].sin_cos();
-    // Along the turned plane the slider stands where it makes the slab move by u_3.
+    // The slider stands on the turned plane where the slab moves by u_3.
     let along = (u[3] - u[0] + ISOLATION_LEVEL.height * sin) / cos;
     let mut height = along * sin + ISOLATION_LEVEL.height * cos;
     let mut sum = 10.0 * ISOLATION_LEVEL.slab_mass * height;
@@ -97,13 +97,13 @@ fn potential_energy(u: &[f64; 9]) -> f64 {
 /// inextensible columns above, differentiated twice by differences.
 #[test]
 fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
-    let with = isolated_stiffness(10.0);
-    let without = isolated_stiffness(0.0);
+    let stiffness_with_p_delta = isolated_stiffness(10.0);
+    let stiffness_without_p_delta = isolated_stiffness(0.0);
     for i in 0..9 {
         for j in 0..9 {
             let curvature = curvature(potential_energy, [i, j], 1e-3);
-            let found = with[i][j] - without[i][j];
-            assert!((found - curvature).abs() < 1e-5 * 1.3e6, "({i}, {j}): {found} {curvature}");
+            let computed = stiffness_with_p_delta[i][j] - stiffness_without_p_delta[i][j];
+            assert!((computed - curvature).abs() < 1e-5 * 1.3e6, "({i}, {j}): {computed} {curvature}");
         }
     }
 }
@@ -121,12 +121,12 @@ fn yielding_under_weight(stiffness: f64) -> basemat::Result<ShearBuilding> {
 
 /// A storey of k = W/h is at its buckling load.
 #[test]
-fn columns_that_would_buckle_are_refused() {
+fn columns_that_would_buckle_are_errors() {
     // 2000 g/3 against 1e4: the lower storey buckles at 15 m/s².
     assert!(two_storeys().with_p_delta(14.999).is_ok());
     for gravity in [15.001, 1e3, 1e300, f64::MAX] {
-        let refused = two_storeys().with_p_delta(gravity);
-        assert!(matches!(refused, Err(Error::Input { value: 3.0, .. })), "{refused:?}");
+        let result = two_storeys().with_p_delta(gravity);
+        assert!(matches!(result, Err(Error::Input { value: 3.0, .. })), "{result:?}");
     }
     assert!(yielding_under_weight(6667.0).is_ok());
     assert!(matches!(yielding_under_weight(6666.0), Err(Error::Input { value: 3.0, .. })));

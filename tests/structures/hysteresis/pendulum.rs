@@ -98,10 +98,10 @@ fn assert_tangent(structure: &WithSprings, u: &[f64; 9]) {
             spring_force(structure, &u)
         });
         for row in 0..9 {
-            let found: f64 =
+            let computed: f64 =
                 tangent.entries().iter().filter(|e| (e.0, e.1) == (row, column)).map(|e| e.2).sum();
             let difference = (high[row] - low[row]) / 2e-9;
-            assert!((found - difference).abs() < 1e-4 * vertical_stiffness());
+            assert!((computed - difference).abs() < 1e-4 * vertical_stiffness());
         }
     }
 }
@@ -115,36 +115,36 @@ fn tangents_and_energies_are_those_of_the_force() {
     let mut before = structure.energy(&[0.0; 9]).unwrap();
     let sink = BLOCK_MASS * GRAVITY_ACCELERATION / vertical_stiffness();
     for _ in 0..200 {
-        let mut next = at;
-        for place in &mut next[6..8] {
+        let mut next_displacement = at;
+        for place in &mut next_displacement[6..8] {
             *place = 0.9 * *place + random.within(-0.03, 0.03);
         }
-        next[8] = random.within(-2.0, 0.2) * sink;
-        let work = work_along(&structure, &at, &next);
-        let after = structure.energy(&next).unwrap();
-        let gained = after.stored + after.dissipated - before.stored - before.dissipated;
+        next_displacement[8] = random.within(-2.0, 0.2) * sink;
+        let work = work_along(&structure, &at, &next_displacement);
+        let after = structure.energy(&next_displacement).unwrap();
+        let energy_change = after.stored + after.dissipated - before.stored - before.dissipated;
         let scale = after.stored + before.stored + after.dissipated - before.dissipated;
-        assert!((gained - work).abs() < 1e-5 * scale, "{gained} {work}");
+        assert!((energy_change - work).abs() < 1e-5 * scale, "{energy_change} {work}");
         assert!(after.dissipated >= before.dissipated);
-        assert_tangent(&structure, &next);
+        assert_tangent(&structure, &next_displacement);
         // Friction that falls with the vertical force turns stored energy into heat.
-        structure.commit(&next);
-        let committed = structure.energy(&next).unwrap();
+        structure.commit(&next_displacement);
+        let committed = structure.energy(&next_displacement).unwrap();
         assert!(committed.dissipated >= after.dissipated - 1e-9 * scale);
         let sum = committed.stored + committed.dissipated;
         let before_commit = after.stored + after.dissipated;
         assert!((sum - before_commit).abs() < 1e-9 * scale, "{sum} {before_commit}");
-        let saved = structure.save().unwrap();
+        let saved_variables = structure.save().unwrap();
         let mut other = isolated();
-        other.restore(&saved).unwrap();
-        assert_eq!(other.energy(&next), structure.energy(&next));
-        at = next;
+        other.restore(&saved_variables).unwrap();
+        assert_eq!(other.energy(&next_displacement), structure.energy(&next_displacement));
+        at = next_displacement;
         before = committed;
     }
-    let mut saved = structure.save().unwrap();
+    let mut saved_variables = structure.save().unwrap();
     for limit in [-1.0, f64::NAN] {
-        *saved.last_mut().unwrap() = limit;
-        assert!(structure.restore(&saved).is_err());
+        *saved_variables.last_mut().unwrap() = limit;
+        assert!(structure.restore(&saved_variables).is_err());
     }
     assert!(structure.restore(&[]).is_err());
     let law = FrictionPendulum::new(1.0, 1.0, 0.1).unwrap();
@@ -167,24 +167,24 @@ fn reference(rises: bool, ground: impl Fn(f64) -> f64) -> [f64; 3] {
     let mut rate = 0.0;
     let mut slip = 0.0;
     let stiffness = (TAU * VERTICAL_FREQUENCY).powi(2);
-    let yielding = 0.5e-3;
-    let mut largest = 0.0_f64;
+    let yield_displacement = 0.5e-3;
+    let mut max_magnitude = 0.0_f64;
     let mut range = [f64::INFINITY, 0.0_f64];
     for k in 0..600_000 {
         let time = step * f64::from(k);
         let force = GRAVITY_ACCELERATION + stiffness * (0.5 * u * u / PENDULUM_RADIUS - w);
         let force = if rises { force.max(0.0) } else { GRAVITY_ACCELERATION };
-        let reach = yielding * force / GRAVITY_ACCELERATION;
+        let reach = yield_displacement * force / GRAVITY_ACCELERATION;
         slip = u - (u - slip).clamp(-reach, reach);
-        let friction = FRICTION_COEFFICIENT * GRAVITY_ACCELERATION * (u - slip) / yielding;
+        let friction = FRICTION_COEFFICIENT * GRAVITY_ACCELERATION * (u - slip) / yield_displacement;
         v -= step * (force * u / PENDULUM_RADIUS + friction + ground(time));
         u += step * v;
         rate += step * (force - GRAVITY_ACCELERATION - upwards(time));
         w += step * rate;
-        largest = largest.max(u.abs());
+        max_magnitude = max_magnitude.max(u.abs());
         range = [range[0].min(force), range[1].max(force)];
     }
-    [largest, range[0] / GRAVITY_ACCELERATION, range[1] / GRAVITY_ACCELERATION]
+    [max_magnitude, range[0] / GRAVITY_ACCELERATION, range[1] / GRAVITY_ACCELERATION]
 }
 
 /// The vertical motion makes the weight vary by a third, and the block slide 11 % further.
@@ -200,7 +200,7 @@ fn a_block_slides_under_a_varying_weight() {
         let high = record.accelerations()[k + 1];
         low + (place - k as f64) * (high - low)
     };
-    let exact = reference(true, ground);
+    let expected = reference(true, ground);
     let fixed = reference(false, ground);
     let up = Record::from_fn(0.01, MOTION_DURATION + 1.0, upwards).unwrap();
     let plan = Plan::rectangle(-2.0..2.0, -2.0..2.0, 2).unwrap();
@@ -222,7 +222,7 @@ fn a_block_slides_under_a_varying_weight() {
     )
     .unwrap();
     let law = law.with_vertical_stiffness(vertical_stiffness()).unwrap();
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let mut range = [f64::INFINITY, 0.0_f64];
     let run = simulation
         .run((MOTION_DURATION / 2.5e-3) as usize, |state| {
@@ -230,13 +230,13 @@ fn a_block_slides_under_a_varying_weight() {
             let deformation = [0, 1, 2].map(|k| u[6 + k] + rest[6 + k] - u[k] - rest[k]);
             let weight = BLOCK_MASS * GRAVITY_ACCELERATION;
             let force = law.vertical_force(deformation) / weight;
-            largest = largest.max(deformation[0].abs());
+            max_magnitude = max_magnitude.max(deformation[0].abs());
             range = [range[0].min(force), range[1].max(force)];
         })
         .unwrap();
-    println!("{largest} {range:?} {exact:?} {fixed:?} {}", run.energy_error);
-    assert!((largest / exact[0] - 1.0).abs() < 0.005 && (fixed[0] / exact[0] - 1.0).abs() > 0.08);
-    assert!((range[0] - exact[1]).abs() < 0.01 && (range[1] - exact[2]).abs() < 0.01);
+    println!("{max_magnitude} {range:?} {expected:?} {fixed:?} {}", run.energy_error);
+    assert!((max_magnitude / expected[0] - 1.0).abs() < 0.005 && (fixed[0] / expected[0] - 1.0).abs() > 0.08);
+    assert!((range[0] - expected[1]).abs() < 0.01 && (range[1] - expected[2]).abs() < 0.01);
     assert!(run.energy_error < 1e-9, "{}", run.energy_error);
     let energies = run.energy_balance;
     let algorithmic = energies.algorithmic.abs() / energies.hysteresis;

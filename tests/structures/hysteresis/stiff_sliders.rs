@@ -90,21 +90,21 @@ fn random_buildings_are_solved() {
     let scenes = std::env::var("NONLINEAR_SCENES").ok().and_then(|text| text.parse().ok());
     let scenes: usize = scenes.unwrap_or(30);
     let mut random = Random(12);
-    let mut failed = Vec::new();
+    let mut failed_scenes = Vec::new();
     for scene in 0..scenes {
         let storeys = random.pick(&[1, 2, 3, 4, 5]);
-        let fixed_base = building(storeys, random.log_within(5e6, 1e8), random.pick(&[0.0, 0.02]));
-        let isolated = random.chance(0.5);
-        let mut structure = if isolated {
+        let superstructure = building(storeys, random.log_within(5e6, 1e8), random.pick(&[0.0, 0.02]));
+        let is_isolated = random.chance(0.5);
+        let mut structure = if is_isolated {
             let weight = weight_above(0, storeys) + STANDARD_GRAVITY * ISOLATION_LEVEL.slab_mass;
             let law = random_law(weight, &mut random);
-            fixed_base.isolated(ISOLATION_LEVEL, law).unwrap()
+            superstructure.isolated(ISOLATION_LEVEL, law).unwrap()
         } else {
-            fixed_base
+            superstructure
         };
         for storey in 0..storeys {
-            if !isolated || random.chance(0.3) {
-                let level = storey + usize::from(isolated);
+            if !is_isolated || random.chance(0.3) {
+                let level = storey + usize::from(is_isolated);
                 let law = random_law(weight_above(storey, storeys), &mut random);
                 structure = structure.with_law(level, law).unwrap();
             }
@@ -120,44 +120,44 @@ fn random_buildings_are_solved() {
             Ok(residual) => assert!(residual < 1e-8, "{scene}: {residual:e}"),
             Err(error) => {
                 println!("SCENE {scene} dt {time_step:.4} {foundation:?}: {error}");
-                failed.push(scene);
+                failed_scenes.push(scene);
             }
         }
     }
-    assert!(failed.is_empty(), "{} of {scenes} failed: {failed:?}", failed.len());
+    assert!(failed_scenes.is_empty(), "{} of {scenes} failed: {failed_scenes:?}", failed_scenes.len());
 }
 
 #[test]
 fn pendulums_that_slide_after_a_tenth_of_a_millimetre_are_solved() {
-    let all = std::env::var_os("NONLINEAR_SCENES").is_some();
+    let runs_all_scenes = std::env::var_os("NONLINEAR_SCENES").is_some();
     let mut scenes = 0;
-    let mut failed = Vec::new();
+    let mut error_texts = Vec::new();
     for storeys in [1, 2, 3, 5] {
         for modulus in [20e6, 80e6, 300e6] {
             for friction in [0.03, 0.06, 0.1] {
                 for radius in [1.0, 2.0, 4.0] {
-                    let published = modulus == 80e6 && friction == 0.06 && radius == 2.0;
-                    if !(all || published) {
+                    let is_published_case = modulus == 80e6 && friction == 0.06 && radius == 2.0;
+                    if !(runs_all_scenes || is_published_case) {
                         continue;
                     }
                     let weight = STANDARD_GRAVITY
                         * (ISOLATION_LEVEL.slab_mass + storeys as f64 * FLOOR_MASS);
                     let law = FrictionPendulum::new(weight, radius, friction).unwrap();
                     let law = law.with_yield_displacement(1e-4).unwrap();
-                    let fixed_base = building(storeys, 7.0e6 * storeys as f64, 0.02);
-                    let structure = fixed_base.isolated(ISOLATION_LEVEL, law).unwrap();
+                    let superstructure = building(storeys, 7.0e6 * storeys as f64, 0.02);
+                    let structure = superstructure.isolated(ISOLATION_LEVEL, law).unwrap();
                     let foundation = SoilAndInterface { modulus, friction: 0.4, elements: 8 };
                     scenes += 1;
                     match shake(structure, foundation, 1.0, 0.02, 15.0) {
                         Ok(residual) => assert!(residual < 1e-8, "{residual:e}"),
                         Err(error) => {
                             println!("SCENE {storeys} {modulus:e} {friction} {radius}: {error}");
-                            failed.push(error.to_string());
+                            error_texts.push(error.to_string());
                         }
                     }
                 }
             }
         }
     }
-    assert!(failed.is_empty(), "{} of {scenes} failed: {failed:?}", failed.len());
+    assert!(error_texts.is_empty(), "{} of {scenes} failed: {error_texts:?}", error_texts.len());
 }

@@ -1,4 +1,4 @@
-//! Damping matrices that would add energy are refused, unless the damping is active.
+//! Damping matrices that would add energy are errors, unless the damping is active.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Element, MassKind};
@@ -57,11 +57,11 @@ fn indefinite(row: usize, diagonal: f64) -> Error {
     Error::Indefinite { matrix: "damping matrix", row, diagonal }
 }
 
-/// Whether both errors are the same refusal; the row of an indefinite matrix may differ.
-fn is_same_refusal(found: &Error, expected: &Error) -> bool {
-    match (found, expected) {
+/// Whether both errors are equal but for the row of an indefinite matrix.
+fn is_same_error(error: &Error, expected: &Error) -> bool {
+    match (error, expected) {
         (Error::Indefinite { matrix, .. }, Error::Indefinite { .. }) => *matrix == "damping matrix",
-        _ => found == expected,
+        _ => error == expected,
     }
 }
 
@@ -69,10 +69,10 @@ fn actively_damped(damping: Triplets) -> MatrixModel {
     floor().with_active_damping(damping).unwrap()
 }
 
-/// GOAL: a matrix that is not symmetric or not positive semi-definite is refused, by the model
+/// GOAL: a matrix that is not symmetric or not positive semi-definite is an error, by the model
 /// of matrices and for any other structure.
 #[test]
-fn damping_that_adds_energy_is_refused() {
+fn damping_that_adds_energy_is_an_error() {
     let name = "damping matrix";
     for (damping, expected) in [
         (dashpot(-4.0e4), indefinite(2, -1.0e6)),
@@ -88,10 +88,10 @@ fn damping_that_adds_energy_is_refused() {
             Error::Unsymmetric { matrix: name, row: 0, column: 3, entries: [-1e4, 0.0] },
         ),
     ] {
-        let refused = floor().with_damping(damping.clone()).unwrap_err();
-        assert!(is_same_refusal(&refused, &expected), "{refused} instead of {expected}");
-        let refused = on_soil(Damped(floor(), damping.clone())).build().err().unwrap();
-        assert!(is_same_refusal(&refused, &expected), "{refused:?} instead of {expected}");
+        let result = floor().with_damping(damping.clone()).unwrap_err();
+        assert!(is_same_error(&result, &expected), "{result} instead of {expected}");
+        let result = on_soil(Damped(floor(), damping.clone())).build().err().unwrap();
+        assert!(is_same_error(&result, &expected), "{result:?} instead of {expected}");
         // As active damping it is accepted, also in a group.
         let active = actively_damped(damping.clone());
         assert!(active.has_active_damping() && on_soil(active).build().is_ok());
@@ -105,17 +105,17 @@ fn damping_that_adds_energy_is_refused() {
 fn active_damping_belongs_to_its_matrix() {
     let rayleigh = RayleighDamping::new(0.1, 0.01).unwrap();
     assert!(!actively_damped(dashpot(-1e4)).with_rayleigh(rayleigh).has_active_damping());
-    let damped = actively_damped(dashpot(-1e4)).with_damping(dashpot(1e4)).unwrap();
-    assert!(!damped.has_active_damping());
+    let damped_model = actively_damped(dashpot(-1e4)).with_damping(dashpot(1e4)).unwrap();
+    assert!(!damped_model.has_active_damping());
     let invalid = matrix(&[(0, 0, f64::NAN)]);
     assert!(actively_damped(dashpot(-1e4)).with_active_damping(invalid).is_err());
     let too_small = Triplets::new(3);
     assert!(actively_damped(dashpot(-1e4)).with_active_damping(too_small).is_err());
-    let reduced = CraigBampton::new(1).reduce(actively_damped(dashpot(-1e4))).unwrap();
-    assert!(reduced.has_active_damping() && on_soil(reduced).build().is_ok());
-    let reduced = CraigBampton::new(1).reduce(actively_damped(dashpot(-1e4))).unwrap();
-    let reduced = reduced.with_damping_ratio(0.1).unwrap();
-    assert!(!reduced.has_active_damping());
+    let reduced_structure = CraigBampton::new(1).reduce(actively_damped(dashpot(-1e4))).unwrap();
+    assert!(reduced_structure.has_active_damping() && on_soil(reduced_structure).build().is_ok());
+    let reduced_structure = CraigBampton::new(1).reduce(actively_damped(dashpot(-1e4))).unwrap();
+    let reduced_structure = reduced_structure.with_damping_ratio(0.1).unwrap();
+    assert!(!reduced_structure.has_active_damping());
 }
 
 /// Energy that damping dissipates in a run whose energy balance closes.
@@ -140,13 +140,13 @@ fn assert_builds(structure: impl Structure + 'static, name: &str) {
     let nodes: Vec<_> = base.nodes().collect();
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     let strip = Strip::uniform(nodes[0].x..nodes[nodes.len() - 1].x, 6).unwrap();
-    let built = Simulation::builder(0.01)
+    let result = Simulation::builder(0.01)
         .structure(structure)
         .ground(ElasticGround::new(soil, strip).unwrap())
         .interface(Bonded)
         .motion(el_centro_1940())
         .build();
-    assert!(built.is_ok(), "{name}: {:?}", built.err());
+    assert!(result.is_ok(), "{name}: {:?}", result.err());
 }
 
 /// GOAL: damping matrices in practical use are accepted: rounding, weighted sums, singular matrices, files of
@@ -156,15 +156,15 @@ fn damping_in_use_is_accepted() {
     for damping in [dashpot(1e-9), dashpot(1e12), matrix(&[]), matrix(&[(3, 3, 0.0)])] {
         assert_builds(floor().with_damping(damping).unwrap(), "dashpot");
     }
-    let rounded = matrix(&[(3, 3, 1e6), (2, 2, -1e-7), (0, 3, 1e-7), (3, 0, 1e-7)]);
-    assert_builds(floor().with_damping(rounded).unwrap(), "rounding");
+    let rounded_matrix = matrix(&[(3, 3, 1e6), (2, 2, -1e-7), (0, 3, 1e-7), (3, 0, 1e-7)]);
+    assert_builds(floor().with_damping(rounded_matrix).unwrap(), "rounding");
     let rayleigh = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
     for beta in [rayleigh, RayleighDamping::new(0.0, 0.05).unwrap()] {
         let model = tower(6, 40).with_rayleigh(beta);
         let mut digits = Triplets::new(model.dofs());
-        let mut full = Triplets::new(model.dofs());
-        model.damping(&mut full).unwrap();
-        for &(i, j, value) in full.entries() {
+        let mut full_matrix = Triplets::new(model.dofs());
+        model.damping(&mut full_matrix).unwrap();
+        for &(i, j, value) in full_matrix.entries() {
             digits.add(i, j, format!("{value:.7e}").parse().unwrap());
         }
         let mut mass = Triplets::new(model.dofs());
@@ -213,8 +213,8 @@ fn pushed_tower() -> Result<FemModel> {
 }
 
 #[test]
-fn elements_that_add_energy_are_refused_unless_active() {
-    let refused = on_soil(pushed_tower().unwrap()).build().err();
-    assert!(matches!(refused, Some(Error::Indefinite { matrix: "damping matrix", .. })));
+fn elements_that_add_energy_are_errors_unless_active() {
+    let result = on_soil(pushed_tower().unwrap()).build().err();
+    assert!(matches!(result, Some(Error::Indefinite { matrix: "damping matrix", .. })));
     assert!(on_soil(pushed_tower().unwrap().with_active_damping()).build().is_ok());
 }

@@ -1,5 +1,5 @@
-//! GOAL: a structure by its matrices is the structure that they came from; invalid matrices are
-//! refused.
+//! GOAL: a structure by its matrices moves as the structure that they came from; invalid
+//! matrices are errors.
 //! SCENE: a tower on the half-plane that uplifts and slides.
 //! REFERENCE: the finite-element model; typed errors.
 
@@ -31,7 +31,7 @@ pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder 
         .gravity(STANDARD_GRAVITY)
 }
 
-/// The matrix that `fill` adds up.
+/// The matrix of the entries that `fill` adds.
 fn filled(order: usize, fill: impl Fn(&mut Triplets) -> basemat::Result<()>) -> Triplets {
     let mut matrix = Triplets::new(order);
     fill(&mut matrix).unwrap();
@@ -53,12 +53,12 @@ fn matrices_move_as_the_model_they_came_from() {
     let mass = filled(model.dofs(), |matrix| model.mass(matrix));
     let damping = filled(model.dofs(), |matrix| model.damping(matrix));
     let stiffness = filled(model.dofs(), |matrix| model.stiffness(matrix));
-    let undamped = MatrixModel::new(mass, stiffness, model.base()).unwrap();
-    let with_rayleigh = undamped.clone().with_rayleigh(rayleigh);
-    let with_matrix = undamped.with_damping(damping).unwrap();
+    let undamped_model = MatrixModel::new(mass, stiffness, model.base()).unwrap();
+    let with_rayleigh = undamped_model.clone().with_rayleigh(rayleigh);
+    let with_matrix = undamped_model.with_damping(damping).unwrap();
     let expected = largest_moment(model);
-    for found in [largest_moment(with_matrix), largest_moment(with_rayleigh)] {
-        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    for computed in [largest_moment(with_matrix), largest_moment(with_rayleigh)] {
+        assert!((computed / expected - 1.0).abs() < 1e-9, "{computed} {expected}");
     }
 }
 
@@ -82,31 +82,34 @@ fn is_size<T>(result: &basemat::Result<T>) -> bool {
 }
 
 #[test]
-fn invalid_matrices_are_refused() {
+fn invalid_matrices_are_errors() {
     let unit = diagonal_matrix(3, 1.0);
     assert!(model_of(unit.clone(), Triplets::new(3)).is_ok());
-    let huge = Triplets::new(usize::MAX);
-    assert!(matches!(model_of(huge.clone(), huge), Err(Error::Memory(_))));
+    let huge_matrix = Triplets::new(usize::MAX);
+    assert!(matches!(model_of(huge_matrix.clone(), huge_matrix), Err(Error::Memory(_))));
     assert!(is_size(&model_of(Triplets::new(0), unit.clone())));
     assert!(is_size(&model_of(unit.clone(), diagonal_matrix(4, 1.0))));
     assert!(is_size(&MatrixModel::new(unit.clone(), unit.clone(), vec![])));
-    let small = diagonal_matrix(2, 1.0);
-    assert!(matches!(model_of(small.clone(), small.clone()), Err(Error::Index { .. })));
+    let small_matrix = diagonal_matrix(2, 1.0);
+    assert!(matches!(
+        model_of(small_matrix.clone(), small_matrix.clone()),
+        Err(Error::Index { .. })
+    ));
     assert!(is_input(&model_of(diagonal_matrix(3, f64::NAN), unit.clone())));
     assert!(is_input(&model_of(unit.clone(), diagonal_matrix(3, f64::INFINITY))));
-    let mut skew = unit.clone();
-    skew.add(0, 1, 0.5);
+    let mut asymmetric_matrix = unit.clone();
+    asymmetric_matrix.add(0, 1, 0.5);
     assert!(matches!(
-        model_of(skew, unit.clone()),
+        model_of(asymmetric_matrix, unit.clone()),
         Err(Error::Unsymmetric { row: 0, column: 1, entries: [0.5, 0.0], .. })
     ));
-    let mut outside = unit.clone();
-    outside.add(0, 3, 0.5);
-    assert!(matches!(model_of(unit.clone(), outside), Err(Error::Index { .. })));
-    let far = BaseNode::rigid_base(f64::NAN, 1.0, [0, 1, 2]);
-    assert!(is_input(&MatrixModel::new(unit.clone(), unit.clone(), far)));
+    let mut matrix_beyond_the_order = unit.clone();
+    matrix_beyond_the_order.add(0, 3, 0.5);
+    assert!(matches!(model_of(unit.clone(), matrix_beyond_the_order), Err(Error::Index { .. })));
+    let invalid_base = BaseNode::rigid_base(f64::NAN, 1.0, [0, 1, 2]);
+    assert!(is_input(&MatrixModel::new(unit.clone(), unit.clone(), invalid_base)));
     let model = model_of(unit.clone(), unit).unwrap();
-    assert!(is_size(&model.clone().with_damping(small)));
+    assert!(is_size(&model.clone().with_damping(small_matrix)));
     assert!(is_input(&model.with_damping(diagonal_matrix(3, f64::NAN))));
 }
 
@@ -121,7 +124,7 @@ fn assert_restrained(structure: impl Structure + 'static) {
 
 /// An elastic support would carry part of the weight and resist the rigid motion by which the weight is computed.
 #[test]
-fn stiffness_to_a_fixed_point_is_refused() {
+fn stiffness_to_a_fixed_point_is_an_error() {
     let block = RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
     for (dof, stiffness) in [(1, 1e-3), (1, 1.0), (1, 1e9), (0, 1e-3), (0, 1e9)] {
         let mass = filled(3, |matrix| block.mass(matrix));
@@ -129,8 +132,9 @@ fn stiffness_to_a_fixed_point_is_refused() {
         spring.add(dof, dof, stiffness);
         assert_restrained(MatrixModel::new(mass, spring, block.base()).unwrap());
         let law = Bilinear::new(stiffness, 1.0, 0.1).unwrap();
-        let sprung = WithSprings::new(block.clone()).spring(vec![(dof, 1.0)], law).unwrap();
-        assert_restrained(sprung);
+        let block_on_spring =
+            WithSprings::new(block.clone()).spring(vec![(dof, 1.0)], law).unwrap();
+        assert_restrained(block_on_spring);
     }
     let roof = tower(4, 6).dofs() - 1;
     let law = Bilinear::new(1e8, 1e5, 0.1).unwrap();
@@ -144,9 +148,9 @@ fn stiff_structures_are_free_to_translate() {
         let material = Material::new(modulus, 0.2, 2000.0).unwrap();
         let mesh = Mesh::layered_block(-3.0..3.0, 6, &[Layer::new(120.0, 60, material)]).unwrap();
         let model = FemModel::on_base(mesh).unwrap();
-        let built = on_soil(model).gravity(0.0).build();
-        let fixed = matches!(built, Err(Error::Structure(StructureError::Restrained { .. })));
-        assert!(!fixed, "{modulus:e}: {:?}", built.err());
+        let result = on_soil(model).gravity(0.0).build();
+        let fixed = matches!(result, Err(Error::Structure(StructureError::Restrained { .. })));
+        assert!(!fixed, "{modulus:e}: {:?}", result.err());
     }
 }
 
@@ -189,18 +193,18 @@ fn negative_mass(diagonal: f64) -> Error {
 
 /// With a negative mass energy would grow without bound although the energy balance closes.
 #[test]
-fn negative_masses_are_refused() {
-    let negative = floor_of_masses(&[(3, 3, -1000.0)]);
-    assert_eq!(negative.unwrap_err(), negative_mass(-1000.0));
+fn negative_masses_are_errors() {
+    let negative_mass_error = floor_of_masses(&[(3, 3, -1000.0)]);
+    assert_eq!(negative_mass_error.unwrap_err(), negative_mass(-1000.0));
     // Positive on the diagonal, and negative for opposite u_0 and u_3.
-    let skew = floor_of_masses(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
-    assert_eq!(skew.unwrap_err(), negative_mass(1.0e4));
+    let indefinite_mass_error = floor_of_masses(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
+    assert_eq!(indefinite_mass_error.unwrap_err(), negative_mass(1.0e4));
     // A mass on a weighted sum of degrees of freedom, and no mass at all, are singular, not negative.
     for legal in [&[(3, 3, 2.0e4), (0, 3, 2.0e4), (3, 0, 2.0e4)][..], &[]] {
         assert!(on_soil(floor_of_masses(legal).unwrap()).build().is_ok());
     }
-    let built = on_soil(LightBlock(RigidBlock::new(6.0, 10.0, 2000.0).unwrap())).build();
-    assert_eq!(built.err(), Some(negative_mass(-1000.0)));
+    let result = on_soil(LightBlock(RigidBlock::new(6.0, 10.0, 2000.0).unwrap())).build();
+    assert_eq!(result.err(), Some(negative_mass(-1000.0)));
 }
 
 /// A mast of two hinged bars that carry `load`.
@@ -222,13 +226,13 @@ fn mast_under(load: f64) -> basemat::Result<Simulation> {
 /// Under more than its buckling load a mast of two hinged bars releases energy on a base at rest.
 /// The P–Δ effect of a block does so only where the base can turn, and is accepted.
 #[test]
-fn negative_stiffness_on_a_fixed_base_is_refused() {
+fn negative_stiffness_on_a_fixed_base_is_an_error() {
     assert!(mast_under(0.999 * 5.0e6).is_ok());
-    let refused = mast_under(1.001 * 5.0e6).err();
-    assert!(matches!(refused, Some(Error::Indefinite { .. })), "{refused:?}");
-    let slender = RigidBlock::new(1.0, 4.0, 2000.0).unwrap().with_p_delta(9.81).unwrap();
+    let result = mast_under(1.001 * 5.0e6).err();
+    assert!(matches!(result, Some(Error::Indefinite { .. })), "{result:?}");
+    let slender_block = RigidBlock::new(1.0, 4.0, 2000.0).unwrap().with_p_delta(9.81).unwrap();
     let built = Simulation::builder(0.01)
-        .structure(slender)
+        .structure(slender_block)
         .ground(SpringGround::new(-0.5..0.5, 4, 1.0e9, 1.0e9).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .build();

@@ -43,27 +43,28 @@ fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
 #[test]
 fn rigid_motions_and_their_inertia_are_exact() {
     let model = damped();
-    let rigid = [Direction::X, Direction::Y, Direction::Rotation]
+    let rigid_motions = [Direction::X, Direction::Y, Direction::Rotation]
         .map(|direction| model.rigid_motion(direction, [0.0; 3]));
     let inertia: Vec<Vec<f64>> =
-        rigid.iter().map(|motion| product(&model, Structure::mass, motion)).collect();
-    let reduced = CraigBampton::new(5).reduce(model).unwrap();
-    let recovery = reduced.recovery();
-    let order = reduced.dofs();
-    for (motion, momentum) in rigid.iter().zip(&inertia) {
+        rigid_motions.iter().map(|motion| product(&model, Structure::mass, motion)).collect();
+    let reduced_structure = CraigBampton::new(5).reduce(model).unwrap();
+    let recovery = reduced_structure.recovery();
+    let order = reduced_structure.dofs();
+    for (motion, momentum) in rigid_motions.iter().zip(&inertia) {
         let q = static_motion(&recovery, order, motion);
-        let back = recovery.full(&q).unwrap();
-        let difference: Vec<f64> = back.iter().zip(motion).map(|(a, b)| a - b).collect();
+        let recovered_motion = recovery.full(&q).unwrap();
+        let difference: Vec<f64> =
+            recovered_motion.iter().zip(motion).map(|(a, b)| a - b).collect();
         assert!(largest(&difference) < 1e-9 * largest(motion), "{:e}", largest(&difference));
-        let force = product(&reduced, Structure::stiffness, &q);
+        let force = product(&reduced_structure, Structure::stiffness, &q);
         assert!(largest(&force) < 1e-11 * 2.0e9 * largest(motion), "{:e}", largest(&force));
-        for other in &rigid {
-            let expected: f64 = other.iter().zip(momentum).map(|(a, b)| a * b).sum();
-            let other_q = static_motion(&recovery, order, other);
-            let momentum = product(&reduced, Structure::mass, &q);
-            let found: f64 = momentum.iter().zip(&other_q).map(|(a, b)| a * b).sum();
+        for other_motion in &rigid_motions {
+            let expected: f64 = other_motion.iter().zip(momentum).map(|(a, b)| a * b).sum();
+            let other_q = static_motion(&recovery, order, other_motion);
+            let momentum = product(&reduced_structure, Structure::mass, &q);
+            let computed: f64 = momentum.iter().zip(&other_q).map(|(a, b)| a * b).sum();
             let scale = 15.0_f64.powi(2) * 180e3;
-            assert!((found - expected).abs() < 1e-9 * scale, "{found} {expected}");
+            assert!((computed - expected).abs() < 1e-9 * scale, "{computed} {expected}");
         }
     }
 }
@@ -100,25 +101,25 @@ impl FullRun {
 #[test]
 fn reduced_models_converge_to_the_full_model() {
     let steps = 500;
-    let full = FullRun::new(steps);
-    let peaks = [full.peak(0), full.peak(1)];
+    let full_run = FullRun::new(steps);
+    let peaks = [full_run.peak(0), full_run.peak(1)];
     let interior = damped().dofs() - 14;
-    let mut last = f64::INFINITY;
+    let mut previous_error = f64::INFINITY;
     for (modes, limit) in [(1, 0.2), (4, 0.04), (16, 0.004), (interior, 1e-7)] {
         let model = damped();
         let dof = top(&model);
-        let reduced = CraigBampton::new(modes).reduce(model).unwrap();
-        assert_eq!(reduced.dofs(), 14 + modes);
-        let recovery = reduced.recovery();
+        let reduced_structure = CraigBampton::new(modes).reduce(model).unwrap();
+        assert_eq!(reduced_structure.dofs(), 14 + modes);
+        let recovery = reduced_structure.recovery();
         let probe = recovery.probe(Probe::displacement("top", dof)).unwrap();
         assert!(probe.velocity.is_empty() && probe.acceleration.is_empty());
-        let mut simulation = on_soil(reduced).probe(probe).build().unwrap();
+        let mut simulation = on_soil(reduced_structure).probe(probe).build().unwrap();
         let mut errors = [0.0_f64; 2];
         let mut step = 0;
         let run = simulation
             .run(steps, |state| {
                 for (k, value) in [state.probes[0], state.base_moment].into_iter().enumerate() {
-                    errors[k] = errors[k].max((value - full.series[step][k]).abs() / peaks[k]);
+                    errors[k] = errors[k].max((value - full_run.series[step][k]).abs() / peaks[k]);
                 }
                 step += 1;
             })
@@ -128,13 +129,16 @@ fn reduced_models_converge_to_the_full_model() {
             errors[0], errors[1]
         );
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
-        assert!(errors[0] < limit && errors[0] < last, "{modes} modes: {errors:?}");
-        last = errors[0];
-        let back = recovery.full(simulation.state().displacement()).unwrap();
-        assert!((back[dof] - simulation.state().probes[0]).abs() < 1e-12);
+        assert!(errors[0] < limit && errors[0] < previous_error, "{modes} modes: {errors:?}");
+        previous_error = errors[0];
+        let recovered_displacement = recovery.full(simulation.state().displacement()).unwrap();
+        assert!((recovered_displacement[dof] - simulation.state().probes[0]).abs() < 1e-12);
         if modes == interior {
-            let difference: Vec<f64> =
-                back.iter().zip(&full.displacement).map(|(a, b)| a - b).collect();
+            let difference: Vec<f64> = recovered_displacement
+                .iter()
+                .zip(&full_run.displacement)
+                .map(|(a, b)| a - b)
+                .collect();
             assert!(largest(&difference) < 1e-6 * peaks[0], "{:e}", largest(&difference));
         }
     }
@@ -158,38 +162,40 @@ fn springs_on_kept_dofs_are_those_of_the_full_model() {
     let dof = top(&model);
     let corner = model.dof(0, Direction::X).unwrap();
     let brace = vec![(dof, 1.0), (corner, -1.0)];
-    let full = WithSprings::new(damped()).spring(brace.clone(), yielding_law()).unwrap();
-    let expected = march_with_springs(full);
-    let reduced = CraigBampton::new(60).keep(&[dof]).reduce(model).unwrap();
-    let recovery = reduced.recovery();
+    let full_structure = WithSprings::new(damped()).spring(brace.clone(), yielding_law()).unwrap();
+    let expected = march_with_springs(full_structure);
+    let reduced_structure = CraigBampton::new(60).keep(&[dof]).reduce(model).unwrap();
+    let recovery = reduced_structure.recovery();
     let place = recovery.kept().iter().position(|kept| *kept == dof).unwrap();
     let row = recovery.row(&brace[..]).unwrap();
     for (index, weight) in &row {
         let is_end = *index == place || recovery.kept().get(*index) == Some(&corner);
         assert_eq!(weight.abs(), f64::from(u8::from(is_end)), "{index}");
     }
-    let found = march_with_springs(WithSprings::new(reduced).spring(row, yielding_law()).unwrap());
+    let computed = march_with_springs(
+        WithSprings::new(reduced_structure).spring(row, yielding_law()).unwrap(),
+    );
     assert!(expected[0] > 100.0, "no yielding");
-    assert!((found[0] / expected[0] - 1.0).abs() < 0.01, "{found:?} {expected:?}");
-    assert!((found[1] / expected[1] - 1.0).abs() < 0.02, "{found:?} {expected:?}");
+    assert!((computed[0] / expected[0] - 1.0).abs() < 0.01, "{computed:?} {expected:?}");
+    assert!((computed[1] / expected[1] - 1.0).abs() < 0.02, "{computed:?} {expected:?}");
 }
 
 /// The matrices of the modes on a fixed base: stiffness ω², mass 1, damping 2 ζ ω.
 #[test]
 fn damping_ratios_are_those_of_the_modes_on_a_fixed_base() {
-    let reduced =
+    let reduced_structure =
         CraigBampton::new(3).reduce(tower(6, 12)).unwrap().with_damping_ratio(0.04).unwrap();
-    let order = reduced.dofs();
-    for (k, frequency) in reduced.frequencies().iter().enumerate() {
+    let order = reduced_structure.dofs();
+    for (k, frequency) in reduced_structure.frequencies().iter().enumerate() {
         let mut q = vec![0.0; order];
         q[order - 3 + k] = 1.0;
         let place = order - 3 + k;
         let w = std::f64::consts::TAU * frequency;
-        let stiffness = product(&reduced, Structure::stiffness, &q)[place];
+        let stiffness = product(&reduced_structure, Structure::stiffness, &q)[place];
         assert!((stiffness / (w * w) - 1.0).abs() < 1e-12);
-        let mass = product(&reduced, Structure::mass, &q)[place];
+        let mass = product(&reduced_structure, Structure::mass, &q)[place];
         assert!((mass - 1.0).abs() < 1e-10);
-        let damping = product(&reduced, Structure::damping, &q)[place];
+        let damping = product(&reduced_structure, Structure::damping, &q)[place];
         assert!((damping / (2.0 * 0.04 * w) - 1.0).abs() < 1e-12);
     }
 }
@@ -200,10 +206,11 @@ fn modes_on_a_fixed_base_are_those_of_a_cantilever() {
     use basemat::fem::{Layer, Material, Mesh};
     let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
     let mesh = Mesh::layered_block(-0.5..0.5, 4, &[Layer::new(40.0, 160, material)]).unwrap();
-    let reduced = CraigBampton::new(2).reduce(FemModel::on_base(mesh).unwrap()).unwrap();
+    let reduced_structure = CraigBampton::new(2).reduce(FemModel::on_base(mesh).unwrap()).unwrap();
     let stiffness = 2.0e9 / (1.0 - 0.04) / 12.0;
     let speed = (stiffness / 2000.0_f64).sqrt() / 40.0_f64.powi(2) / std::f64::consts::TAU;
-    for (frequency, root) in reduced.frequencies().iter().zip([1.875_104, 4.694_091_f64]) {
+    for (frequency, root) in reduced_structure.frequencies().iter().zip([1.875_104, 4.694_091_f64])
+    {
         let expected = root * root * speed;
         assert!((frequency / expected - 1.0).abs() < 5e-3, "{frequency} {expected}");
     }
@@ -215,7 +222,7 @@ fn reduction_error(result: basemat::Result<ReducedModel>) -> Error {
 }
 
 #[test]
-fn invalid_reductions_are_refused() {
+fn invalid_reductions_are_errors() {
     let law = Bilinear::new(1e6, 1e3, 0.0).unwrap();
     let springs = WithSprings::new(tower(2, 2)).spring(vec![(0, 1.0)], law).unwrap();
     let error = reduction_error(CraigBampton::new(1).reduce(springs));
@@ -231,21 +238,21 @@ fn invalid_reductions_are_refused() {
         &[basemat::fem::Layer::new(1.0, 1, basemat::fem::Material::new(1e9, 0.2, 2e3).unwrap())],
     )
     .unwrap();
-    let loose = mesh.add_node(0.0, 5.0).unwrap();
-    mesh.add(basemat::fem::LumpedMass::new(loose, 10.0).unwrap()).unwrap();
+    let free_node = mesh.add_node(0.0, 5.0).unwrap();
+    mesh.add(basemat::fem::LumpedMass::new(free_node, 10.0).unwrap()).unwrap();
     let hanging = CraigBampton::new(1).reduce(FemModel::on_base(mesh).unwrap());
     let Error::Structure(StructureError::Detached { dofs, place }) = reduction_error(hanging)
     else {
         panic!()
     };
     assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
-    let reduced = CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
-    for bad in [-0.1, f64::NAN, f64::INFINITY] {
-        let reduced = CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
-        let error = reduction_error(reduced.with_damping_ratio(bad));
+    let reduced_structure = CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
+    for invalid_value in [-0.1, f64::NAN, f64::INFINITY] {
+        let reduced_structure = CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
+        let error = reduction_error(reduced_structure.with_damping_ratio(invalid_value));
         assert!(matches!(error, Error::Input { .. }));
     }
-    let recovery = reduced.recovery();
+    let recovery = reduced_structure.recovery();
     assert_eq!(recovery.full_dofs(), 18);
     assert!(matches!(recovery.row(18), Err(Error::Index { .. })));
     let probe = Probe::displacement("far", 18);
@@ -254,12 +261,12 @@ fn invalid_reductions_are_refused() {
     );
     assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
-    // A matrix of another order receives entries out of range, an error where it is used.
-    reduced.mass(&mut Triplets::new(0)).unwrap();
+    // Entries out of range of a matrix are an error where the matrix is used.
+    reduced_structure.mass(&mut Triplets::new(0)).unwrap();
     // With all degrees of freedom kept it is the same structure.
-    let all: Vec<usize> = (0..18).collect();
-    let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();
-    assert_eq!(same.dofs(), 18);
+    let all_dofs: Vec<usize> = (0..18).collect();
+    let unreduced_structure = CraigBampton::new(0).keep(&all_dofs).reduce(tower(2, 2)).unwrap();
+    assert_eq!(unreduced_structure.dofs(), 18);
 }
 
 /// A tower of 100 m on 12 × 200 quadrilaterals.
@@ -275,12 +282,13 @@ fn tall_tower() -> FemModel {
 #[test]
 fn static_forces_of_tall_meshes_are_their_weight() {
     let weight = 6.0 * 100.0 * 600.0 * basemat::motion::STANDARD_GRAVITY;
-    let reduced = on_soil(CraigBampton::new(4).reduce(tall_tower()).unwrap()).build().unwrap();
-    let full = on_soil(tall_tower()).coordinates(Coordinates::Physical).build().unwrap();
-    for simulation in [&full, &reduced] {
+    let reduced_simulation =
+        on_soil(CraigBampton::new(4).reduce(tall_tower()).unwrap()).build().unwrap();
+    let full_simulation = on_soil(tall_tower()).coordinates(Coordinates::Physical).build().unwrap();
+    for simulation in [&full_simulation, &reduced_simulation] {
         assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-7);
     }
-    for (a, b) in full.state().contact.iter().zip(&reduced.state().contact) {
+    for (a, b) in full_simulation.state().contact.iter().zip(&reduced_simulation.state().contact) {
         // Forces on the base act through static shapes, weight of the interior through the modes that are kept.
         assert!((a.pressure - b.pressure).abs() < 1e-2 * weight / 6.0, "{a:?} {b:?}");
     }
@@ -296,10 +304,11 @@ fn without_mass_or_dofs_there_are_no_modes() {
     let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
     let mast = MatrixModel::new(mass, stiffness, contact).unwrap();
     for modes in [0, 1] {
-        let reduced = CraigBampton::new(modes).reduce(mast.clone()).unwrap();
-        assert_eq!(reduced.dofs(), 3);
-        assert!(reduced.frequencies().is_empty());
+        let reduced_structure = CraigBampton::new(modes).reduce(mast.clone()).unwrap();
+        assert_eq!(reduced_structure.dofs(), 3);
+        assert!(reduced_structure.frequencies().is_empty());
     }
-    let nothing = ModalDamping::new(&[0.05]).unwrap().on(StructureGroup::new()).unwrap();
-    assert!(nothing.frequencies().is_empty());
+    let damping_of_no_structure =
+        ModalDamping::new(&[0.05]).unwrap().on(StructureGroup::new()).unwrap();
+    assert!(damping_of_no_structure.frequencies().is_empty());
 }

@@ -28,14 +28,14 @@ fn column(matrix: &mut Triplets, dof: usize, stiffness: f64) {
 
 /// Two floors at one height, with a spring between them, and a multiplier of coefficient
 /// `coefficient` that ties them.
-fn tied(coefficient: f64, between: f64, columns: [f64; 2]) -> MatrixModel {
+fn tied(coefficient: f64, spring_stiffness: f64, columns: [f64; 2]) -> MatrixModel {
     let mut mass = base_masses(6);
     mass.add(3, 3, 1.0e4);
     mass.add(4, 4, 2.0e4);
     let mut stiffness = Triplets::new(6);
     column(&mut stiffness, 3, columns[0]);
     column(&mut stiffness, 4, columns[1]);
-    stiffness.add_spring(3, 4, between);
+    stiffness.add_spring(3, 4, spring_stiffness);
     for (floor, sign) in [(3, 1.0), (4, -1.0)] {
         stiffness.add(5, floor, sign * coefficient);
         stiffness.add(floor, 5, sign * coefficient);
@@ -52,17 +52,17 @@ fn floor_displacements(model: MatrixModel) -> Vec<f64> {
     displacements
 }
 
-/// A multiplier does not count as negative stiffness, whatever its coefficient, nor does a stiffness that it keeps from
-/// acting: a spring between tied floors, or a column that the other outweighs.
+/// A multiplier does not count as negative stiffness, whatever its coefficient, nor does a stiffness that the
+/// multiplier keeps from acting: a spring between tied floors, or a column that the other outweighs.
 #[test]
 fn floors_tied_by_a_multiplier_move_as_one() {
     let mut mass = base_masses(4);
     mass.add(3, 3, 3.0e4);
     let mut stiffness = Triplets::new(4);
     column(&mut stiffness, 3, 7.0e6);
-    let merged = floor_displacements(on_base(mass, stiffness).unwrap());
-    let largest = merged.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
-    assert!(largest > 1e-3, "{largest}");
+    let merged_displacements = floor_displacements(on_base(mass, stiffness).unwrap());
+    let max_magnitude = merged_displacements.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+    assert!(max_magnitude > 1e-3, "{max_magnitude}");
     for (coefficient, between, columns) in [
         (1.0e6, 0.0, [4.0e6, 3.0e6]),
         (1.0, 0.0, [4.0e6, 3.0e6]),
@@ -70,8 +70,11 @@ fn floors_tied_by_a_multiplier_move_as_one() {
         (1.0e6, 0.0, [-1.0e6, 8.0e6]),
     ] {
         let two = floor_displacements(tied(coefficient, between, columns));
-        let error = two.iter().zip(&merged).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-        assert!(error < 1e-9 * largest, "{coefficient:e} {between:e} {columns:?}: {error:e}");
+        let error = two
+            .iter()
+            .zip(&merged_displacements)
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        assert!(error < 1e-9 * max_magnitude, "{coefficient:e} {between:e} {columns:?}: {error:e}");
     }
 }
 
@@ -81,9 +84,9 @@ fn assert_indefinite(model: MatrixModel) {
     assert!(matches!(error, Some(Error::Indefinite { .. })), "{error:?}");
 }
 
-/// Beside a multiplier negative stiffness is still refused, and so is a multiplier with a mass.
+/// Beside a multiplier negative stiffness is still an error, and so is a multiplier with a mass.
 #[test]
-fn negative_stiffness_beside_a_multiplier_is_refused() {
+fn negative_stiffness_beside_a_multiplier_is_an_error() {
     assert_indefinite(tied(1.0e6, 0.0, [-5.0e6, 4.0e6]));
     assert_indefinite(tied(1.0, 0.0, [-5.0e6, 4.0e6]));
     let mut mass = base_masses(5);
@@ -115,15 +118,15 @@ fn appended(entries: &[(usize, usize, f64)]) -> Result<MatrixModel> {
 /// The rounding that a reduction or a file leaves on a massless degree of freedom has no effect on the motion.
 #[test]
 fn masses_of_rounding_have_no_effect() {
-    let massless = floor_displacements(appended(&[]).unwrap());
+    let expected = floor_displacements(appended(&[]).unwrap());
     for rounding in [
         &[(4, 4, -1e-18)][..],
         &[(3, 4, 1e-13)],
         &[(4, 4, 1e-20), (0, 4, 1e-7)],
         &[(4, 4, -1e-12), (3, 4, -1e-9)],
     ] {
-        let found = floor_displacements(appended(rounding).unwrap());
-        for (a, b) in found.iter().zip(&massless) {
+        let computed = floor_displacements(appended(rounding).unwrap());
+        for (a, b) in computed.iter().zip(&expected) {
             assert!((a - b).abs() < 1e-10, "{rounding:?}: {a} {b}");
         }
     }
@@ -131,7 +134,7 @@ fn masses_of_rounding_have_no_effect() {
 
 /// The error names the invalid degree of freedom.
 #[test]
-fn masses_beyond_rounding_are_refused() {
+fn masses_beyond_rounding_are_errors() {
     for (entries, diagonal) in [
         (&[(4, 4, -1000.0)][..], -1000.0),
         (&[(4, 4, -400.0)], -400.0),
@@ -140,8 +143,8 @@ fn masses_beyond_rounding_are_refused() {
         (&[(3, 4, 1.0)], 0.0),
         (&[(4, 4, 1.0), (3, 4, -101.0)], 1.0),
     ] {
-        let refused = appended(entries).unwrap_err();
-        assert_eq!(refused, Error::Indefinite { matrix: "mass matrix", row: 4, diagonal });
+        let result = appended(entries).unwrap_err();
+        assert_eq!(result, Error::Indefinite { matrix: "mass matrix", row: 4, diagonal });
     }
 }
 
@@ -167,20 +170,21 @@ fn build_with_force(dof: usize) -> Result<()> {
 }
 
 /// At t = 0 tied floors accelerate as one, and a massless degree of freedom follows its springs, also with a
-/// mass of rounding; a force on it is refused.
+/// mass of rounding; a force on it is an error.
 #[test]
 fn initial_accelerations_of_massless_dofs_follow_their_springs() {
     for coefficient in [1.0, 1.0e6, 1.0e9] {
-        let found = initial_accelerations(tied(coefficient, 0.0, [4.0e6, 3.0e6]), 6.0e4).unwrap();
-        assert_near(found[0], 2.0);
-        assert_near(found[1], 2.0);
+        let computed =
+            initial_accelerations(tied(coefficient, 0.0, [4.0e6, 3.0e6]), 6.0e4).unwrap();
+        assert_near(computed[0], 2.0);
+        assert_near(computed[1], 2.0);
     }
     for rounding in [&[][..], &[(4, 4, -1e-18)], &[(4, 4, 1e-20), (0, 4, 1e-7)]] {
-        let found = initial_accelerations(appended(rounding).unwrap(), 6.0e4).unwrap();
-        assert_near(found[0], 6.0);
-        assert_near(found[1], 6.0);
+        let computed = initial_accelerations(appended(rounding).unwrap(), 6.0e4).unwrap();
+        assert_near(computed[0], 6.0);
+        assert_near(computed[1], 6.0);
     }
     build_with_force(3).unwrap();
-    let refused = build_with_force(4).unwrap_err().to_string();
-    assert!(refused.contains("force at t = 0"), "{refused}");
+    let result = build_with_force(4).unwrap_err().to_string();
+    assert!(result.contains("force at t = 0"), "{result}");
 }

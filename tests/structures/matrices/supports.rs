@@ -1,4 +1,4 @@
-//! GOAL: elastic supports are refused and rounding is not: a structure must keep its rigid-body
+//! GOAL: elastic supports are errors and rounding is not: a structure must keep its rigid-body
 //! modes.
 //! SCENE: a slender wall by its matrices, with weak springs and with few digits.
 //! REFERENCE: the force against a rigid translation.
@@ -22,15 +22,15 @@ fn by_matrices(
 ) -> MatrixModel {
     let n = model.dofs();
     let mut mass = Triplets::new(n);
-    let mut all = Triplets::new(n);
+    let mut entries = Triplets::new(n);
     let mut stiffness = Triplets::new(n);
     model.mass(&mut mass).unwrap();
-    model.stiffness(&mut all).unwrap();
+    model.stiffness(&mut entries).unwrap();
     let mut sums = std::collections::BTreeMap::new();
-    for &(row, column, value) in all.entries() {
+    for &(row, column, value) in entries.entries() {
         *sums.entry((row, column)).or_insert(0.0) += value;
     }
-    let largest = sums.values().fold(0.0_f64, |a, value| a.max(value.abs()));
+    let max_magnitude = sums.values().fold(0.0_f64, |a, value| a.max(value.abs()));
     for (&(row, column), &value) in sums.iter().filter(|((row, column), _)| row >= column) {
         stiffness.add(row, column, change(value));
         if row > column {
@@ -38,7 +38,7 @@ fn by_matrices(
         }
     }
     if let Some((dof, ratio)) = support {
-        stiffness.add(dof, dof, ratio * largest);
+        stiffness.add(dof, dof, ratio * max_magnitude);
     }
     MatrixModel::new(mass, stiffness, model.base()).unwrap()
 }
@@ -67,20 +67,20 @@ fn wall_on_soil(structure: impl Structure + 'static) -> Result<Simulation> {
 /// Springs from 1e-9 of the largest stiffness on, on a block and on a soft wall: the error has their
 /// place and stiffness.
 #[test]
-fn weak_supports_are_refused_and_named() {
+fn weak_supports_are_errors_and_named() {
     let block = tower(6, 20);
     for (place, direction, name) in
         [([0.0, 15.0], Direction::X, "to the right"), ([-1.0, 7.5], Direction::Y, "upwards")]
     {
         let dof =
             block.dof(block.mesh().nearest_node(place[0], place[1]).unwrap(), direction).unwrap();
-        let stiffest = by_matrices(&block, |value| value, None);
+        let unsupported_model = by_matrices(&block, |value| value, None);
         let mut entries = Triplets::new(block.dofs());
-        stiffest.stiffness(&mut entries).unwrap();
-        let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
+        unsupported_model.stiffness(&mut entries).unwrap();
+        let max_magnitude = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
         for ratio in [1e-9, 1e-7, 1e-5] {
-            let supported = by_matrices(&block, |value| value, Some((dof, ratio)));
-            match on_soil(supported).build().err() {
+            let supported_model = by_matrices(&block, |value| value, Some((dof, ratio)));
+            match on_soil(supported_model).build().err() {
                 Some(Error::Structure(StructureError::Restrained {
                     direction,
                     force,
@@ -88,7 +88,10 @@ fn weak_supports_are_refused_and_named() {
                     ratio: found_ratio,
                 })) => {
                     assert_eq!((direction, found), (name, dof), "{ratio:e}");
-                    assert!((force / (ratio * largest) - 1.0).abs() < 1e-3, "{ratio:e}: {force}");
+                    assert!(
+                        (force / (ratio * max_magnitude) - 1.0).abs() < 1e-3,
+                        "{ratio:e}: {force}"
+                    );
                     assert!(
                         found_ratio > 0.2 * ratio && found_ratio < 5.0 * ratio,
                         "{ratio:e}: {found_ratio:e}"
@@ -100,13 +103,13 @@ fn weak_supports_are_refused_and_named() {
     }
     let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     for ratio in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
-        let supported = by_matrices(&wall(), |value| value, Some((top, ratio)));
-        let reduced = CraigBampton::new(5).reduce(supported.clone()).unwrap();
-        for built in [wall_on_soil(supported), wall_on_soil(reduced)] {
+        let supported_wall = by_matrices(&wall(), |value| value, Some((top, ratio)));
+        let reduced_structure = CraigBampton::new(5).reduce(supported_wall.clone()).unwrap();
+        for result in [wall_on_soil(supported_wall), wall_on_soil(reduced_structure)] {
             assert!(
-                matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
+                matches!(result, Err(Error::Structure(StructureError::Restrained { .. }))),
                 "{ratio:e}: {:?}",
-                built.err()
+                result.err()
             );
         }
     }
@@ -131,13 +134,13 @@ fn rounding_is_not_a_support() {
     assert_stands(wall_on_soil(by_matrices(&wall(), digits(12), None)));
     assert_stands(wall_on_soil(wall()));
     let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
-    let reduced = CraigBampton::new(10).keep(&[top]).reduce(wall()).unwrap();
-    assert_stands(wall_on_soil(reduced));
+    let reduced_structure = CraigBampton::new(10).keep(&[top]).reduce(wall()).unwrap();
+    assert_stands(wall_on_soil(reduced_structure));
 }
 
 /// Six to eight digits leave forces under a rigid motion: an error with their size.
 #[test]
-fn matrices_of_few_digits_are_refused() {
+fn matrices_of_few_digits_are_errors() {
     for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {
         match on_soil(by_matrices(&tower(6, 20), digits(count), None)).build().err() {
             Some(Error::Structure(StructureError::Restrained { ratio, .. })) => {
@@ -162,10 +165,10 @@ fn craig_bampton(unit: f64, interface: [[f64; 2]; 2]) -> MatrixModel {
         [participation, 0.0, -participation * height, 1.0],
     ];
     let units = [1.0, 1.0, 1.0, unit];
-    let mut scaled = Triplets::new(4);
+    let mut scaled_mass = Triplets::new(4);
     for (i, row) in mass.iter().enumerate() {
         for (j, value) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-            scaled.add(i, j, units[i] * units[j] * value);
+            scaled_mass.add(i, j, units[i] * units[j] * value);
         }
     }
     let mut stiffness = Triplets::new(4);
@@ -174,7 +177,7 @@ fn craig_bampton(unit: f64, interface: [[f64; 2]; 2]) -> MatrixModel {
         row.iter().enumerate().for_each(|(j, value)| stiffness.add(i, j, *value));
     }
     let contact = BaseNode::rigid_base(-7.0, 7.0, [0, 1, 2]);
-    MatrixModel::new(scaled, stiffness, contact).unwrap()
+    MatrixModel::new(scaled_mass, stiffness, contact).unwrap()
 }
 
 fn on_stiff_soil(structure: MatrixModel) -> Result<Simulation> {
@@ -196,36 +199,39 @@ fn largest_shear(unit: f64, interface: [[f64; 2]; 2]) -> f64 {
 /// Rounding of the interface stiffness, a period of days with the tower's mass, has no effect, in any unit of the mode.
 #[test]
 fn rounding_beside_a_rigid_base_is_not_a_support() {
-    let exact = largest_shear(1.0, [[0.0; 2]; 2]);
+    let expected = largest_shear(1.0, [[0.0; 2]; 2]);
     for unit in [1.0, 1e2, 1e4] {
         for interface in
             [[[1e-6, 0.0], [0.0; 2]], [[1e-3, 3e-4], [2e-4, -1e-3]], [[-1e-3, 0.0], [0.0, 1e-3]]]
         {
-            let found = largest_shear(unit, interface);
-            assert!((found / exact - 1.0).abs() < 1e-6, "{unit:e} {interface:?}: {found} {exact}");
+            let computed = largest_shear(unit, interface);
+            assert!(
+                (computed / expected - 1.0).abs() < 1e-6,
+                "{unit:e} {interface:?}: {computed} {expected}"
+            );
         }
     }
     // 1 N/m is a support.
-    let built = on_stiff_soil(craig_bampton(1.0, [[1.0, 0.0], [0.0; 2]]));
+    let result = on_stiff_soil(craig_bampton(1.0, [[1.0, 0.0], [0.0; 2]]));
     assert!(
-        matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
+        matches!(result, Err(Error::Structure(StructureError::Restrained { .. }))),
         "{:?}",
-        built.err()
+        result.err()
     );
 }
 
 /// Stiffness in one half of a matrix only is an error that names its place, in any unit, unless it is active.
 #[test]
-fn unsymmetric_stiffness_is_refused_unless_active() {
+fn unsymmetric_stiffness_is_an_error_unless_active() {
     for unit in [1.0, 1e2, 1e4] {
         let mut stiffness = Triplets::new(4);
         craig_bampton(unit, [[0.0; 2]; 2]).stiffness(&mut stiffness).unwrap();
         // A moment on the base in proportion to the mode, without a reaction.
         stiffness.add(2, 3, 1e2 * unit);
         let mut mass = Triplets::new(4);
-        let symmetric = craig_bampton(unit, [[0.0; 2]; 2]);
-        symmetric.mass(&mut mass).unwrap();
-        let model = MatrixModel::new(mass, stiffness, symmetric.base()).unwrap();
+        let symmetric_model = craig_bampton(unit, [[0.0; 2]; 2]);
+        symmetric_model.mass(&mut mass).unwrap();
+        let model = MatrixModel::new(mass, stiffness, symmetric_model.base()).unwrap();
         match on_stiff_soil(model.clone()).err() {
             Some(Error::Unsymmetric { matrix: "stiffness matrix", row: 2, column: 3, entries }) => {
                 assert_eq!(entries, [1e2 * unit, 0.0]);

@@ -27,23 +27,23 @@ proptest! {
 
         let mut pointers = vec![0];
         let mut columns = vec![];
-        let mut kept = vec![];
+        let mut nonzero_entries = vec![];
         for row in values.chunks(order) {
             // From right to left: any order within a row is valid.
             for (column, value) in row.iter().enumerate().rev().filter(|(_, v)| **v != 0.0) {
                 columns.push(column);
-                kept.push(*value);
+                nonzero_entries.push(*value);
             }
             pointers.push(columns.len());
         }
-        let compressed = Triplets::from_csr(order, &pointers, &columns, &kept).unwrap();
+        let compressed = Triplets::from_csr(order, &pointers, &columns, &nonzero_entries).unwrap();
         prop_assert_eq!(&dense(&compressed)[..], values);
 
-        let again = Triplets::from_entries(order, matrix.entries().iter().copied());
-        prop_assert_eq!(&again, &matrix);
-        let mut extended = Triplets::new(order);
-        extended.extend(matrix.entries().iter().copied());
-        prop_assert_eq!(&extended, &matrix);
+        let copied_matrix = Triplets::from_entries(order, matrix.entries().iter().copied());
+        prop_assert_eq!(&copied_matrix, &matrix);
+        let mut extended_matrix = Triplets::new(order);
+        extended_matrix.extend(matrix.entries().iter().copied());
+        prop_assert_eq!(&extended_matrix, &matrix);
         let collected: Triplets = matrix.entries().iter().copied().collect();
         prop_assert_eq!(collected.entries(), matrix.entries());
         prop_assert!(collected.order() <= order);
@@ -52,9 +52,9 @@ proptest! {
 
 #[test]
 fn entries_at_the_same_place_add_up_and_invalid_ones_are_kept() {
-    let twice = Triplets::from_csr(1, &[0, 2], &[0, 0], &[1.0, 2.0]).unwrap();
-    assert_eq!(dense(&twice), [3.0]);
-    // Values that are not finite are refused where the matrix is used, as with `add`.
+    let repeated_entry = Triplets::from_csr(1, &[0, 2], &[0, 0], &[1.0, 2.0]).unwrap();
+    assert_eq!(dense(&repeated_entry), [3.0]);
+    // Values that are not finite are errors where the matrix is used, as with `add`.
     assert!(Triplets::from_dense(1, &[f64::NAN]).unwrap().entries()[0].2.is_nan());
     assert_eq!(Triplets::from_iter([(usize::MAX, 0, 1.0)]).order(), usize::MAX);
     assert_eq!(Triplets::from_iter([]).order(), 0);
@@ -75,7 +75,7 @@ fn index_error(quantity: &'static str, index: usize, bound: usize) -> Error {
 }
 
 #[test]
-fn invalid_arrays_are_refused() {
+fn invalid_arrays_are_errors() {
     for (order, count) in [(2, 3), (0, 1), (usize::MAX, 4), (3, 0)] {
         let Err(Error::Size { quantity, found, .. }) =
             Triplets::from_dense(order, &vec![1.0; count])

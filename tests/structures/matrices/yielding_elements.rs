@@ -15,7 +15,7 @@ use basemat::structure::{
 };
 use basemat::{Error, Result, Simulation};
 
-/// Mass per length of the column, kg/m².
+/// Mass of the column per length and per metre of depth, kg/m².
 const COLUMN_MASS: f64 = 800.0;
 
 fn section() -> Result<FiberSection> {
@@ -59,17 +59,17 @@ fn model(formulation: BeamFormulation, has_column: bool) -> Result<FemModel> {
 
 /// Matrices of the linear elements, with the column of fibres on them.
 fn on_matrices(formulation: BeamFormulation) -> Result<WithElements> {
-    let whole = model(formulation, true)?;
-    let linear = model(formulation, false)?;
-    assert_eq!(whole.dofs(), linear.dofs());
-    let mut mass = Triplets::new(linear.dofs());
-    linear.mass(&mut mass)?;
-    let mut stiffness = Triplets::new(linear.dofs());
-    linear.stiffness(&mut stiffness)?;
-    let matrices = MatrixModel::new(mass, stiffness, whole.base())?;
+    let model_with_column = model(formulation, true)?;
+    let linear_model = model(formulation, false)?;
+    assert_eq!(model_with_column.dofs(), linear_model.dofs());
+    let mut mass = Triplets::new(linear_model.dofs());
+    linear_model.mass(&mut mass)?;
+    let mut stiffness = Triplets::new(linear_model.dofs());
+    linear_model.stiffness(&mut stiffness)?;
+    let matrices = MatrixModel::new(mass, stiffness, model_with_column.base())?;
     let mut mesh = Mesh::new();
     let mut nodes = Vec::new();
-    for [x, y, _] in whole.mesh().nodes() {
+    for [x, y, _] in model_with_column.mesh().nodes() {
         nodes.push(mesh.add_node(*x, *y)?);
     }
     for ends in [[1, 3], [3, 4]] {
@@ -77,7 +77,7 @@ fn on_matrices(formulation: BeamFormulation) -> Result<WithElements> {
         let beam = FiberBeam::new(ends, &section()?, BeamQuadrature::Lobatto(4), COLUMN_MASS)?;
         mesh.add(beam.with_formulation(formulation))?;
     }
-    WithElements::new(matrices, mesh, |node, direction| whole.row(node, direction))
+    WithElements::new(matrices, mesh, |node, direction| model_with_column.row(node, direction))
 }
 
 fn shaken(structure: impl Structure + 'static) -> Result<Simulation> {
@@ -94,19 +94,19 @@ fn shaken(structure: impl Structure + 'static) -> Result<Simulation> {
 #[test]
 fn fibres_on_matrices_move_as_in_a_finite_element_model() -> Result<()> {
     for formulation in [BeamFormulation::DisplacementBased, BeamFormulation::ForceBased] {
-        let mut whole = shaken(model(formulation, true)?)?;
+        let mut simulation_of_the_model = shaken(model(formulation, true)?)?;
         let mut parts = shaken(on_matrices(formulation)?)?;
         let mut max_top = 0.0_f64;
         let mut max_difference = 0.0_f64;
         for _ in 0..600 {
-            let expected = whole.step()?.probes[0];
-            let found = parts.step()?.probes[0];
+            let expected = simulation_of_the_model.step()?.probes[0];
+            let computed = parts.step()?.probes[0];
             max_top = max_top.max(expected.abs());
-            max_difference = max_difference.max((found - expected).abs());
+            max_difference = max_difference.max((computed - expected).abs());
         }
         assert!(max_difference < 1e-9 * max_top, "{formulation:?}: {max_difference} of {max_top}");
         assert!(parts.run(1, |_| {})?.energy_error < 1e-9);
-        let whole_structure: &dyn std::any::Any = whole.structure();
+        let whole_structure: &dyn std::any::Any = simulation_of_the_model.structure();
         let fem_model: &FemModel = whole_structure.downcast_ref().unwrap();
         let parts_structure: &dyn std::any::Any = parts.structure();
         let with_elements: &WithElements = parts_structure.downcast_ref().unwrap();
@@ -119,25 +119,34 @@ fn fibres_on_matrices_move_as_in_a_finite_element_model() -> Result<()> {
 }
 
 #[test]
-fn elements_that_do_not_belong_on_a_structure_are_refused() -> Result<()> {
-    let linear = model(BeamFormulation::default(), false)?;
-    let row = |node, direction| linear.row(node, direction);
-    let empty = WithElements::new(linear.clone(), Mesh::new(), row);
-    assert!(matches!(empty, Err(Error::Size { .. })), "{empty:?}");
+fn elements_that_do_not_belong_on_a_structure_are_errors() -> Result<()> {
+    let linear_model = model(BeamFormulation::default(), false)?;
+    let row = |node, direction| linear_model.row(node, direction);
+    let error_without_elements = WithElements::new(linear_model.clone(), Mesh::new(), row);
+    assert!(
+        matches!(error_without_elements, Err(Error::Size { .. })),
+        "{error_without_elements:?}"
+    );
     let mut mesh = Mesh::new();
     let ends = [mesh.add_node(0.0, 0.0)?, mesh.add_node(0.0, 3.0)?];
     let fibres = FiberBeam::new(ends, &section()?, BeamQuadrature::Lobatto(3), 0.0)?;
     let mut with_beam = mesh.clone();
     with_beam.add(Beam::new(ends, 30.0e9, 1.0, 0.1, 0.0)?)?;
-    let refused = WithElements::new(linear.clone(), with_beam, row).unwrap_err().to_string();
-    assert!(refused.contains("element 0") && refused.contains("linear"), "{refused}");
+    let result = WithElements::new(linear_model.clone(), with_beam, row).unwrap_err().to_string();
+    assert!(result.contains("element 0") && result.contains("linear"), "{result}");
     mesh.add(fibres)?;
-    let outside = WithElements::new(linear.clone(), mesh.clone(), |_, _| Ok(999.into()));
-    assert!(matches!(outside, Err(Error::Index { .. })), "{outside:?}");
-    let infinite = WithElements::new(linear.clone(), mesh.clone(), |_, _| Ok((0, f64::NAN).into()));
-    assert!(infinite.unwrap_err().to_string().contains("weight"));
-    let sprung = WithSprings::new(linear.clone()).spring(0, Bilinear::new(1e6, 1e4, 0.1)?)?;
-    let refused = WithElements::new(sprung, mesh, row).unwrap_err().to_string();
-    assert!(refused.contains("springs may be around"), "{refused}");
+    let error_of_a_missing_dof =
+        WithElements::new(linear_model.clone(), mesh.clone(), |_, _| Ok(999.into()));
+    assert!(
+        matches!(error_of_a_missing_dof, Err(Error::Index { .. })),
+        "{error_of_a_missing_dof:?}"
+    );
+    let error_of_an_infinite_factor =
+        WithElements::new(linear_model.clone(), mesh.clone(), |_, _| Ok((0, f64::NAN).into()));
+    assert!(error_of_an_infinite_factor.unwrap_err().to_string().contains("weight"));
+    let model_with_spring =
+        WithSprings::new(linear_model.clone()).spring(0, Bilinear::new(1e6, 1e4, 0.1)?)?;
+    let result = WithElements::new(model_with_spring, mesh, row).unwrap_err().to_string();
+    assert!(result.contains("springs may be around"), "{result}");
     Ok(())
 }

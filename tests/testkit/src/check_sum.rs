@@ -5,8 +5,8 @@ pub fn check_sum(words: &[u64]) -> u64 {
     const WORD_RANGE: u128 = 1 << 64;
     let sum = words.iter().fold(0xcbf2_9ce4_8422_2325_u128, |sum, word| {
         let product = (sum ^ u128::from(*word)) * 0x0100_0000_01b3 % WORD_RANGE;
-        let shifted = product * (1 << 23);
-        shifted % WORD_RANGE + shifted / WORD_RANGE
+        let shifted_product = product * (1 << 23);
+        shifted_product % WORD_RANGE + shifted_product / WORD_RANGE
     });
     u64::try_from(sum).unwrap()
 }

@@ -99,9 +99,9 @@ impl PublishedProblem {
         };
         let mut simulation = builder.build()?;
         motion.lock().map_err(|_| "poisoned")?.copy_from_slice(&self.velocity);
-        let begin = ProcessTime::try_now()?;
+        let start_time = ProcessTime::try_now()?;
         let state = simulation.step()?;
-        let seconds = begin.try_elapsed()?.as_secs_f64();
+        let seconds = start_time.try_elapsed()?.as_secs_f64();
         let contact = &state.contact;
         let force: Vec<f64> = contact
             .iter()
@@ -167,7 +167,7 @@ pub(super) fn run(folder: &Path, docs: Option<&Path>) -> Result<(), AnyError> {
     paths.sort();
     let mut text = "| problem | directions | contacts | friction | least over greatest eigenvalue of W | method | iterations | ms | residual |\n|---|---|---|---|---|---|---|---|---|\n".to_owned();
     let mut points = [vec![], vec![]];
-    let mut failed = vec![];
+    let mut failed_problems = vec![];
     for path in &paths {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let problem = PublishedProblem::read(&std::fs::read_to_string(path)?)?;
@@ -189,35 +189,35 @@ pub(super) fn run(folder: &Path, docs: Option<&Path>) -> Result<(), AnyError> {
                 )?;
                 points[kind].push((1e3 * seconds, residual.max(1e-17)));
                 if residual.is_nan() || residual > RESIDUAL_LIMITS[kind] {
-                    failed.push(name);
+                    failed_problems.push(name);
                 }
             }
             Err(error) => {
                 let message = error.to_string();
-                let shown = message.strip_prefix("step 1 (t = 1 s): ").unwrap_or(&message);
+                let cause = message.strip_prefix("step 1 (t = 1 s): ").unwrap_or(&message);
                 // The text without elements and values.
-                let shown = shown.split([':', ',']).next().unwrap_or_default();
-                writeln!(text, " {shown} | | | |")?;
+                let cause = cause.split([':', ',']).next().unwrap_or_default();
+                writeln!(text, " {cause} | | | |")?;
                 if kind == 0 {
-                    failed.push(name);
+                    failed_problems.push(name);
                 }
             }
         }
     }
     println!("{text}");
-    let [definite, singular] = points;
+    let [definite_point, singular_point] = points;
     let panel = FigurePanel::new("time of the step, ms", "residual by the measure of Siconos")
         .double_logarithmic()
-        .circles("W definite", CURVE_BLUE, definite)
-        .crosses("W singular, soft layer", CURVE_RED, singular);
+        .circles("W definite", CURVE_BLUE, definite_point)
+        .crosses("W singular, soft layer", CURVE_RED, singular_point);
     let figure = Figure::new("Problems of FCLIB and of the tests of Siconos", 1, vec![panel]);
     if let Some(docs) = docs {
         splice("contact_problems.md", "published problems", &text)?;
         figure.draw(&docs.join("images/published_problems.svg"))?;
     }
-    if failed.is_empty() {
+    if failed_problems.is_empty() {
         Ok(())
     } else {
-        Err(format!("beyond the limit: {}", failed.join(", ")).into())
+        Err(format!("beyond the limit: {}", failed_problems.join(", ")).into())
     }
 }

@@ -166,9 +166,9 @@ fn mesh_difference(
     let mut differences = Vec::new();
     let mut references = Vec::new();
     for (time, value) in coarse.curve(probe, 1.0)? {
-        let next = times.partition_point(|t| *t < time).clamp(1, times.len() - 1);
-        let fraction = (time - times[next - 1]) / (times[next] - times[next - 1]);
-        let reference = (1.0 - fraction) * values[next - 1] + fraction * values[next];
+        let next_index = times.partition_point(|t| *t < time).clamp(1, times.len() - 1);
+        let fraction = (time - times[next_index - 1]) / (times[next_index] - times[next_index - 1]);
+        let reference = (1.0 - fraction) * values[next_index - 1] + fraction * values[next_index];
         differences.push(value - reference);
         references.push(reference);
     }
@@ -220,7 +220,7 @@ pub(crate) fn compare_meshes(
 
 /// Draws Figs. 4, 5 and 6 of the paper, uplift only and friction 0.4, and the slip of the base.
 pub(crate) fn draw(folder: &Path, results: &[ContainmentOutcome]) -> Result<(), AnyError> {
-    let shown: Vec<&ContainmentOutcome> = results
+    let shown_results: Vec<&ContainmentOutcome> = results
         .iter()
         .filter(|outcome| [TABLE_1_ROWS[1].1, TABLE_1_ROWS[2].1].contains(&outcome.case.friction))
         .collect();
@@ -230,13 +230,13 @@ pub(crate) fn draw(folder: &Path, results: &[ContainmentOutcome]) -> Result<(), 
         ("figure_6", "Fig. 6: base shear", "kN/m", "base shear", 1e-3),
     ] {
         let mut lines = Vec::new();
-        for outcome in &shown {
+        for outcome in &shown_results {
             let points = outcome.curve(probe, factor)?;
             lines.push(Curve { name: outcome.case.name.clone(), points });
         }
         curves(title, "time, s", unit, &lines)?.save(folder.join(format!("{file}.svg")))?;
     }
-    let lines: Vec<_> = shown
+    let lines: Vec<_> = shown_results
         .iter()
         .map(|outcome| (outcome.case.name.as_str(), &outcome.time_series))
         .collect();

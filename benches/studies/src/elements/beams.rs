@@ -14,13 +14,13 @@ use crate::AnyError;
 
 /// St Venant's torsion constant of a rectangle, m⁴: Timoshenko & Goodier, article 109.
 fn torsion_constant(width: f64, height: f64) -> f64 {
-    let long = width.max(height);
-    let short = width.min(height);
+    let long_side = width.max(height);
+    let short_side = width.min(height);
     let sum: f64 = (0..20)
         .map(|k| f64::from(2 * k + 1))
-        .map(|n| (0.5 * n * PI * long / short).tanh() / n.powi(5))
+        .map(|n| (0.5 * n * PI * long_side / short_side).tanh() / n.powi(5))
         .sum();
-    long * short.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * short / long * sum)
+    long_side * short_side.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * short_side / long_side * sum)
 }
 
 fn straight(rows: &mut BenchmarkRows) {

@@ -73,9 +73,9 @@ fn cylinder(rows: &mut BenchmarkRows) {
     }
 }
 
-fn plate(rows: &mut BenchmarkRows, around: usize) {
-    let mesh = format!("{around}x{}x{}", around * 2 / 3, around / 3);
-    let [stress, deflection] = elliptic_plate(around);
+fn plate(rows: &mut BenchmarkRows, bricks_around: usize) {
+    let mesh = format!("{bricks_around}x{}x{}", bricks_around * 2 / 3, bricks_around / 3);
+    let [stress, deflection] = elliptic_plate(bricks_around);
     let quantity = "syy at D from the Gauss points, MPa";
     rows.put("NAFEMS LE10 thick elliptic plate", quantity, &mesh, 1e-6 * stress);
     rows.put("NAFEMS LE10, displacement at D", "uz at D, m", &mesh, deflection);
@@ -86,8 +86,10 @@ pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError>
     curved(rows)?;
     twisted(rows);
     cylinder(rows);
-    for around in [6, 12, 18, 24].into_iter().filter(|around| !short || *around < 12) {
-        plate(rows, around);
+    for bricks_around in
+        [6, 12, 18, 24].into_iter().filter(|bricks_around| !short || *bricks_around < 12)
+    {
+        plate(rows, bricks_around);
     }
     Ok(())
 }

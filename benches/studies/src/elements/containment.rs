@@ -42,12 +42,12 @@ impl ClampedContainment {
         for ring in 0..rings.len() {
             let thickness = if ring < rows { 1.2 } else { 0.9 };
             for k in 0..around {
-                let next = (k + 1) % around;
+                let next_sector = (k + 1) % around;
                 let a = rings[ring][k];
-                let b = rings[ring][next];
+                let b = rings[ring][next_sector];
                 match rings.get(ring + 1) {
                     Some(upper) => {
-                        for corners in pattern.split([a, b, upper[next], upper[k]]) {
+                        for corners in pattern.split([a, b, upper[next_sector], upper[k]]) {
                             surface.shell(&corners, thickness)?;
                         }
                     }
@@ -153,15 +153,15 @@ fn vibration(
 pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
     let quads = ShellPattern::Quadrilaterals;
     for counts in [[16, 8, 5], [24, 12, 8], [32, 16, 10], [48, 24, 15], [64, 32, 20]] {
-        let around = counts[0];
-        if short && around > 16 {
+        let sectors = counts[0];
+        if short && sectors > 16 {
             break;
         }
         vibration(rows, counts, quads, MassKind::Consistent)?;
-        if around == 24 || around == 48 {
+        if sectors == 24 || sectors == 48 {
             vibration(rows, counts, quads, MassKind::Lumped)?;
         }
-        if around == 32 || around == 48 {
+        if sectors == 32 || sectors == 48 {
             vibration(rows, counts, ShellPattern::Rising, MassKind::Consistent)?;
         }
     }

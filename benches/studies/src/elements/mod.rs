@@ -86,9 +86,9 @@ pub(crate) fn run(options: &ElementsOptions) -> Result<(), AnyError> {
     );
     for (name, run) in BENCHMARK_GROUPS {
         if options.only.as_deref().is_none_or(|only| only == name) {
-            let begin = ProcessTime::try_now()?;
+            let start_time = ProcessTime::try_now()?;
             run(&mut rows, options.short)?;
-            println!("{name}: {:.0} s", begin.try_elapsed()?.as_secs_f64());
+            println!("{name}: {:.0} s", start_time.try_elapsed()?.as_secs_f64());
         }
     }
     let columns =
@@ -108,11 +108,11 @@ pub(crate) fn run(options: &ElementsOptions) -> Result<(), AnyError> {
     });
     write_csv(options.out.join("rows.csv"), columns, records)?;
     let computed = rows.all.iter().filter(|row| row.computed.is_some()).count();
-    let mut failed = rows.failed();
+    let mut failed_rows = rows.failed();
     if !options.short && options.only.is_none() {
-        failed.extend(rows.missing());
+        failed_rows.extend(rows.missing());
     }
-    println!("{computed} of {} rows, {} fail", rows.all.len(), failed.len());
+    println!("{computed} of {} rows, {} fail", rows.all.len(), failed_rows.len());
     if options.docs.is_some() && options.only.is_none() {
         splice("elements.md", "elements benchmarks", &report::benchmarks(&rows)?)?;
         splice("elements.md", "elements summary", &report::summary(&rows)?)?;
@@ -123,8 +123,8 @@ pub(crate) fn run(options: &ElementsOptions) -> Result<(), AnyError> {
             splice("elements.md", "elements scenes", &scenes)?;
         }
     }
-    if failed.is_empty() {
+    if failed_rows.is_empty() {
         return Ok(());
     }
-    Err(format!("gates missed:\n{}", failed.join("\n")).into())
+    Err(format!("gates missed:\n{}", failed_rows.join("\n")).into())
 }

@@ -81,8 +81,8 @@ pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError>
                         surface.scene.fix(node, &[Z, RY]);
                     }
                 }
-                let hard = SquarePlate { surface, nodes };
-                put(rows, &names, &mesh, &hard, 1, last, 0.0);
+                let hard_plate = SquarePlate { surface, nodes };
+                put(rows, &names, &mesh, &hard_plate, 1, last, 0.0);
             }
         }
     }

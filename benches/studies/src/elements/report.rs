@@ -165,10 +165,10 @@ pub(super) fn summary(rows: &BenchmarkRows) -> Result<String, AnyError> {
         let computed = table_rows.iter().filter(|row| row.computed.is_some()).count();
         let differences = table_rows.iter().filter_map(|row| row.difference());
         let largest_difference = differences.fold(0.0, f64::max);
-        let all = table_rows.len();
+        let row_count = table_rows.len();
         writeln!(
             text,
-            "| `{table}.csv`: {computed} of {all} values; largest difference | {largest_difference:.1e} |"
+            "| `{table}.csv`: {computed} of {row_count} values; largest difference | {largest_difference:.1e} |"
         )?;
     }
     let ratios = rows.bounds.iter().map(|(_, value, bound)| value / bound);

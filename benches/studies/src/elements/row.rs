@@ -111,7 +111,7 @@ pub(super) struct BenchmarkRows {
 impl BenchmarkRows {
     /// The tables of `tests/data/elements`.
     pub(super) fn tabled() -> Self {
-        let mut all = Vec::new();
+        let mut all_rows = Vec::new();
         let gates = table("elements/gates.csv");
         let benchmarks = gates.text("benchmark");
         let quantities = gates.text("quantity");
@@ -123,7 +123,7 @@ impl BenchmarkRows {
             let target: Option<f64> = targets[k].parse().ok();
             let row = BenchmarkRow::new("gates", benchmarks[k], quantities[k], meshes[k], tabled);
             let target = target.map(|target| (target, accuracies[k].parse().ok()));
-            all.push(BenchmarkRow { target, ..row });
+            all_rows.push(BenchmarkRow { target, ..row });
         }
         let shells = table("elements/containment.csv");
         let benchmarks = shells.text("benchmark");
@@ -132,7 +132,13 @@ impl BenchmarkRows {
         let meshes = shells.text("mesh around x (cylinder + dome)");
         for (k, &tabled) in shells.column("value").iter().enumerate() {
             let mesh = format!("{} {}", meshes[k], masses[k]);
-            all.push(BenchmarkRow::new("containment", benchmarks[k], quantities[k], &mesh, tabled));
+            all_rows.push(BenchmarkRow::new(
+                "containment",
+                benchmarks[k],
+                quantities[k],
+                &mesh,
+                tabled,
+            ));
         }
         let raft = table("elements/raft.csv");
         let grounds = raft.text("ground");
@@ -150,7 +156,7 @@ impl BenchmarkRows {
                 row.tolerance = 1e-2;
             }
             row.target = raft_target(is_winkler, quantities[k], solutions[k]);
-            all.push(row);
+            all_rows.push(row);
         }
         let plates = table("elements/invariance.csv");
         let tests = plates.text("test");
@@ -164,9 +170,9 @@ impl BenchmarkRows {
                 // The ratio of shear and bending stiffness, 1e12 for the thinnest plate, costs digits.
                 row.tolerance = 1e-3;
             }
-            all.push(row);
+            all_rows.push(row);
         }
-        Self { all, ..Self::default() }
+        Self { all: all_rows, ..Self::default() }
     }
 
     /// The row of the tables with these names.

@@ -16,7 +16,7 @@ pub(super) fn run(short: bool) -> Result<String, AnyError> {
             println!("{} scenes: energy error {:.1e}", number + 1, outcome.residual);
         }
     }
-    for reason in &outcome.refused {
+    for reason in &outcome.errors {
         println!("{reason}");
     }
     let FlexibleSceneTotals {
@@ -25,7 +25,7 @@ pub(super) fn run(short: bool) -> Result<String, AnyError> {
         reduced,
         open_steps,
         sliding_steps,
-        refused,
+        errors,
         residual,
         returned_energy,
     } = &outcome;
@@ -33,11 +33,11 @@ pub(super) fn run(short: bool) -> Result<String, AnyError> {
         "| random scenes | in other coordinates | not run | steps | with an open cell | with a cell that slides | largest \
          energy error | energy returned by the soil |\n|---|---|---|---|---|---|---|---|\n\
          | {scenes} | {reduced} | {} | {steps} | {open_steps} | {sliding_steps} | {residual:.1e} | {returned_energy:.1e} |",
-        refused.len()
+        errors.len()
     );
     println!("{text}");
-    if refused.len() > scenes / 5 {
-        return Err(format!("{} of {scenes} random scenes were not run", refused.len()).into());
+    if errors.len() > scenes / 5 {
+        return Err(format!("{} of {scenes} random scenes were not run", errors.len()).into());
     }
     Ok(text)
 }

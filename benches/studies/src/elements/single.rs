@@ -16,7 +16,7 @@ use crate::AnyError;
 /// Largest displacement of inner nodes from a uniform `state`, relative to the largest displacement of all.
 ///
 /// The nodes before `inner` are restrained in this state.
-fn patch_error(mut scene: SupportedMesh, inner: usize, state: &[[f64; 6]]) -> f64 {
+fn patch_error(mut scene: SupportedMesh, inner_node: usize, state: &[[f64; 6]]) -> f64 {
     let mut loads = Vec::new();
     let mut forces = vec![[0.0; 6]; state.len()];
     for element in scene.mesh.elements() {
@@ -33,7 +33,7 @@ fn patch_error(mut scene: SupportedMesh, inner: usize, state: &[[f64; 6]]) -> f6
         }
     }
     for (node, forces) in forces.iter().enumerate() {
-        if node < inner {
+        if node < inner_node {
             scene.fix(node, &CLAMPED_DIRECTIONS);
         }
         loads.extend(
@@ -150,8 +150,8 @@ fn renumbered(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
         let size = order / points.len();
         let matrix = ElementMatrix::Stiffness.of(&*element, &points);
         for &places in orders {
-            let moved: Vec<[f64; 3]> = places.iter().map(|&place| points[place]).collect();
-            let computed = ElementMatrix::Stiffness.of(&*element, &moved);
+            let listed_places: Vec<[f64; 3]> = places.iter().map(|&place| points[place]).collect();
+            let computed = ElementMatrix::Stiffness.of(&*element, &listed_places);
             let dofs: Vec<usize> =
                 (0..order).map(|dof| size * places[dof / size] + dof % size).collect();
             let mut difference = 0.0_f64;
@@ -173,7 +173,7 @@ fn in_the_plane(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     const PLANE_DOFS: [usize; 6] = [0, 2, 4, 6, 8, 10];
     const PLANE_SIGNS: [f64; 6] = [1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
     for ends in [[[0.0, 0.0], [0.0, 4.0]], [[1.0, -2.0], [4.5, 1.0]], [[0.0, 0.0], [3.0, -0.7]]] {
-        let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)?
+        let plane_beam = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)?
             .with_shear_stiffness(12.5e9 * 0.1)?
             .with_rotary_inertia();
         let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [0.0, 1.0, 0.0])?
@@ -185,16 +185,17 @@ fn in_the_plane(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
         }
         let flat_points = ends.map(|[x, z]| [x, z, 0.0]);
         let points = ends.map(|[x, z]| [x, 0.0, z]);
-        let missing = "a beam with an axial force";
-        let flat = flat.in_static_state(&flat_points, &displacement, 50.0).ok_or(missing)?;
-        let beam = beam.in_static_state(&points, &in_space, 50.0).ok_or(missing)?;
+        let missing_beam = "a beam with an axial force";
+        let plane_beam =
+            plane_beam.in_static_state(&flat_points, &displacement, 50.0).ok_or(missing_beam)?;
+        let beam = beam.in_static_state(&points, &in_space, 50.0).ok_or(missing_beam)?;
         for (name, part) in [
             ("stiffness", ElementMatrix::Stiffness),
             ("geometric stiffness", ElementMatrix::GeometricStiffness),
             ("mass", ElementMatrix::Mass(MassKind::Consistent)),
             ("lumped mass", ElementMatrix::Mass(MassKind::Lumped)),
         ] {
-            let plane_matrix = part.of(&*flat, &flat_points);
+            let plane_matrix = part.of(&*plane_beam, &flat_points);
             let space_matrix = part.of(&*beam, &points);
             let mut difference = 0.0_f64;
             for i in 0..6 {

@@ -21,9 +21,9 @@ fn straight(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                 let mut strip = ShellSurface::new(Material::new(1.0e7, 0.3, 0.0)?, 0.1);
                 let nodes = strip.grid([count, 1], pattern, |along, across| {
                     let column = (count as f64 * along).round();
-                    let inner = column > 0.0 && column < count as f64;
+                    let is_inner = column > 0.0 && column < count as f64;
                     let sign = if column % 2.0 == 1.0 { signs[0] } else { signs[1] };
-                    let slant = if inner { 0.1 * pitch * sign } else { 0.0 };
+                    let slant = if is_inner { 0.1 * pitch * sign } else { 0.0 };
                     [6.0 * along + slant * (1.0 - 2.0 * across), 0.2 * across, 0.0]
                 })?;
                 for &node in &nodes[0] {

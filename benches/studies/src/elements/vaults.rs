@@ -86,10 +86,11 @@ fn hemisphere(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
                 dome.scene.fix(nodes[0][k], &[Y, RX, RZ]);
                 dome.scene.fix(nodes[count][k], &[X, RY, RZ]);
             }
-            let pulled = nodes[0][0];
-            let pushed = nodes[count][0];
-            dome.scene.fix(pulled, &[Z]);
-            let value = dome.scene.solve(&[(pulled, X, 1.0), (pushed, Y, -1.0)])(pulled, X);
+            let pulled_node = nodes[0][0];
+            let pushed_node = nodes[count][0];
+            dome.scene.fix(pulled_node, &[Z]);
+            let value =
+                dome.scene.solve(&[(pulled_node, X, 1.0), (pushed_node, Y, -1.0)])(pulled_node, X);
             let mesh = format!("{} {count}x{count}", pattern.element());
             rows.put("hemisphere with 18 degree hole", "ux under the load", &mesh, value);
         }
@@ -146,10 +147,11 @@ fn closed_hemisphere(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
             }
             let mesh = &dome.scene.mesh;
             let pole = mesh.node_at_point([0.0, 0.0, 10.0])?;
-            let pulled = mesh.node_at_point([10.0, 0.0, 0.0])?;
-            let pushed = mesh.node_at_point([0.0, 10.0, 0.0])?;
+            let pulled_node = mesh.node_at_point([10.0, 0.0, 0.0])?;
+            let pushed_node = mesh.node_at_point([0.0, 10.0, 0.0])?;
             dome.scene.fix(pole, &CLAMPED_DIRECTIONS);
-            let value = dome.scene.solve(&[(pulled, X, 2e3), (pushed, Y, -2e3)])(pulled, X);
+            let value =
+                dome.scene.solve(&[(pulled_node, X, 2e3), (pushed_node, Y, -2e3)])(pulled_node, X);
             let mesh = format!("{} 3 patches {count}x{count}", pattern.element());
             rows.put("NAFEMS LE3 hemisphere, point loads", "ux at A, m", &mesh, value);
         }

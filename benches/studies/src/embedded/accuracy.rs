@@ -56,7 +56,7 @@ fn march(setting: TrenchSetting, kernels: &SharedKernels) -> Result<TrenchMarch,
         let x = 0.6 * (t - 9.0);
         0.36 * (-6.0 + x * x * (24.0 - 8.0 * x * x)) * (-x * x).exp()
     })?;
-    let begin = ProcessTime::try_now()?;
+    let start_time = ProcessTime::try_now()?;
     let ground = TrenchGround::new(Soil::new(1.0, 1.0 / 3.0, 1.0)?, elements(counts)?)?
         .with_pressure_at_rest(0.5)?
         .with_shared_kernels(kernels);
@@ -73,8 +73,8 @@ fn march(setting: TrenchSetting, kernels: &SharedKernels) -> Result<TrenchMarch,
         builder.interfaces(elements(counts)?.interfaces(Coulomb::new(0.5)?, Coulomb::new(0.3)?))
     };
     let mut simulation = builder.build()?;
-    let build_seconds = begin.try_elapsed()?.as_secs_f64();
-    let begin = ProcessTime::try_now()?;
+    let build_seconds = start_time.try_elapsed()?.as_secs_f64();
+    let start_time = ProcessTime::try_now()?;
     let mut series = [const { vec![] }; 3];
     let mut count = 0;
     let run = simulation.run(steps, |state| {
@@ -88,7 +88,7 @@ fn march(setting: TrenchSetting, kernels: &SharedKernels) -> Result<TrenchMarch,
     if run.energy_error >= 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
-    let step_seconds = begin.try_elapsed()?.as_secs_f64();
+    let step_seconds = start_time.try_elapsed()?.as_secs_f64();
     Ok(TrenchMarch { series, build_seconds, step_seconds })
 }
 
@@ -107,14 +107,14 @@ fn errors(computed: &TrenchMarch, reference: &TrenchMarch) -> [f64; 3] {
 /// Adds lines of the settings, with errors relative to the last setting.
 fn lines(settings: &[([usize; 2], f64)], text: &mut String) -> Result<(), AnyError> {
     let kernels: Vec<SharedKernels> = settings.iter().map(|_| SharedKernels::default()).collect();
-    for welded in [true, false] {
+    for is_welded in [true, false] {
         let mut marches = Vec::new();
         for (&(elements, step), kernels) in settings.iter().zip(&kernels) {
-            marches.push(march(TrenchSetting { elements, step, welded }, kernels)?);
+            marches.push(march(TrenchSetting { elements, step, welded: is_welded }, kernels)?);
         }
         let Some(last) = marches.last() else { continue };
         for (([base, wall], step), computed) in settings.iter().zip(&marches) {
-            let law = if welded { "welded" } else { "contact" };
+            let law = if is_welded { "welded" } else { "contact" };
             write!(text, "| {law} | {} | {step} |", base + 2 * wall)?;
             let is_last = std::ptr::eq(computed, last);
             for error in errors(computed, last) {
@@ -125,8 +125,11 @@ fn lines(settings: &[([usize; 2], f64)], text: &mut String) -> Result<(), AnyErr
                 }
             }
             // The convolution weights of the welded block are used again.
-            let build_seconds =
-                if welded { format!("{:.1}", computed.build_seconds) } else { "the same".into() };
+            let build_seconds = if is_welded {
+                format!("{:.1}", computed.build_seconds)
+            } else {
+                "the same".into()
+            };
             writeln!(text, " {build_seconds} | {:.0} |", 1e3 * computed.step_seconds)?;
         }
     }

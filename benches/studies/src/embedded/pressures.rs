@@ -68,21 +68,22 @@ fn largest_increment(
     let mut simulation = builder.build()?;
     let walls = [Face::LeftWall, Face::RightWall];
     let rest = walls.map(|wall| simulation.state().face(wall));
-    let mut largest = ThrustIncrement::default();
+    let mut max_increment = ThrustIncrement::default();
     let run = simulation.run(steps, |state| {
         for (wall, rest) in walls.iter().zip(rest) {
             let forces = state.face(*wall);
             let thrust = forces.thrust - rest.thrust;
-            if thrust > largest.thrust {
+            if thrust > max_increment.thrust {
                 let moment = forces.thrust * forces.place - rest.thrust * rest.place;
-                largest = ThrustIncrement { thrust, height: moment / thrust / BASEMENT_DEPTH };
+                max_increment =
+                    ThrustIncrement { thrust, height: moment / thrust / BASEMENT_DEPTH };
             }
         }
     })?;
     if run.energy_error >= 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
-    Ok(largest)
+    Ok(max_increment)
 }
 
 pub(super) fn tables(short: bool) -> Result<String, AnyError> {
@@ -98,15 +99,15 @@ pub(super) fn tables(short: bool) -> Result<String, AnyError> {
         let soil = Soil::from_shear_wave_speed(speed, 0.33, SOIL_DENSITY)?;
         let kernels = SharedKernels::default();
         for (name, height, density) in RIGID_BODIES {
-            for welded in [true, false] {
-                let law = if welded { "welded" } else { "contact" };
+            for is_welded in [true, false] {
+                let law = if is_welded { "welded" } else { "contact" };
                 write!(text, "| {speed} m/s, {name}, {law} |")?;
                 let mut heights = vec![];
                 for peak in PEAK_ACCELERATIONS {
                     let record = record.scaled_to_peak(peak * STANDARD_GRAVITY)?;
                     let block = RigidBlock::new(BASEMENT_WIDTH, height, density)?;
                     let increment =
-                        largest_increment(soil, block, welded, &record, &kernels, steps)?;
+                        largest_increment(soil, block, is_welded, &record, &kernels, steps)?;
                     let unit =
                         peak * SOIL_DENSITY * STANDARD_GRAVITY * BASEMENT_DEPTH * BASEMENT_DEPTH;
                     write!(text, " {:.3} |", increment.thrust / unit)?;
@@ -143,14 +144,14 @@ mod tests {
         );
         for horizontal in [0.1, 0.3] {
             // Wedge at an angle α: weight cot α/2 and its k_h fold, friction on the plane.
-            let mut largest = 0.0_f64;
+            let mut max_value = 0.0_f64;
             for k in 1..9000 {
                 let angle = f64::from(k) * 1e-2_f64.to_radians();
                 let sine = (angle - friction).sin();
                 let cosine = (angle - friction).cos();
-                largest = largest.max((sine + horizontal * cosine) / cosine / angle.tan());
+                max_value = max_value.max((sine + horizontal * cosine) / cosine / angle.tan());
             }
-            assert!((active(friction, horizontal) - largest).abs() < 1e-5);
+            assert!((active(friction, horizontal) - max_value).abs() < 1e-5);
         }
     }
 }

@@ -94,10 +94,11 @@ fn newton(points: &[ProbitPoint]) -> [f64; 2] {
         // ln L is concave, so that a sufficiently short step increases it.
         let mut fraction = 1.0;
         loop {
-            let next = [coefficients[0] + fraction * step[0], coefficients[1] + fraction * step[1]];
-            let next_value = log_likelihood(points, next);
+            let next_coefficients =
+                [coefficients[0] + fraction * step[0], coefficients[1] + fraction * step[1]];
+            let next_value = log_likelihood(points, next_coefficients);
             if next_value >= value || fraction < 1e-10 {
-                coefficients = next;
+                coefficients = next_coefficients;
                 value = next_value;
                 break;
             }
@@ -161,9 +162,9 @@ fn derivatives(points: &[ProbitPoint], [a, b]: [f64; 2]) -> Derivatives {
     for &ProbitPoint { y, exceeded, within } in points {
         let x = a + b * y;
         let up = mills(x);
-        let down = mills(-x);
-        let slope = exceeded * up - within * down;
-        let curvature = exceeded * up * (up + x) + within * down * (down - x);
+        let mills_below = mills(-x);
+        let slope = exceeded * up - within * mills_below;
+        let curvature = exceeded * up * (up + x) + within * mills_below * (mills_below - x);
         sums.ga += slope;
         sums.gb += slope * y;
         sums.haa += curvature;

@@ -160,7 +160,7 @@ fn compute(
 ) -> Result<CaseTable, AnyError> {
     let bar = ProgressBar::new(sweep.cases().len() as u64);
     bar.set_style(ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left")?);
-    let begin = Instant::now();
+    let start_time = Instant::now();
     let before = ProcessTime::try_now()?;
     let kernels = SharedKernels::default();
     let runs = AtomicUsize::new(0);
@@ -173,12 +173,15 @@ fn compute(
             scene::shake(friction, width, motion, case.value("peak_velocity_m_per_s")?, &kernels)
         })?;
     bar.finish_and_clear();
-    let wall = begin.elapsed();
+    let wall = start_time.elapsed();
     let processors = before.try_elapsed()?;
     let runs = runs.into_inner();
-    let failed = failures(&table);
+    let failed_cases = failures(&table);
     let existing = table.rows().len() - runs;
-    println!("{}: {runs} cases run, {existing} already there, {failed} failed", path.display());
+    println!(
+        "{}: {runs} cases run, {existing} already there, {failed_cases} failed",
+        path.display()
+    );
     if runs > 0 {
         let thousands = 1e-3 * runs as f64;
         println!(
@@ -250,8 +253,8 @@ fn report(groups: &[FragilityGroup], options: &FragilityOptions) {
         print!("| {} | {} | {runs} |", group.friction, group.width);
         match group.fit {
             None => {
-                let beyond: f64 = group.stripes.iter().map(|stripe| stripe.exceeded).sum();
-                println!(" no curve: {beyond} beyond the limit | | | | |");
+                let exceedances: f64 = group.stripes.iter().map(|stripe| stripe.exceeded).sum();
+                println!(" no curve: {exceedances} beyond the limit | | | | |");
             }
             Some(fit) => {
                 let median = group.band(|curve| curve.median);

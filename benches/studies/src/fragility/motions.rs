@@ -29,18 +29,18 @@ impl Pulse {
     #[cfg_attr(not(test), allow(dead_code, reason = "tests differentiate it"))]
     pub(crate) fn velocity(&self, time: f64) -> f64 {
         let angle = self.angle(time);
-        let slow = angle / self.oscillations;
-        let fast = angle + self.phase.to_radians();
-        0.5 * (1.0 + slow.cos()) * fast.cos()
+        let slow_angle = angle / self.oscillations;
+        let fast_angle = angle + self.phase.to_radians();
+        0.5 * (1.0 + slow_angle.cos()) * fast_angle.cos()
     }
 
     /// Acceleration at `time` for A = 1 m/s, m/s².
     pub(crate) fn acceleration(&self, time: f64) -> f64 {
         let angle = self.angle(time);
-        let slow = angle / self.oscillations;
-        let fast = angle + self.phase.to_radians();
-        let envelope_term = slow.sin() * fast.cos() / self.oscillations;
-        -PI / self.period * (envelope_term + (1.0 + slow.cos()) * fast.sin())
+        let slow_angle = angle / self.oscillations;
+        let fast_angle = angle + self.phase.to_radians();
+        let envelope_term = slow_angle.sin() * fast_angle.cos() / self.oscillations;
+        -PI / self.period * (envelope_term + (1.0 + slow_angle.cos()) * fast_angle.sin())
     }
 
     /// 2πf(t − t₀), constant outside the pulse, where the velocity is zero.
@@ -65,9 +65,10 @@ pub(crate) fn list(step: f64, short: bool) -> Result<Vec<EnsembleMotion>> {
     let factors: &[f64] = if short { &[1.0] } else { &[0.7, 1.0, 1.4] };
     let mut motions = Vec::new();
     for &factor in factors {
-        let stretched = Record::new(factor * record.time_step(), record.accelerations().to_vec())?;
+        let stretched_record =
+            Record::new(factor * record.time_step(), record.accelerations().to_vec())?;
         let name = if factor == 1.0 { String::new() } else { format!(", {factor} × as long") };
-        motions.push((format!("El Centro 1940{name}"), stretched));
+        motions.push((format!("El Centro 1940{name}"), stretched_record));
     }
     let periods: &[f64] = if short { &[0.6, 1.6] } else { &[0.4, 0.6, 1.0, 1.6, 2.5] };
     let shapes: &[(f64, f64)] = if short {

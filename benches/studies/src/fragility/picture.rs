@@ -33,8 +33,8 @@ pub(crate) fn draw(
         .collect();
     let body = key::draw(&body, 30, &entries)?;
     for (area, &width) in body.split_evenly((1, widths.len())).iter().zip(widths) {
-        let shown: Vec<_> = groups.iter().filter(|group| group.width == width).collect();
-        draw_panel(area, &shown, width)?;
+        let shown_groups: Vec<_> = groups.iter().filter(|group| group.width == width).collect();
+        draw_panel(area, &shown_groups, width)?;
     }
     root.present()?;
     Ok(())
@@ -42,13 +42,13 @@ pub(crate) fn draw(
 
 fn draw_panel(area: &SheetArea, groups: &[&FragilityGroup], width: f64) -> Result<(), AnyError> {
     let levels = groups.iter().flat_map(|group| &group.stripes).map(|stripe| stripe.level);
-    let highest = 1.05 * levels.fold(0.0, f64::max);
+    let max_level = 1.05 * levels.fold(0.0, f64::max);
     let mut chart = ChartBuilder::on(area)
         .caption(format!("base {width} m wide"), ("sans-serif", 18))
         .margin(12)
         .x_label_area_size(44)
         .y_label_area_size(52)
-        .build_cartesian_2d(0.0..highest, 0.0..1.02)?;
+        .build_cartesian_2d(0.0..max_level, 0.0..1.02)?;
     chart
         .configure_mesh()
         .x_desc("peak ground velocity, m/s")
@@ -62,7 +62,7 @@ fn draw_panel(area: &SheetArea, groups: &[&FragilityGroup], width: f64) -> Resul
         .light_line_style(WHITE)
         .draw()?;
     let velocities: Vec<f64> = (1..=CURVE_POINTS)
-        .map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS))
+        .map(|k| max_level * f64::from(k) / f64::from(CURVE_POINTS))
         .collect();
     for (group, color) in groups.iter().zip(FRICTION_COLORS.iter().cycle()) {
         let bands: Vec<_> =

@@ -41,15 +41,15 @@ fn the_beetles_of_bliss_1935_have_the_published_fit() {
     let doses = [1.6907, 1.7242, 1.7552, 1.7842, 1.8113, 1.8369, 1.8610, 1.8839];
     let levels = doses.map(|dose: f64| 10.0_f64.powf(dose));
     let beetles = [59.0, 60.0, 62.0, 56.0, 63.0, 59.0, 62.0, 60.0];
-    let killed = [6.0, 13.0, 18.0, 28.0, 52.0, 53.0, 61.0, 60.0];
-    let fitted = fit(&counted(&levels, &beetles, &killed)).unwrap();
+    let killed_counts = [6.0, 13.0, 18.0, 28.0, 52.0, 53.0, 61.0, 60.0];
+    let fitted_curve = fit(&counted(&levels, &beetles, &killed_counts)).unwrap();
     let ten = 10.0_f64.ln();
-    let slope = ten / fitted.curve.dispersion;
-    let intercept = -fitted.curve.median.ln() / fitted.curve.dispersion;
+    let slope = ten / fitted_curve.curve.dispersion;
+    let intercept = -fitted_curve.curve.median.ln() / fitted_curve.curve.dispersion;
     assert!((slope - 19.73).abs() < 0.006, "{slope}");
     assert!((intercept + 34.94).abs() < 0.006, "{intercept}");
     // Error of the slope: the error of β divided by β² / ln 10.
-    let error = fitted.dispersion_error * ten / fitted.curve.dispersion.powi(2);
+    let error = fitted_curve.dispersion_error * ten / fitted_curve.curve.dispersion.powi(2);
     assert!((error - 1.48).abs() < 0.012, "{error}");
 }
 
@@ -71,7 +71,7 @@ fn the_likelihood_is_highest_at_the_fit() {
     let levels = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0];
     let runs = [40.0; 8];
     let counts = [0.0, 0.0, 0.0, 4.0, 6.0, 13.0, 12.0, 16.0];
-    let fitted = fit(&counted(&levels, &runs, &counts)).unwrap();
+    let fitted_curve = fit(&counted(&levels, &runs, &counts)).unwrap();
     let likelihood = |center: f64, dispersion: f64| -> f64 {
         let mut sum = 0.0;
         for k in 0..levels.len() {
@@ -82,26 +82,35 @@ fn the_likelihood_is_highest_at_the_fit() {
         sum
     };
     // From a coarse grid to a fine one around its best.
-    let mut best = [0.0, 0.6];
+    let mut best_parameters = [0.0, 0.6];
     let mut span = [1.0, 0.5];
     for _ in 0..12 {
         let points = (-10..=10).flat_map(|i| (-10..=10).map(move |j| [i, j]));
         let points = points.map(|[i, j]: [i32; 2]| {
-            [best[0] + 0.1 * f64::from(i) * span[0], best[1] + 0.1 * f64::from(j) * span[1]]
+            [
+                best_parameters[0] + 0.1 * f64::from(i) * span[0],
+                best_parameters[1] + 0.1 * f64::from(j) * span[1],
+            ]
         });
         let points = points.filter(|point| point[1] > 0.05);
         let likelier =
             |a: &[f64; 2], b: &[f64; 2]| likelihood(a[0], a[1]).total_cmp(&likelihood(b[0], b[1]));
-        best = points.max_by(likelier).unwrap();
+        best_parameters = points.max_by(likelier).unwrap();
         span = span.map(|width| 0.4 * width);
     }
-    assert!((fitted.curve.median.ln() - best[0]).abs() < 1e-4, "{fitted:?}, {best:?}");
-    assert!((fitted.curve.dispersion - best[1]).abs() < 1e-4, "{fitted:?}, {best:?}");
+    assert!(
+        (fitted_curve.curve.median.ln() - best_parameters[0]).abs() < 1e-4,
+        "{fitted_curve:?}, {best_parameters:?}"
+    );
+    assert!(
+        (fitted_curve.curve.dispersion - best_parameters[1]).abs() < 1e-4,
+        "{fitted_curve:?}, {best_parameters:?}"
+    );
 
     // Observed information by differences; the fit's comes from the same second derivatives.
     let h = 1e-3;
-    let c = fitted.curve.median.ln();
-    let b = fitted.curve.dispersion;
+    let c = fitted_curve.curve.median.ln();
+    let b = fitted_curve.curve.dispersion;
     let second_derivative = |[p, q]: [f64; 2], [r, s]: [f64; 2]| {
         let shifted = |x: f64, y: f64| likelihood(c + h * (x * p + y * r), b + h * (x * q + y * s));
         (shifted(1.0, 1.0) - shifted(1.0, -1.0) - shifted(-1.0, 1.0) + shifted(-1.0, -1.0))
@@ -113,7 +122,7 @@ fn the_likelihood_is_highest_at_the_fit() {
     let uv = -second_derivative(u, v);
     let vv = -second_derivative(v, v);
     let determinant = uu * vv - uv * uv;
-    let errors = [fitted.median_error, fitted.dispersion_error];
+    let errors = [fitted_curve.median_error, fitted_curve.dispersion_error];
     for (computed, expected) in errors.iter().zip([vv / determinant, uu / determinant]) {
         let difference = (computed / expected.sqrt() - 1.0).abs();
         assert!(difference < 1e-3, "{computed}, {expected}");
@@ -179,15 +188,15 @@ fn bands_contain_the_true_median() {
                 levels.iter().map(|&level| Some(level > capacity)).collect()
             })
             .collect();
-        let fitted = fit(&stripes(&levels, outcomes.iter())).unwrap();
-        mean += (fitted.curve.median / median).ln() / f64::from(trials);
+        let fitted_curve = fit(&stripes(&levels, outcomes.iter())).unwrap();
+        mean += (fitted_curve.curve.median / median).ln() / f64::from(trials);
         let samples = resampled(&levels, &outcomes, 200, || random.bits());
         let medians: Vec<_> = samples.iter().map(|curve| curve.median).collect();
         let low = quantile(medians.clone(), 0.05);
         let high = quantile(medians, 0.95);
         in_band += i32::from(low <= median && median <= high);
-        let error = (fitted.curve.median / median).ln().abs();
-        within_independent_errors += i32::from(error < 1.645 * fitted.median_error);
+        let error = (fitted_curve.curve.median / median).ln().abs();
+        within_independent_errors += i32::from(error < 1.645 * fitted_curve.median_error);
     }
     // 90 % of 300 with a standard deviation of 1.7 %; percentiles of 20 records contain a little less.
     let covered = f64::from(in_band) / f64::from(trials);

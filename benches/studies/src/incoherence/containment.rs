@@ -71,11 +71,11 @@ fn containment() -> Result<(FemModel, [DofCombination; 3]), AnyError> {
         model.dof(node, direction).ok_or_else(|| "restrained node".into())
     };
     let front = dof(0.0, -WALL_RADIUS, Direction::X)?;
-    let back = dof(0.0, WALL_RADIUS, Direction::X)?;
+    let back_dof = dof(0.0, WALL_RADIUS, Direction::X)?;
     let rows = [
-        DofCombination::from([(front, 0.5), (back, 0.5)]),
+        DofCombination::from([(front, 0.5), (back_dof, 0.5)]),
         DofCombination::from([(dof(WALL_RADIUS, 0.0, Direction::Z)?, 1.0)]),
-        DofCombination::from([(front, 0.5), (back, -0.5)]),
+        DofCombination::from([(front, 0.5), (back_dof, -0.5)]),
     ];
     Ok((model, rows))
 }
@@ -198,33 +198,35 @@ pub(super) struct IncoherenceComparison {
 /// Runs with coherent motion, and with incoherent motion of several seeds.
 pub(super) fn compare(seed_count: u64, short: bool) -> Result<IncoherenceComparison, AnyError> {
     let scene = ContainmentScene::new(short)?;
-    let coherent = scene.run(None)?;
+    let coherent_run = scene.run(None)?;
     let mut incoherent = Vec::new();
     for seed in 0..seed_count {
         incoherent.push(scene.run(Some(seed))?);
         println!("seed {seed}: {:?}", incoherent[incoherent.len() - 1].peaks);
     }
-    let largest_error =
-        incoherent.iter().map(|run| run.energy_error).fold(coherent.energy_error, f64::max);
+    let largest_error = incoherent
+        .iter()
+        .map(|run| run.energy_error)
+        .fold(coherent_run.energy_error, f64::max);
     let mut text = "| largest | unit | coherent | incoherent, mean | smallest | largest | mean over coherent |\n|---|---|---|---|---|---|---|\n".to_owned();
-    let mut add_row = |name: &str, unit: &str, coherent: f64, values: &[f64]| {
+    let mut add_row = |name: &str, unit: &str, coherent_run: f64, values: &[f64]| {
         let [mean, low, high] = statistics(values);
         writeln!(
             text,
-            "| {name} | {unit} | {coherent:.3} | {mean:.3} | {low:.3} | {high:.3} | {:.2} |",
-            mean / coherent
+            "| {name} | {unit} | {coherent_run:.3} | {mean:.3} | {low:.3} | {high:.3} | {:.2} |",
+            mean / coherent_run
         )
     };
     for (k, (name, unit, factor)) in PEAK_NAMES.into_iter().enumerate() {
         let values: Vec<f64> = incoherent.iter().map(|run| factor * run.peaks[k]).collect();
-        add_row(name, unit, factor * coherent.peaks[k], &values)?;
+        add_row(name, unit, factor * coherent_run.peaks[k], &values)?;
     }
     for (probe, name) in PROBE_NAMES.into_iter().enumerate() {
         for (k, period) in TABLE_PERIODS.into_iter().enumerate() {
             let index = PERIOD_COUNT + k;
             let values: Vec<f64> = incoherent.iter().map(|r| r.spectra[probe][index]).collect();
             let name = format!("spectrum, {name}, {period} s");
-            add_row(&name, "g", coherent.spectra[probe][index], &values)?;
+            add_row(&name, "g", coherent_run.spectra[probe][index], &values)?;
         }
     }
     writeln!(text, "\nLargest energy error of the runs: {largest_error:.0e}.")?;
@@ -237,7 +239,7 @@ pub(super) fn compare(seed_count: u64, short: bool) -> Result<IncoherenceCompari
             statistics(&values)[statistic]
         };
         FigurePanel::new("log₁₀ of the period in s", &format!("{name}, g"))
-            .line("coherent", CURVE_RED, curve(&|k| coherent.spectra[probe][k]))
+            .line("coherent", CURVE_RED, curve(&|k| coherent_run.spectra[probe][k]))
             .line("incoherent, mean", CURVE_BLUE, curve(&|k| of_seeds(k, 0)))
             .dashed("smallest and largest", CURVE_GRAY, curve(&|k| of_seeds(k, 1)))
             .dashed("", CURVE_GRAY, curve(&|k| of_seeds(k, 2)))

@@ -99,15 +99,15 @@ fn disc(options: &IncoherenceOptions) -> Result<String, AnyError> {
         .zip(["horizontal", "vertical"])
     {
         let weights = disc.weights(component)?;
-        let sampled = sampled_mean_squares(&disc, component, &weights, seed_count)?;
+        let sampled_mean_squares = sampled_mean_squares(&disc, component, &weights, seed_count)?;
         for (k, frequency) in DISC_FREQUENCIES.into_iter().enumerate() {
-            let direct = disc.mean_square(&weights[k], frequency)?;
-            let SampledMean { mean, standard_error } = sampled[k];
+            let mean_square = disc.mean_square(&weights[k], frequency)?;
+            let SampledMean { mean, standard_error } = sampled_mean_squares[k];
             writeln!(
                 text,
-                "| {name} | {frequency} | {:.3} | {direct:.4} | {:+.2} | {mean:.4} | {standard_error:.4} |",
+                "| {name} | {frequency} | {:.3} | {mean_square:.4} | {:+.2} | {mean:.4} | {standard_error:.4} |",
                 published[k],
-                100.0 * (direct / published[k] - 1.0),
+                100.0 * (mean_square / published[k] - 1.0),
             )?;
         }
     }

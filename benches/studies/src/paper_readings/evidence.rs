@@ -45,41 +45,41 @@ fn sliding_ratio(reading: &PaperReading) -> Option<f64> {
 /// Prints the smallest sliding ratio over geometries, then over soil densities.
 pub(crate) fn print_geometries(reading: &PaperReading, short: bool) {
     let sizes = Sizes::new(short);
-    let mut smallest = [f64::INFINITY, 0.0, 0.0];
-    let mut tried = 0;
-    let mut failed = 0;
+    let mut best_geometry = [f64::INFINITY, 0.0, 0.0];
+    let mut tried_count = 0;
+    let mut failed_count = 0;
     for [width, height] in sizes.pairs() {
-        tried += 1;
+        tried_count += 1;
         match sliding_ratio(&PaperReading { width, height, ..with_crate_scheme(reading) }) {
-            Some(ratio) if ratio < smallest[0] => smallest = [ratio, width, height],
+            Some(ratio) if ratio < best_geometry[0] => best_geometry = [ratio, width, height],
             Some(_) => {}
-            None => failed += 1,
+            None => failed_count += 1,
         }
     }
     println!(
-        "\nfriction 0.4 over uplift only, {tried} geometries ({failed} do not stand or end early): \
+        "\nfriction 0.4 over uplift only, {tried_count} geometries ({failed_count} do not stand or end early): \
          never below {:.2} (at {:.0} x {:.0} ft); Table 1 has {:.2}",
-        smallest[0],
-        smallest[1],
-        smallest[2],
+        best_geometry[0],
+        best_geometry[1],
+        best_geometry[2],
         PAPER_SHEARS[2] / PAPER_SHEARS[1]
     );
     let densities: &[f64] = if short { &[2.8, 4.2] } else { &[2.0, 2.8, 3.5, 4.2, 5.0] };
     let sizes = Sizes { widths: vec![20.0, 34.0, 60.0, 100.0], heights: vec![40.0, 80.0, 120.0] };
     let sizes = if short { Sizes { widths: vec![34.0], heights: vec![80.0] } } else { sizes };
-    let mut smallest = [f64::INFINITY, 0.0, 0.0, 0.0];
+    let mut best_geometry = [f64::INFINITY, 0.0, 0.0, 0.0];
     for &soil_density in densities {
         for [width, height] in sizes.pairs() {
             let reading =
                 PaperReading { width, height, soil_density, ..with_crate_scheme(reading) };
-            if let Some(ratio) = sliding_ratio(&reading).filter(|ratio| *ratio < smallest[0]) {
-                smallest = [ratio, soil_density, width, height];
+            if let Some(ratio) = sliding_ratio(&reading).filter(|ratio| *ratio < best_geometry[0]) {
+                best_geometry = [ratio, soil_density, width, height];
             }
         }
     }
     println!(
         "the same over soil densities: never below {:.2} (at {} slug/ft³, {:.0} x {:.0} ft)",
-        smallest[0], smallest[1], smallest[2], smallest[3]
+        best_geometry[0], best_geometry[1], best_geometry[2], best_geometry[3]
     );
 }
 
@@ -101,26 +101,26 @@ struct Geometry {
 
 /// Geometry of the smallest `misfit` near `start`, by decreasing steps; with `short` one step.
 fn refine(misfit: &impl Fn([f64; 2]) -> f64, start: Geometry, short: bool) -> Geometry {
-    let mut best = start;
+    let mut best_point = start;
     let mut step = 0.16;
     for _ in 0..if short { 1 } else { usize::MAX } {
         if step <= 0.008 {
             break;
         }
-        let before = best.misfit;
+        let before = best_point.misfit;
         for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-            let mut sizes = best.sizes;
+            let mut sizes = best_point.sizes;
             sizes[axis] *= 1.0 + sign * step;
             let trial = Geometry { sizes, misfit: misfit(sizes) };
-            if trial.misfit < best.misfit {
-                best = trial;
+            if trial.misfit < best_point.misfit {
+                best_point = trial;
             }
         }
-        if best.misfit == before {
+        if best_point.misfit == before {
             step *= 0.5;
         }
     }
-    best
+    best_point
 }
 
 /// Prints geometries that fit the bonded and the uplift-only row, and the misfit of the sliding rows there.
@@ -166,15 +166,15 @@ pub(crate) fn print_search(reading: &PaperReading, short: bool) {
                 .map(|sizes| Geometry { sizes, misfit: misfit_of(sizes) })
                 .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
                 .unwrap_or(Geometry { sizes: [f64::NAN; 2], misfit: f64::INFINITY });
-            let best = refine(&misfit_of, coarse, short);
+            let best_point = refine(&misfit_of, coarse, short);
             println!(
                 "best geometry for {} of Table 1, friction {}: {:.1} x {:.1} ft, rms of log ratios \
                  {:.3}",
                 if rows.len() == 5 { "all rows" } else { "the sliding rows" },
                 if length_left_out { "without the element's length" } else { "as printed" },
-                best.sizes[0],
-                best.sizes[1],
-                best.misfit
+                best_point.sizes[0],
+                best_point.sizes[1],
+                best_point.misfit
             );
         }
     }

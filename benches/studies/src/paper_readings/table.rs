@@ -93,11 +93,11 @@ impl ReadingsTable {
         }
         for first in [0, 2] {
             let row_count = reading.rows.iter().filter(|row| **row >= first).count();
-            let counted = logarithms.iter().filter(|(row, _)| *row >= first);
-            let counted: Vec<f64> = counted.map(|(_, logarithm)| *logarithm).collect();
+            let counted_rows = logarithms.iter().filter(|(row, _)| *row >= first);
+            let counted_rows: Vec<f64> = counted_rows.map(|(_, logarithm)| *logarithm).collect();
             // Without a mean if a row of the reading failed.
-            if counted.len() == row_count && row_count > 0 {
-                print!(" {:.2} |", root_mean_square(&counted));
+            if counted_rows.len() == row_count && row_count > 0 {
+                print!(" {:.2} |", root_mean_square(&counted_rows));
             } else {
                 print!(" – |");
             }

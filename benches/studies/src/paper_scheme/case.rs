@@ -39,7 +39,7 @@ pub(crate) fn march(
     steps: usize,
     limit: f64,
 ) -> basemat::Result<MarchOutcome> {
-    let begin = ProcessTime::now();
+    let start_time = ProcessTime::now();
     let mut simulation = build()?;
     let mut shear = Vec::with_capacity(steps);
     let result = simulation.run(steps, |state: &State| {
@@ -53,7 +53,7 @@ pub(crate) fn march(
         Err(error) => return Err(error),
     };
     let time_step = simulation.time_step();
-    Ok(MarchOutcome { shear, time_step, end, processor: begin.elapsed() })
+    Ok(MarchOutcome { shear, time_step, end, processor: start_time.elapsed() })
 }
 
 impl MarchOutcome {

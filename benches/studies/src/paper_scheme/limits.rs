@@ -139,8 +139,8 @@ pub(crate) fn print(scene: &PaperScene, duration: f64, short: bool) -> Result<()
                         }
                     }
                     Ok(outcome) => {
-                        let why = if outcome.end == MarchEnd::Grew { "grows" } else { "cycles" };
-                        format!("{why} to {:.2} s", outcome.time())
+                        let cause = if outcome.end == MarchEnd::Grew { "grows" } else { "cycles" };
+                        format!("{cause} to {:.2} s", outcome.time())
                     }
                 });
             }

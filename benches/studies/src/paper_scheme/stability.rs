@@ -37,12 +37,12 @@ fn chain(nodes: &[[f64; 2]]) -> Vec<Segment> {
 /// Prints the table of a flat boundary of 20 equal elements, free of traction or fixed, then of a trench.
 pub(crate) fn print_table() -> Result<(), AnyError> {
     let nodes: Vec<_> = (0..=ELEMENT_COUNT).map(|k| [k as f64, 0.0]).collect();
-    let flat = chain(&nodes);
+    let flat_surface = chain(&nodes);
     println!("| kernel | β | free: growth per step | held: growth per step | held: passivity |");
     println!("|---|---|---|---|---|");
     for name in KERNEL_NAMES {
         for beta in STEP_BETAS {
-            let kernel = kernel(name, &flat, beta)?;
+            let kernel = kernel(name, &flat_surface, beta)?;
             let assess = |condition| {
                 Stability::assess(kernel.as_ref(), &[condition; ELEMENT_COUNT], SMALLEST_GROWTH)
             };

@@ -50,7 +50,7 @@ pub(crate) struct RunCost {
 
 /// Runs `scene` here, and prints the numbers for [`measure`].
 pub(crate) fn run(scene: RunScene, steps: usize) -> std::result::Result<(), AnyError> {
-    let begin = Instant::now();
+    let start_time = Instant::now();
     // A sweep does not measure its steps.
     let time = if scene == RunScene::Sweep {
         sweep(steps)?;
@@ -60,7 +60,7 @@ pub(crate) fn run(scene: RunScene, steps: usize) -> std::result::Result<(), AnyE
     };
     let seconds = cpu_time::ProcessTime::try_now()?.as_duration().as_secs_f64();
     let peak = peak_memory().unwrap_or(f64::NAN);
-    let wall = begin.elapsed().as_secs_f64();
+    let wall = start_time.elapsed().as_secs_f64();
     println!("{seconds} {} {wall} {peak} {}", time.total, time.slowest_step);
     Ok(())
 }
@@ -165,13 +165,13 @@ pub(crate) fn containment() -> std::result::Result<[f64; 2], AnyError> {
     if !build.status()?.success() {
         return Err("the example containment does not compile".into());
     }
-    let begin = Instant::now();
+    let start_time = Instant::now();
     let before = children_time();
     let output = Command::new(folder.join("examples/containment")).output()?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into());
     }
-    Ok([children_time() - before, begin.elapsed().as_secs_f64()])
+    Ok([children_time() - before, start_time.elapsed().as_secs_f64()])
 }
 
 /// Processor time of all children that have ended, s; NaN where the system does not report it.

@@ -30,11 +30,11 @@ fn march(history: &mut dyn ConvolutionHistory, size: usize, steps: usize) -> Res
     let mut slowest_step = 0.0_f64;
     let timed_march = timed(|| {
         for step in 0..steps {
-            let begin = Instant::now();
+            let start_time = Instant::now();
             history.evaluate(&mut displacement)?;
             crate::history::traction(step, &mut traction);
             history.push(&traction);
-            slowest_step = slowest_step.max(begin.elapsed().as_secs_f64());
+            slowest_step = slowest_step.max(start_time.elapsed().as_secs_f64());
         }
         Ok(())
     });
@@ -44,9 +44,9 @@ fn march(history: &mut dyn ConvolutionHistory, size: usize, steps: usize) -> Res
 
 /// Seconds of the direct sum over `steps` steps.
 pub(crate) fn direct(count: usize, steps: usize) -> Result<f64> {
-    let mut direct = DirectHistory::new(patch(count)?);
-    direct.prepare(steps, &mut unobserved)?;
-    Ok(march(&mut direct, 2 * count, steps)?.march)
+    let mut direct_history = DirectHistory::new(patch(count)?);
+    direct_history.prepare(steps, &mut unobserved)?;
+    Ok(march(&mut direct_history, 2 * count, steps)?.march)
 }
 
 /// Transforms of all past steps.
@@ -79,17 +79,17 @@ pub(crate) fn history_cost(
     repeats: usize,
 ) -> Result<HistoryCost> {
     let infinite = f64::INFINITY;
-    let mut best = HistoryCost { setup: infinite, march: infinite, slowest_step: infinite };
+    let mut best_cost = HistoryCost { setup: infinite, march: infinite, slowest_step: infinite };
     for _ in 0..repeats {
         // A new kernel each time, because a kernel stores its spectra.
         let kernel = patch(count)?;
         let history = timed(|| prepare(kernel, steps));
         let cost = march(&mut *history.result?, 2 * count, steps)?;
-        best.setup = best.setup.min(history.seconds);
-        best.march = best.march.min(cost.march);
-        best.slowest_step = best.slowest_step.min(cost.slowest_step);
+        best_cost.setup = best_cost.setup.min(history.seconds);
+        best_cost.march = best_cost.march.min(cost.march);
+        best_cost.slowest_step = best_cost.slowest_step.min(cost.slowest_step);
     }
-    Ok(best)
+    Ok(best_cost)
 }
 
 /// Seconds for all coefficients of a patch over `lags`.
@@ -122,10 +122,10 @@ pub(crate) struct GrowthPoint {
 }
 
 /// The growth of a history's marching time from 10³ steps to `longest`.
-pub(crate) fn growth(prepare: PrepareHistory, longest: usize) -> Result<Growth> {
+pub(crate) fn growth(prepare: PrepareHistory, max_steps: usize) -> Result<Growth> {
     let mut points = Vec::new();
     for steps in [1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000] {
-        if steps <= longest {
+        if steps <= max_steps {
             let repeats = (300_000 / steps).clamp(3, 100);
             let HistoryCost { march, slowest_step, .. } =
                 history_cost(prepare, 10, steps, repeats)?;

@@ -101,41 +101,41 @@ impl ReducedRun {
 
     /// Largest error of a quantity relative to its largest value.
     fn error(&self, reference: &Self, quantity: usize) -> Option<f64> {
-        let mut largest = 0.0_f64;
+        let mut max_magnitude = 0.0_f64;
         let mut difference = 0.0_f64;
         for (values, references) in self.series.iter().zip(&reference.series) {
             let expected = references.get(quantity)?;
-            largest = largest.max(expected.abs());
+            max_magnitude = max_magnitude.max(expected.abs());
             difference = difference.max((values.get(quantity)? - expected).abs());
         }
-        Some(difference / largest)
+        Some(difference / max_magnitude)
     }
 }
 
 /// Adds the table of times and errors.
 pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(), AnyError> {
-    let small =
+    let small_tower =
         ReducedTower { columns: 20, rows: 26, damping: 0.05, bonded: false, acceleration: true };
-    let medium = ReducedTower { columns: 40, rows: 40, ..small };
+    let medium = ReducedTower { columns: 40, rows: 40, ..small_tower };
     let mut towers = vec![
-        ReducedTower { bonded: true, ..small },
-        small,
-        ReducedTower { damping: 0.02, ..small },
-        ReducedTower { damping: 0.0, ..small },
+        ReducedTower { bonded: true, ..small_tower },
+        small_tower,
+        ReducedTower { damping: 0.02, ..small_tower },
+        ReducedTower { damping: 0.0, ..small_tower },
     ];
     if !short {
         towers.extend([
             ReducedTower { acceleration: false, ..medium },
             medium,
             ReducedTower { damping: 0.02, ..medium },
-            ReducedTower { columns: 80, rows: 80, acceleration: false, ..small },
+            ReducedTower { columns: 80, rows: 80, acceleration: false, ..small_tower },
         ]);
     }
     let mut rows = Vec::new();
     for tower in towers {
         let dofs = tower.model()?.dofs();
         let repeats = if short || dofs > 10_000 { 1 } else { 3 };
-        let full = tower.run(Coordinates::Physical, repeats)?;
+        let full_run = tower.run(Coordinates::Physical, repeats)?;
         for tolerance in [1e-4, 1e-6] {
             let mut row = vec![
                 dofs.to_string(),
@@ -146,14 +146,14 @@ pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(),
             match tower.run(Coordinates::Reduced { tolerance }, repeats) {
                 Ok(reduced) => {
                     row.extend([
-                        format!("{:.2} / {:.2}", full.build, reduced.build),
-                        format!("{:.0} / {:.0}", 1e6 * full.step, 1e6 * reduced.step),
-                        format!("{:.0}", full.step / reduced.step),
-                        format!("{:.1}", full.estimated_time() / reduced.estimated_time()),
+                        format!("{:.2} / {:.2}", full_run.build, reduced.build),
+                        format!("{:.0} / {:.0}", 1e6 * full_run.step, 1e6 * reduced.step),
+                        format!("{:.0}", full_run.step / reduced.step),
+                        format!("{:.1}", full_run.estimated_time() / reduced.estimated_time()),
                     ]);
                     row.extend((0..4).map(|quantity| {
                         reduced
-                            .error(&full, quantity)
+                            .error(&full_run, quantity)
                             .map_or("–".into(), |error| format!("{error:.0e}"))
                     }));
                 }

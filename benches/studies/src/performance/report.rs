@@ -10,9 +10,9 @@ pub(crate) struct Timed<T> {
 }
 
 pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> Timed<T> {
-    let begin = cpu_time::ThreadTime::now();
+    let start_time = cpu_time::ThreadTime::now();
     let result = work();
-    Timed { result, seconds: begin.elapsed().as_secs_f64() }
+    Timed { result, seconds: start_time.elapsed().as_secs_f64() }
 }
 
 /// The table of targets, and the other tables.

@@ -15,18 +15,18 @@ fn best(
     threads: usize,
     repeats: usize,
 ) -> Result<RunCost, AnyError> {
-    let mut best = measure(scene, steps, threads)?;
+    let mut best_cost = measure(scene, steps, threads)?;
     for _ in 1..repeats {
         let cost = measure(scene, steps, threads)?;
-        best = RunCost {
-            seconds: best.seconds.min(cost.seconds),
-            march: best.march.min(cost.march),
-            wall: best.wall.min(cost.wall),
-            peak: best.peak.min(cost.peak),
-            slowest: best.slowest.min(cost.slowest),
+        best_cost = RunCost {
+            seconds: best_cost.seconds.min(cost.seconds),
+            march: best_cost.march.min(cost.march),
+            wall: best_cost.wall.min(cost.wall),
+            peak: best_cost.peak.min(cost.peak),
+            slowest: best_cost.slowest.min(cost.slowest),
         };
     }
-    Ok(best)
+    Ok(best_cost)
 }
 
 /// Whether the memory is below the limit, or unknown.
@@ -76,20 +76,20 @@ pub(crate) fn runs(report: &mut Report, short: bool) -> Result<(), AnyError> {
     );
     let steps = if short { 4_000 } else { RECORD_STEPS };
     let cost = measure(RunScene::Wide, steps, 1)?;
-    let scaled = cost.seconds * RECORD_STEPS as f64 / steps as f64;
+    let scaled_seconds = cost.seconds * RECORD_STEPS as f64 / steps as f64;
     let march = history_cost(relaxed, 200, steps, 1)?.march;
     report.target(
         "200 contact elements, rigid block, bonded, 54 000 steps: whole run",
         "< 20 s",
         &format!(
-            "{scaled:.1} s{} ({:.0} µs per step, {:.0} of them history; slowest step {:.0} ms; {:.0} MB)",
+            "{scaled_seconds:.1} s{} ({:.0} µs per step, {:.0} of them history; slowest step {:.0} ms; {:.0} MB)",
             if short { format!(", scaled from {steps} steps") } else { String::new() },
             1e6 * cost.seconds / steps as f64,
             1e6 * march / steps as f64,
             1e3 * cost.slowest,
             cost.peak,
         ),
-        scaled < 20.0,
+        scaled_seconds < 20.0,
     );
     let example = containment()?;
     report.target(
@@ -107,33 +107,33 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
     let steps: usize = if short { 3_000 } else { 8_000 };
     let seconds = direct(10, steps)?;
     let rate = 100.0 * (steps as f64).powi(2) / seconds;
-    let scaled = seconds * (RECORD_STEPS as f64 / steps as f64).powi(2);
+    let scaled_seconds = seconds * (RECORD_STEPS as f64 / steps as f64).powi(2);
     let exponentials = history_cost(bounded, 10, RECORD_STEPS, 3)?;
     report.target(
         "history alone, 10 elements, 54 000 steps: direct over exponentials at 1e-12",
         "≥ 200",
         &format!(
-            "{:.0} ({:.3} s, setup {:.3} s, slowest step {:.1} ms; direct {scaled:.0} s \
-             at {:.2} G multiply–adds/s, scaled by N² from {steps} steps)",
-            scaled / exponentials.march,
+            "{:.0} ({:.3} s, setup {:.3} s, slowest step {:.1} ms; direct {scaled_seconds:.0} s \
+             at {:.2} G multiply–adds/s, scaled_seconds by N² from {steps} steps)",
+            scaled_seconds / exponentials.march,
             exponentials.march,
             exponentials.setup,
             1e3 * exponentials.slowest_step,
             1e-9 * rate,
         ),
-        scaled / exponentials.march >= 200.0,
+        scaled_seconds / exponentials.march >= 200.0,
     );
-    let longest = if short { 100_000 } else { 1_000_000 };
-    let growths = [growth(relaxed, longest)?, growth(bounded, longest)?];
+    let max_steps = if short { 100_000 } else { 1_000_000 };
+    let growths = [growth(relaxed, max_steps)?, growth(bounded, max_steps)?];
     report.target(
-        &format!("the same: exponent of marching time over N, 10³ to {longest}, setup apart"),
+        &format!("the same: exponent of marching time over N, 10³ to {max_steps}, setup apart"),
         "≤ 1.02",
         &format!("{:.3}", growths[1].exponent),
         growths[1].exponent <= 1.02,
     );
     coefficient_targets(report)?;
     growth_table(report, &growths);
-    long_run_table(report, longest)?;
+    long_run_table(report, max_steps)?;
     strip_table(report, short)
 }
 
@@ -182,11 +182,12 @@ fn growth_table(report: &mut Report, growths: &[Growth; 2]) {
 }
 
 /// Adds the times of whole runs over the number of steps.
-fn long_run_table(report: &mut Report, longest: usize) -> Result<(), AnyError> {
+fn long_run_table(report: &mut Report, max_steps: usize) -> Result<(), AnyError> {
     let head = ["steps", "µs per step", "slowest step, ms"];
     let mut points = Vec::new();
     // With fewer steps, the simulation would use degrees of freedom instead of modes.
-    for steps in [10_000, 100_000, 1_000_000, 10_000_000].into_iter().filter(|n| *n <= 10 * longest)
+    for steps in
+        [10_000, 100_000, 1_000_000, 10_000_000].into_iter().filter(|n| *n <= 10 * max_steps)
     {
         let cost = best(RunScene::Long, steps, 1, if steps > 10_000 { 1 } else { 3 })?;
         points.push(GrowthPoint { steps, march: cost.march, slowest_step: cost.slowest });

@@ -168,7 +168,7 @@ impl TowerCase {
         let motion = self.motion()?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let steps = (RUN_DURATION / time_step).round() as usize;
-        let begin = ThreadTime::try_now()?;
+        let start_time = ThreadTime::try_now()?;
         let layer = Layer::new(TOWER_HEIGHT, self.mesh[1], Material::new(6e8, 0.2, 600.0)?);
         let model = FemModel::on_base(Mesh::layered_block(
             -HALF_WIDTH..HALF_WIDTH,
@@ -189,7 +189,7 @@ impl TowerCase {
         let mut simulation = builder.build()?;
         let mut mean_shears = Vec::with_capacity(steps);
         simulation.run(steps, |state| mean_shears.push(state.base_shear))?;
-        let seconds = begin.try_elapsed()?.as_secs_f64();
+        let seconds = start_time.try_elapsed()?.as_secs_f64();
         Ok(TowerRun { force: ForceSeries::new(time_step, mean_shears), seconds })
     }
 
@@ -217,8 +217,8 @@ struct CaseReference {
 }
 
 fn largest_points(families: &[LineFamily], case: TowerCase) -> usize {
-    let same = families.iter().filter(|family| family.case == case);
-    same.map(|family| family.points).max().unwrap_or(1)
+    let same_case = families.iter().filter(|family| family.case == case);
+    same_case.map(|family| family.points).max().unwrap_or(1)
 }
 
 /// Runs all lines.

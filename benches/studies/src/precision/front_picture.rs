@@ -34,8 +34,8 @@ const LINE_COLORS: [RGBColor; 13] = [
 /// Smallest and largest value of all points.
 fn range(lines: &[FrontLine], value: impl Fn(&FrontPoint) -> f64) -> Range<f64> {
     let values = lines.iter().flat_map(|line| &line.points).map(value);
-    let empty = f64::INFINITY..0.0_f64;
-    values.fold(empty, |range, value| range.start.min(value)..range.end.max(value))
+    let empty_range = f64::INFINITY..0.0_f64;
+    values.fold(empty_range, |range, value| range.start.min(value)..range.end.max(value))
 }
 
 /// Draws processor time upwards over error, which decreases from left to right; a line for each family.
@@ -97,10 +97,10 @@ pub(crate) fn table(lines: &[FrontLine]) -> Result<String, AnyError> {
             let group_lines = lines.iter().filter(|line| line.family.group == group);
             let points =
                 group_lines.flat_map(|line| line.points.iter().map(|point| (&line.family, point)));
-            let best = points
+            let best_points = points
                 .filter(|(_, point)| point.error <= tolerance)
                 .min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds));
-            match best {
+            match best_points {
                 Some((family, point)) => write!(text, " {} |", cell(family, point))?,
                 None => text.push_str(" not reached |"),
             }

@@ -81,8 +81,9 @@ pub(crate) fn draw(path: &Path, sweep: &SweepOutcome) -> Result<(), AnyError> {
     let mut entries =
         vec![("front: none faster and closer".to_owned(), LegendSample::Line(FRONT_COLOR))];
     let families = families().into_iter();
-    let used = families.filter(|family| sweep.points.iter().any(|point| family.contains(point)));
-    entries.extend(used.map(|family| (family.name.clone(), family.sample())));
+    let used_families =
+        families.filter(|family| sweep.points.iter().any(|point| family.contains(point)));
+    entries.extend(used_families.map(|family| (family.name.clone(), family.sample())));
     let body = key::draw(&body, 30, &entries)?;
     let halves = body.split_evenly((1, 2));
     draw_panel(&halves[0], "error of the history (relative L2)", sweep, true, |point| {

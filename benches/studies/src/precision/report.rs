@@ -85,9 +85,9 @@ fn fastest(sweeps: &[SweepOutcome]) -> Result<String, AnyError> {
                 .points
                 .iter()
                 .filter(|point| point.errors.series.max(point.errors.peak) <= tolerance);
-            let best = accurate.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+            let best_point = accurate.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
             write!(text, "| {} | {} % ", sweep.scene, 100.0 * tolerance)?;
-            match best {
+            match best_point {
                 Some(point) => writeln!(text, "{}", row(point, sweep.crossing))?,
                 None => writeln!(text, "| none that was tried | | | | | |")?,
             }

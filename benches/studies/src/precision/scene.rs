@@ -43,14 +43,14 @@ impl PrecisionScene {
     /// Time is processor time of this thread, which includes convolution weights, factors and static state.
     pub(crate) fn run(&self, settings: &Settings) -> Result<SceneRun, AnyError> {
         let steps = self.steps(settings.time_step);
-        let begin = ThreadTime::try_now()?;
+        let start_time = ThreadTime::try_now()?;
         let builder = Simulation::builder(settings.time_step)
             .ground(settings.ground(self.soil, 0.5 * self.width)?)
             .expected_steps(steps);
         let mut simulation = settings.scheme.add_to((self.parts)(builder)?)?.build()?;
         let mut mean_shears = Vec::with_capacity(steps);
         let run = simulation.run(steps, |state| mean_shears.push(state.base_shear))?;
-        let seconds = begin.try_elapsed()?.as_secs_f64();
+        let seconds = start_time.try_elapsed()?.as_secs_f64();
         // A run without energy balance is an error.
         if run.energy_error > 1e-6 {
             return Err(

@@ -155,7 +155,7 @@ impl SpaceCase<'_> {
     /// Mean base shear of each interval, and displacement of the top at its end.
     fn run(&self, setting: SpaceSetting) -> basemat::Result<SpaceRun> {
         let scene = self.scene;
-        let begin = ProcessTime::now();
+        let start_time = ProcessTime::now();
         let steps = self.intervals * setting.steps;
         let (model, top) = (scene.model)(setting.elements)?;
         let soil = Soil::from_shear_wave_speed(scene.speed, 1.0 / 3.0, 1900.0)?;
@@ -187,7 +187,7 @@ impl SpaceCase<'_> {
                 series[1].push(state.displacement()[top]);
             }
         })?;
-        let seconds = begin.elapsed().as_secs_f64();
+        let seconds = start_time.elapsed().as_secs_f64();
         let cells = simulation.state().contact.len();
         let whole = &run.whole;
         println!("{}, {}: {cells} cells, {seconds:.2} s", self.name(), self.text(setting));
@@ -248,11 +248,11 @@ impl SpaceCase<'_> {
             runs.push((*setting, run, errors));
         }
         let name = self.name();
-        let finest = &runs[runs.len() - 1].1;
+        let finest_run = &runs[runs.len() - 1].1;
         let mut text = format!(
             "**{name}** (open {:.0} %, slip {:.1} mm)\n\n",
-            100.0 * finest.largest_open_fraction,
-            1e3 * finest.largest_slip
+            100.0 * finest_run.largest_open_fraction,
+            1e3 * finest_run.largest_slip
         );
         text += "| elements | cells | Δt, ms | base shear | top | s |\n|---|---|---|---|---|---|\n";
         for (setting, run, [shear, top]) in &runs {
@@ -266,11 +266,12 @@ impl SpaceCase<'_> {
             )?;
         }
         let mut row = format!("| {name} ");
-        for allowed in ALLOWED_ERRORS {
+        for allowed_error in ALLOWED_ERRORS {
             // All settings that are at least as fine must be accurate, because errors of coarse settings may cancel.
             let accurate = runs.iter().filter(|(setting, ..)| {
                 runs.iter().all(|(other, _, errors)| {
-                    !other.is_as_fine_as(setting) || errors.iter().all(|error| *error <= allowed)
+                    !other.is_as_fine_as(setting)
+                        || errors.iter().all(|error| *error <= allowed_error)
                 })
             });
             match accurate.min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds)) {

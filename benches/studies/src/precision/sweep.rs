@@ -110,12 +110,12 @@ impl SettingsSweep {
 fn mark_front(points: &mut [SweepPoint]) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[a].seconds.total_cmp(&points[b].seconds));
-    let mut best = f64::INFINITY;
+    let mut min_seconds = f64::INFINITY;
     for index in order {
         let point = &mut points[index];
         // Better by a percent at least: results that differ by rounding would all be in the front.
-        if point.errors.series < 0.99 * best {
-            best = point.errors.series;
+        if point.errors.series < 0.99 * min_seconds {
+            min_seconds = point.errors.series;
             point.front = true;
         }
     }
@@ -143,22 +143,22 @@ fn block_settings(short: bool) -> Vec<Settings> {
 
 /// Elements of the ground and steps of the containment; the structure keeps its ten columns.
 fn containment_settings(short: bool) -> Vec<Settings> {
-    let uniform: &[usize] = if short { &[10] } else { &[5, 10, 20] };
+    let uniform_counts: &[usize] = if short { &[10] } else { &[5, 10, 20] };
     let cosine: &[usize] = if short { &[6] } else { &[6, 10, 16, 24] };
     let factors: &[f64] = if short { &[8.0, 4.0] } else { &[16.0, 8.0, 4.0, 2.0, 1.0, 0.5] };
     let mut list = Vec::new();
-    for (grading, counts) in [(Grading::Uniform, uniform), (Grading::Cosine, cosine)] {
+    for (grading, counts) in [(Grading::Uniform, uniform_counts), (Grading::Cosine, cosine)] {
         for &count in counts {
             for &factor in factors {
                 let settings = Settings::new(count, grading, factor * CONTAINMENT_STEP);
                 list.push(settings);
                 if count == 10 {
                     // The direct sum of many steps takes minutes and gives the same force.
-                    let others = HISTORY_METHODS
+                    let other_methods = HISTORY_METHODS
                         .iter()
                         .skip(1)
                         .filter(|history| factor > 1.0 || history.name != "direct");
-                    list.extend(others.map(|&history| Settings { history, ..settings }));
+                    list.extend(other_methods.map(|&history| Settings { history, ..settings }));
                     list.extend(OTHER_SCHEMES.map(|scheme| Settings { scheme, ..settings }));
                 }
             }

@@ -101,11 +101,11 @@ fn thin(values: &[f64], short: bool, every: usize) -> Vec<f64> {
     if !short {
         return values.to_vec();
     }
-    let last = values.len() - 1;
+    let last_index = values.len() - 1;
     values
         .iter()
         .enumerate()
-        .filter(|(k, _)| k % every == 0 || *k == last)
+        .filter(|(k, _)| k % every == 0 || *k == last_index)
         .map(|(_, &value)| value)
         .collect()
 }

@@ -29,8 +29,8 @@ use axes::StabilityMap;
 use run::MapCell;
 use scene::Assessments;
 
-/// Where the crate stays bounded, closes its energy balance and finds its contact modes, and where
-/// it refuses.
+/// Where runs stay bounded, close their energy balance and have a contact solution, and where they
+/// end with an error.
 ///
 /// Prints tables, and writes cells.csv, tables.md and one SVG of heat maps per sweep. Ends with an
 /// error if a cell of the crate's scheme violates its guarantees.

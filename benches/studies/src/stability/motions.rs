@@ -82,9 +82,11 @@ impl ShakingMotion {
                 for k in 0..12 {
                     let omega = 2.5 * (TAU / 400.0 / 2.5_f64).powf(f64::from(k) / 11.0);
                     // The sine starts from rest, because it grows over a period.
-                    let fade = 1.0 - (-(omega * n / TAU).powi(2)).exp();
-                    sum[0] += fade * (omega * n + 0.7 * f64::from(k)).sin() / (omega * omega);
-                    sum[1] += fade * (omega * n + 1.9 * f64::from(k)).sin() / (omega * omega);
+                    let fade_factor = 1.0 - (-(omega * n / TAU).powi(2)).exp();
+                    sum[0] +=
+                        fade_factor * (omega * n + 0.7 * f64::from(k)).sin() / (omega * omega);
+                    sum[1] +=
+                        fade_factor * (omega * n + 1.9 * f64::from(k)).sin() / (omega * omega);
                 }
                 sum.map(|u| 0.3 * u)
             }
@@ -92,11 +94,14 @@ impl ShakingMotion {
                 // Every 20 steps a jump of velocity of 50 g × Δt/5, with alternating sign, in the middle of a step.
                 let pulses = (n / 20.0).floor();
                 let since_pulse = n % 20.0;
-                let odd = pulses % 2.0;
-                let completed = (pulses / 2.0).floor() * 20.0 + odd * 19.5;
-                let current =
-                    if odd == 0.0 { (since_pulse - 0.5).max(0.0) } else { since_pulse.min(0.5) };
-                let u = 10.0 * (completed + current);
+                let odd_pulses = pulses % 2.0;
+                let completed_time = (pulses / 2.0).floor() * 20.0 + odd_pulses * 19.5;
+                let current = if odd_pulses == 0.0 {
+                    (since_pulse - 0.5).max(0.0)
+                } else {
+                    since_pulse.min(0.5)
+                };
+                let u = 10.0 * (completed_time + current);
                 [u, 0.3 * u]
             }
             Self::Spikes => {

@@ -93,11 +93,11 @@ fn trials(
             [_, 0] => "*",
             _ => "**",
         };
-        let refused = outcome.verdict == Verdict::Refused;
+        let result = outcome.verdict == Verdict::Refused;
         let shade = ((outcome.trials[0] - 1.0) / 4.0).clamp(0.0, 1.0);
         let color = blend(RGBColor(236, 240, 246), RGBColor(106, 81, 163), shade);
         let text =
-            if refused { "–".to_owned() } else { format!("{:.1}{mark}", outcome.trials[0]) };
+            if result { "–".to_owned() } else { format!("{:.1}{mark}", outcome.trials[0]) };
         square(root, corner, rows, cell.place, &CellLabel { color, text })?;
     }
     Ok(())

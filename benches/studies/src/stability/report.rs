@@ -160,8 +160,8 @@ pub(crate) fn document(maps: &[StabilityMap], cells: &[MapCell]) -> String {
             })
             .collect()
     };
-    let others = maps.iter().enumerate().filter(|(_, map)| map.name != SCHEME_MAP);
-    let names = others.map(|(index, map)| (map.name, Some(index)));
+    let other_maps = maps.iter().enumerate().filter(|(_, map)| map.name != SCHEME_MAP);
+    let names = other_maps.map(|(index, map)| (map.name, Some(index)));
     for (name, map) in names.chain([("**all**", None)]) {
         let crate_cells = select(StabilityScheme::Basemat, map);
         let _ = write!(
@@ -303,9 +303,9 @@ fn assessments(maps: &[StabilityMap], cells: &[MapCell]) -> String {
                         outcomes.iter().filter(|outcome| outcome.is_unstable() == growth);
                     assessed.filter(|outcome| verdicts.contains(&outcome.verdict)).count()
                 };
-                let bad = count(&[Verdict::Grows, Verdict::Failed, Verdict::Refused]);
+                let bad_count = count(&[Verdict::Grows, Verdict::Failed, Verdict::Refused]);
                 let active = count(&[Verdict::Active]);
-                let _ = write!(text, "| {bad} | {active} | {} ", count(&[Verdict::Bounded]));
+                let _ = write!(text, "| {bad_count} | {active} | {} ", count(&[Verdict::Bounded]));
             }
             text.push_str("|\n");
         }

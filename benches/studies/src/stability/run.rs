@@ -248,16 +248,17 @@ impl CellOutcome {
     }
 
     fn judge(&mut self, scheme: StabilityScheme, tracker: &EnergyTracker) {
-        let relative = |energy: f64| if tracker.scale > 0.0 { energy / tracker.scale } else { 0.0 };
-        self.rise = relative(tracker.rise);
-        self.smallest_soil_work = relative(tracker.smallest_soil_work);
-        self.created_energy = relative(tracker.smallest_algorithmic.abs());
+        let relative_energy =
+            |energy: f64| if tracker.scale > 0.0 { energy / tracker.scale } else { 0.0 };
+        self.rise = relative_energy(tracker.rise);
+        self.smallest_soil_work = relative_energy(tracker.smallest_soil_work);
+        self.created_energy = relative_energy(tracker.smallest_algorithmic.abs());
         let first = tracker.windows[0];
-        let last = tracker.windows[WINDOW_COUNT - 1];
+        let last_window = tracker.windows[WINDOW_COUNT - 1];
         // Energy below the rounding of the largest energy does not count as motion.
         let floor = 1e-12 * tracker.scale;
-        self.growth = if last > floor { last / first.max(floor) } else { 0.0 };
-        let rising = tracker.windows.windows(2).all(|pair| pair[1] > pair[0]);
+        self.growth = if last_window > floor { last_window / first.max(floor) } else { 0.0 };
+        let is_rising = tracker.windows.windows(2).all(|pair| pair[1] > pair[0]);
         // The trapezoidal rule changes energies at impacts, so that only the soil's work counts.
         let rises = scheme.is_passive() && self.rise > ENERGY_ROUNDING;
         let active = rises || self.smallest_soil_work < -ENERGY_ROUNDING;
@@ -277,11 +278,12 @@ impl CellOutcome {
             // A failed run whose soil has increased the energy counts as growth, not as failure.
             Some(_) => active && ratio > 1e3,
             // `rise` decides here.
-            None if tracker.sinks => !last.is_finite(),
+            None if tracker.sinks => !last_window.is_finite(),
             // Soil and weight may return stored energy to the structure.
             None => {
-                let exceeds_stored = last > GROWTH_LIMIT * tracker.stored.max(floor);
-                !last.is_finite() || (rising && self.growth > GROWTH_LIMIT && exceeds_stored)
+                let exceeds_stored = last_window > GROWTH_LIMIT * tracker.stored.max(floor);
+                !last_window.is_finite()
+                    || (is_rising && self.growth > GROWTH_LIMIT && exceeds_stored)
             }
         };
         self.verdict = match (grows, &self.error, active) {

@@ -261,14 +261,15 @@ impl StabilityScene {
     ///
     /// `None` for the half-plane, and for very short steps and many elements, which would take long.
     pub(crate) fn assess(&self, assessments: &Assessments) -> Option<[f64; 2]> {
-        let affordable = (0.25..=10.0).contains(&self.beta) && self.elements <= 10;
-        if self.scheme.is_half_plane() || !affordable {
+        let is_affordable = (0.25..=10.0).contains(&self.beta) && self.elements <= 10;
+        if self.scheme.is_half_plane() || !is_affordable {
             return None;
         }
         let numbers = [self.beta, self.poisson].map(f64::to_bits);
         let key = (self.scheme, numbers, self.elements);
-        let cached = assessments.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
-        if let Some(growth) = cached {
+        let cached_assessments =
+            assessments.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+        if let Some(growth) = cached_assessments {
             return growth;
         }
         let growth = self.growth_of_boundary().ok();
@@ -278,8 +279,8 @@ impl StabilityScene {
 
     fn growth_of_boundary(&self) -> Result<[f64; 2]> {
         let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
-        let smallest = 1.0 / self.steps as f64;
-        let states = self.full_plane(soil)?.assess(self.time_step(&soil), smallest)?;
+        let min_growth = 1.0 / self.steps as f64;
+        let states = self.full_plane(soil)?.assess(self.time_step(&soil), min_growth)?;
         Ok(states.map(|state| state.growth_per_step))
     }
 

@@ -32,13 +32,14 @@ fn block_series(
 
 /// Smallest and largest order of the three quantities over the last `halvings`.
 fn orders(errors: &[[f64; 3]], halvings: u8) -> [f64; 2] {
-    let last = errors.len() - 1;
-    let first = last - usize::from(halvings);
-    let orders: [f64; 3] =
-        std::array::from_fn(|k| (errors[first][k] / errors[last][k]).log2() / f64::from(halvings));
+    let last_index = errors.len() - 1;
+    let first = last_index - usize::from(halvings);
+    let orders: [f64; 3] = std::array::from_fn(|k| {
+        (errors[first][k] / errors[last_index][k]).log2() / f64::from(halvings)
+    });
     let smallest = orders.iter().fold(f64::INFINITY, |smallest, order| smallest.min(*order));
-    let largest = orders.iter().fold(0.0, |largest, order| order.max(largest));
-    [smallest, largest]
+    let max_magnitude = orders.iter().fold(0.0, |max, order| order.max(max));
+    [smallest, max_magnitude]
 }
 
 fn add(checks: &mut Vec<ValidationCheck>, name: &str, [low, high]: [f64; 2], limits: [f64; 2]) {
@@ -50,7 +51,7 @@ fn add(checks: &mut Vec<ValidationCheck>, name: &str, [low, high]: [f64; 2], lim
 fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut checks = Vec::new();
     let counts = if short { &[4, 8, 16][..] } else { &[4, 8, 16, 32][..] };
-    let exact = PulsedBlock::table_series();
+    let expected = PulsedBlock::table_series();
     let mut left = FigurePanel::new("number of elements", "error of the rotation, relative L2")
         .categories(&["4", "8", "16", "32"])
         .logarithmic();
@@ -61,13 +62,13 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         let mut errors = Vec::new();
         for &count in counts {
             let computed = block_series(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025)?;
-            errors.push(distance(&computed, &exact));
+            errors.push(distance(&computed, &expected));
         }
         add(&mut checks, name, orders(&errors, 1), range);
         left = left.circles(name, color, points(0, &errors));
         let power = if grading == Grading::Uniform { 1 } else { 2 };
-        let last = errors.len() - 1;
-        let end = (last as f64, errors[last][1]);
+        let last_index = errors.len() - 1;
+        let end = (last_index as f64, errors[last_index][1]);
         let start = (0.0, end.1 * 2.0_f64.powf(f64::from(power) * end.0));
         left = left.dashed(&format!("order {power}"), color, vec![start, end]);
     }

@@ -54,7 +54,7 @@ fn computed(base: usize, wall: usize, a0: &[f64]) -> basemat::Result<Vec<[Comple
 
 /// Largest errors: of hh, vv, rr relative to each, of hr to the mean of hh and rr, of motions to the horizontal one.
 fn errors(computed: &[[Complex; 6]], references: &[[Complex; 6]]) -> [f64; 6] {
-    let mut worst = [0.0; 6];
+    let mut max_errors = [0.0; 6];
     for (computed, reference) in computed.iter().zip(references) {
         for k in 0..6 {
             let scale = match k {
@@ -62,10 +62,10 @@ fn errors(computed: &[[Complex; 6]], references: &[[Complex; 6]]) -> [f64; 6] {
                 3 => (reference[0].abs() * reference[2].abs()).sqrt(),
                 _ => reference[4].abs(),
             };
-            worst[k] = worse(worst[k], (computed[k] - reference[k]).abs() / scale);
+            max_errors[k] = worse(max_errors[k], (computed[k] - reference[k]).abs() / scale);
         }
     }
-    worst
+    max_errors
 }
 
 /// A block welded to 20 elements, stepped under waves and forces, against Fourier synthesis with the same elements.
@@ -103,11 +103,11 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     ];
     let meshes = if short { &meshes[..1] } else { &meshes[..] };
     let mut checks = vec![];
-    let mut shown = vec![];
+    let mut shown_curves = vec![];
     for ([base, wall], limits) in meshes {
-        shown = computed(*base, *wall, &frequencies)?;
+        shown_curves = computed(*base, *wall, &frequencies)?;
         let count = base + 2 * wall;
-        let results = names.into_iter().zip(errors(&shown, &references)).zip(limits);
+        let results = names.into_iter().zip(errors(&shown_curves, &references)).zip(limits);
         checks.extend(results.map(|((name, error), limit)| {
             ValidationCheck::below(format!("{count} elements, {name}"), error, *limit)
         }));
@@ -130,7 +130,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
                 frequencies.iter().copied().zip(values).collect()
             };
             panel = panel.reference(&format!("{name}, table"), color, line(&references));
-            panel = panel.line(&format!("{name}, basemat"), color, line(&shown));
+            panel = panel.line(&format!("{name}, basemat"), color, line(&shown_curves));
         }
         panel
     });

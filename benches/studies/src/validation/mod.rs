@@ -89,39 +89,39 @@ const VALIDATION_CASES: [ValidationCase; 21] = [
 
 pub(crate) fn run(options: &ValidationOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
-    let mut finished = Vec::new();
+    let mut finished_cases = Vec::new();
     // Cases with a number outside its limits, and cases that failed.
-    let mut failed = Vec::new();
+    let mut failed_cases = Vec::new();
     for case in VALIDATION_CASES.into_iter().filter(|case| options.selects(case.name)) {
-        let begin = ProcessTime::try_now()?;
+        let start_time = ProcessTime::try_now()?;
         let outcome = match (case.run)(options.short) {
             Ok(outcome) => outcome,
             Err(error) => {
                 println!("\n{} ({}): {error}   <-- FAILS", case.title, case.name);
-                failed.push(case.name);
+                failed_cases.push(case.name);
                 continue;
             }
         };
-        let seconds = begin.try_elapsed()?.as_secs_f64();
+        let seconds = start_time.try_elapsed()?.as_secs_f64();
         let case = Finished { case, outcome, seconds };
         report::print(&case);
         case.outcome.figure.draw(&options.out.join(case.image()))?;
         if !case.holds() {
-            failed.push(case.case.name);
+            failed_cases.push(case.case.name);
         }
-        finished.push(case);
+        finished_cases.push(case);
     }
-    if finished.is_empty() && failed.is_empty() {
+    if finished_cases.is_empty() && failed_cases.is_empty() {
         let names: Vec<&str> = VALIDATION_CASES.iter().map(|case| case.name).collect();
         return Err(format!("no such case; there are {}", names.join(", ")).into());
     }
-    report::write_checks(&options.out.join("checks.csv"), &finished)?;
+    report::write_checks(&options.out.join("checks.csv"), &finished_cases)?;
     if let Some(docs) = &options.docs {
-        report::write_docs(docs, &finished)?;
+        report::write_docs(docs, &finished_cases)?;
     }
     println!("files in {}", options.out.display());
-    if failed.is_empty() {
+    if failed_cases.is_empty() {
         return Ok(());
     }
-    Err(format!("failed: {}", failed.join(", ")).into())
+    Err(format!("failed: {}", failed_cases.join(", ")).into())
 }

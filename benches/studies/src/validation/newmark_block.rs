@@ -38,9 +38,9 @@ fn reference(record: &Record, friction: f64, duration: f64) -> Vec<f64> {
         for k in 0..substeps {
             let time = n as f64 * SAMPLE_INTERVAL + (f64::from(k) + 0.5) * step;
             let free = velocity - interpolated(record, time) * step;
-            let next = free - free.signum() * free.abs().min(friction_change);
-            slip += 0.5 * step * (velocity + next);
-            velocity = next;
+            let next_velocity = free - free.signum() * free.abs().min(friction_change);
+            slip += 0.5 * step * (velocity + next_velocity);
+            velocity = next_velocity;
         }
         slips.push(slip);
     }
@@ -107,9 +107,9 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut panels = Vec::new();
     for (friction, limits) in [(0.1, [4e-3, 1e-5, 2e-5]), (0.2, [8e-3, 5e-6, 2e-5])] {
         let reference = reference(&record, friction, duration);
-        let stiff = slide(1600.0, friction, 1.25e-3, duration)?;
-        let soft = slide(100.0, friction, 2.5e-3, duration)?;
-        let error = distance(&stiff, &reference);
+        let slide_on_stiff_soil = slide(1600.0, friction, 1.25e-3, duration)?;
+        let slide_on_soft_soil = slide(100.0, friction, 2.5e-3, duration)?;
+        let error = distance(&slide_on_stiff_soil, &reference);
         checks.push(ValidationCheck::below(
             format!("friction {friction}: history of slip, relative L2"),
             error,
@@ -121,10 +121,10 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
             .find(|(row, name)| **name == "peknold" && row[0] == friction);
         let ([_, peak, residual], _) = row.ok_or("no such row in the table")?;
         let label = |name: &str| format!("friction {friction}: {name} against the table, m");
-        let error = (largest(&stiff) - peak).abs();
+        let error = (largest(&slide_on_stiff_soil) - peak).abs();
         checks.push(ValidationCheck::below(label("largest slip"), error, limits[1]));
         if !short {
-            let error = (last(&stiff) - residual).abs();
+            let error = (last(&slide_on_stiff_soil) - residual).abs();
             checks.push(ValidationCheck::below(label("slip left"), error, limits[2]));
             // The table's last digit is 1e-6 m, and its sub-steps have an error of 2e-6 m.
             let error =
@@ -136,8 +136,8 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
                 .legend(SeriesLabelPosition::LowerRight)
                 .room(0.3, 0.05)
                 .reference("rigid ground, separate integration", CURVE_RED, slip_curve(&reference))
-                .dashed("basemat, c_S = 100 m/s", CURVE_ORANGE, slip_curve(&soft))
-                .line("basemat, c_S = 1600 m/s", CURVE_BLUE, slip_curve(&stiff)),
+                .dashed("basemat, c_S = 100 m/s", CURVE_ORANGE, slip_curve(&slide_on_soft_soil))
+                .line("basemat, c_S = 1600 m/s", CURVE_BLUE, slip_curve(&slide_on_stiff_soil)),
         );
     }
     let title = "Block 4 m × 0.4 m sliding under El Centro 1940 NS";

@@ -71,15 +71,15 @@ impl CornerMotion {
     }
 
     /// State after a time.
-    fn after(&self, elapsed: f64) -> [f64; 2] {
-        let now = self.particular(self.time);
-        let later = self.particular(self.time + elapsed);
-        let from = [self.state[0] - self.side - now[0], self.state[1] - now[1]];
-        let sinh = elapsed.sinh();
-        let cosh = elapsed.cosh();
+    fn after(&self, elapsed_time: f64) -> [f64; 2] {
+        let present_value = self.particular(self.time);
+        let later_value = self.particular(self.time + elapsed_time);
+        let from = [self.state[0] - self.side - present_value[0], self.state[1] - present_value[1]];
+        let sinh = elapsed_time.sinh();
+        let cosh = elapsed_time.cosh();
         [
-            self.side + later[0] + from[0] * cosh + from[1] * sinh,
-            later[1] + from[0] * sinh + from[1] * cosh,
+            self.side + later_value[0] + from[0] * cosh + from[1] * sinh,
+            later_value[1] + from[0] * sinh + from[1] * cosh,
         ]
     }
 }
@@ -98,11 +98,11 @@ fn overturned(amplitude: f64, frequency: f64) -> bool {
         let forced = time < end;
         let amplitude = if forced { amplitude } else { 0.0 };
         let motion = CornerMotion { amplitude, frequency, time, state, side };
-        let mut elapsed = if forced { step.min(end - time).max(1e-12) } else { step };
-        let mut next = motion.after(elapsed);
-        if next[0] * side < 0.0 {
+        let mut elapsed_time = if forced { step.min(end - time).max(1e-12) } else { step };
+        let mut next_state = motion.after(elapsed_time);
+        if next_state[0] * side < 0.0 {
             let mut low = 0.0;
-            let mut high = elapsed;
+            let mut high = elapsed_time;
             for _ in 0..60 {
                 let middle = f64::midpoint(low, high);
                 if motion.after(middle)[0] * side < 0.0 {
@@ -111,13 +111,13 @@ fn overturned(amplitude: f64, frequency: f64) -> bool {
                     low = middle;
                 }
             }
-            elapsed = high;
-            next = motion.after(elapsed);
+            elapsed_time = high;
+            next_state = motion.after(elapsed_time);
             side = -side;
-            next = [0.0, impact_ratio() * next[1]];
-            if next[1].abs() < REST_RATE {
+            next_state = [0.0, impact_ratio() * next_state[1]];
+            if next_state[1].abs() < REST_RATE {
                 // The block stays at rest until the ground acceleration lifts it again.
-                let Some(start) = uplift(time + elapsed, amplitude, frequency) else {
+                let Some(start) = uplift(time + elapsed_time, amplitude, frequency) else {
                     return false;
                 };
                 time = start;
@@ -126,15 +126,15 @@ fn overturned(amplitude: f64, frequency: f64) -> bool {
                 continue;
             }
         }
-        time += elapsed;
-        state = next;
+        time += elapsed_time;
+        state = next_state;
         let outward = state[0] * state[1] > 0.0;
         if state[0].abs() > 10.0 || (time >= end && state[0].abs() > 1.0 && outward) {
             return true;
         }
         // After the pulse, and not fast enough to reach the corner again.
-        let excess = state[1].powi(2) - (1.0 - state[0].abs()).powi(2);
-        if time >= end && state[0].abs() < 1.0 && excess < 0.0 {
+        let excess_energy = state[1].powi(2) - (1.0 - state[0].abs()).powi(2);
+        if time >= end && state[0].abs() < 1.0 && excess_energy < 0.0 {
             return false;
         }
     }
@@ -280,21 +280,22 @@ fn rectangles(short: bool) -> Result<Vec<ValidationCheck>, AnyError> {
     ];
     for (x, limits) in pulses {
         // Housner's slender block has p and α where the block of small tilts has q and b/h.
-        let slender = x * STANDARD_GRAVITY * block.slenderness_angle();
-        let reference = block.overturning_pulse(slender)? * block.frequency_parameter() / rate();
+        let slender_value = x * STANDARD_GRAVITY * block.slenderness_angle();
+        let reference =
+            block.overturning_pulse(slender_value)? * block.frequency_parameter() / rate();
         let name = format!("rectangle of {x} g b/h");
-        let stiff = boundary(0.9 * reference, 0.03, 2e-4, |duration| {
+        let stiff_boundary = boundary(0.9 * reference, 0.03, 2e-4, |duration| {
             on_corners(1e-4, rectangle(x, duration)?)
         })? / reference;
         let label = format!("{name}, stiff ground: least duration, relative");
-        checks.push(ValidationCheck::below(label, (stiff - 1.0).abs(), 2e-3));
+        checks.push(ValidationCheck::below(label, (stiff_boundary - 1.0).abs(), 2e-3));
         for (speed, limits) in [200.0, 50.0].into_iter().zip(limits) {
             if !short {
-                let soft = boundary(0.4 * reference, 0.03, 2e-4, |duration| {
+                let soft_boundary = boundary(0.4 * reference, 0.03, 2e-4, |duration| {
                     on_soil(speed, rectangle(x, duration)?)
                 })? / reference;
                 let label = format!("{name}, {speed} m/s: over that on rigid ground");
-                checks.push(ValidationCheck::within(label, soft, limits));
+                checks.push(ValidationCheck::within(label, soft_boundary, limits));
             }
         }
     }
@@ -303,10 +304,10 @@ fn rectangles(short: bool) -> Result<Vec<ValidationCheck>, AnyError> {
 
 fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut checks = rectangles(short)?;
-    let mut exact = Vec::new();
-    let mut stiff = Vec::new();
-    let mut firm = Vec::new();
-    let mut soft = Vec::new();
+    let mut expected = Vec::new();
+    let mut stiff_points = Vec::new();
+    let mut firm_points = Vec::new();
+    let mut soft_points = Vec::new();
     let frequencies = if short { &PULSE_FREQUENCIES[1..4] } else { &PULSE_FREQUENCIES[..] };
     for &frequency in frequencies {
         let reference = boundary(1.0 + 1e-9, 2e-3, 1e-9, |a| Ok(overturned(a, frequency)))?;
@@ -314,9 +315,11 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
             boundary(0.8 * reference, 0.03, 2e-4, |a| on_corners(1e-4, sine(a, frequency)?))?;
         let name = format!("sine of {frequency} q, stiff ground: least acceleration, relative");
         checks.push(ValidationCheck::below(name, (computed / reference - 1.0).abs(), 1e-2));
-        exact.push((frequency, reference));
-        stiff.push((frequency, computed));
-        for (speed, limits, list) in [(200.0, 0.8..=1.0, &mut firm), (50.0, 0.5..=1.1, &mut soft)] {
+        expected.push((frequency, reference));
+        stiff_points.push((frequency, computed));
+        for (speed, limits, list) in
+            [(200.0, 0.8..=1.0, &mut firm_points), (50.0, 0.5..=1.1, &mut soft_points)]
+        {
             if short && speed == 50.0 {
                 continue;
             }
@@ -339,10 +342,10 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     }
     let panel = FigurePanel::new("frequency of the pulse over q", "least acceleration over g b/h")
         .legend(SeriesLabelPosition::UpperLeft)
-        .reference("rigid ground, event by event", CURVE_RED, exact)
-        .circles("basemat, two corners on a stiff bed", CURVE_BLUE, stiff)
-        .line("half-plane, 200 m/s", CURVE_GREEN, firm)
-        .line("half-plane, 50 m/s", CURVE_ORANGE, soft);
+        .reference("rigid ground, event by event", CURVE_RED, expected)
+        .circles("basemat, two corners on a stiff bed", CURVE_BLUE, stiff_points)
+        .line("half-plane, 200 m/s", CURVE_GREEN, firm_points)
+        .line("half-plane, 50 m/s", CURVE_ORANGE, soft_points);
     let title = "One cycle of sine that just overturns a block of 1 m × 4 m, q = 1.9/s";
     Ok(ValidationOutcome { checks, figure: Figure::new(title, 1, vec![panel]) })
 }

@@ -49,8 +49,8 @@ fn plate(side: f64, thickness: f64, count: usize) -> Result<Plate, AnyError> {
     for i in 0..count {
         for j in 0..count {
             let first = i * (count + 1) + j;
-            let next = first + count + 1;
-            let corners = [nodes[first], nodes[next], nodes[next + 1], nodes[first + 1]];
+            let next_node = first + count + 1;
+            let corners = [nodes[first], nodes[next_node], nodes[next_node + 1], nodes[first + 1]];
             mesh.add(Shell::new(corners, material, thickness)?)?;
         }
     }
@@ -116,13 +116,13 @@ fn even_load(count: usize) -> Result<[Vec<f64>; 2], AnyError> {
     let builder = Simulation::builder(0.01).ground(ground).interface(Coulomb::new(0.0)?);
     let computed = settlements(builder, &plate, &[], count)?;
     let pressure = MASS_DENSITY * thickness * STANDARD_GRAVITY;
-    let mut exact = Vec::new();
+    let mut expected = Vec::new();
     for k in 0..computed.len() {
         let point = [0.0, half_side * k as f64 / (count / 2) as f64];
-        exact.push(loaded_rectangle_settlement(soil, pressure, [side; 2], point)?);
+        expected.push(loaded_rectangle_settlement(soil, pressure, [side; 2], point)?);
     }
-    let middle = exact[0];
-    Ok([computed, exact].map(|list| list.into_iter().map(|value| value / middle).collect()))
+    let middle = expected[0];
+    Ok([computed, expected].map(|list| list.into_iter().map(|value| value / middle).collect()))
 }
 
 /// D/(G R³), the stiffness over G R under an even load and under a force in the middle, both by the settlement of the
@@ -148,10 +148,10 @@ fn disc(rigidity: f64, cells: usize) -> Result<[f64; 2], AnyError> {
     let young = 12.0 * (1.0 - POISSON_RATIO * POISSON_RATIO) * stiffness / thickness.powi(3);
     // A polygon with the area of the circle.
     let half_sector = std::f64::consts::PI / SECTOR_COUNT as f64;
-    let outer = radius * (half_sector / (half_sector.sin() * half_sector.cos())).sqrt();
+    let outer_radius = radius * (half_sector / (half_sector.sin() * half_sector.cos())).sqrt();
     let step = 1.0 / RING_COUNT as f64;
     let meridian: Vec<[f64; 2]> =
-        (0..=RING_COUNT).map(|k| [outer * k as f64 * step, 0.0]).collect();
+        (0..=RING_COUNT).map(|k| [outer_radius * k as f64 * step, 0.0]).collect();
     let mut mesh = Mesh::in_space();
     let surface = mesh.revolve([0.0; 2], &meridian, SECTOR_COUNT)?;
     for shell in
@@ -228,8 +228,8 @@ fn discs(short: bool) -> Result<(Vec<ValidationCheck>, FigurePanel), AnyError> {
 
 /// Curve of downward values along half the side.
 fn along_half_side(values: &[f64]) -> Vec<(f64, f64)> {
-    let last = (values.len() - 1) as f64;
-    values.iter().enumerate().map(|(k, value)| (k as f64 / last, -value)).collect()
+    let last_index = (values.len() - 1) as f64;
+    values.iter().enumerate().map(|(k, value)| (k as f64 / last_index, -value)).collect()
 }
 
 fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
@@ -252,12 +252,16 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         let name =
             format!("{count} × {count}: Hertz's plate, settlement under the force, relative");
         checks.push(ValidationCheck::below(name, (on_springs[0] - 1.0).abs(), limits[0]));
-        let [computed, exact] = even_load(count)?;
+        let [computed, expected] = even_load(count)?;
         let name = format!("{count} × {count}: soft plate, settlement in the middle, relative");
-        checks.push(ValidationCheck::below(name, (computed[0] / exact[0] - 1.0).abs(), limits[1]));
+        checks.push(ValidationCheck::below(
+            name,
+            (computed[0] / expected[0] - 1.0).abs(),
+            limits[1],
+        ));
         if count == 16 {
             left = left.line("basemat, 16 × 16", CURVE_BLUE, along_half_side(&on_springs));
-            right = right.reference("Boussinesq", CURVE_RED, along_half_side(&exact)).circles(
+            right = right.reference("Boussinesq", CURVE_RED, along_half_side(&expected)).circles(
                 "basemat, 16 × 16",
                 CURVE_BLUE,
                 along_half_side(&computed),

@@ -117,17 +117,17 @@ fn run(_short: bool) -> Result<ValidationOutcome, AnyError> {
     let rows =
         table("halfplane_tilted_punch.csv").rows(["nu", "f", "e", "theta", "contact_length"]);
     for (e, limit) in LOAD_ECCENTRICITIES.into_iter().zip(limits) {
-        let mut worst = 0.0_f64;
+        let mut max_error = 0.0_f64;
         for poisson in [0.0, 1.0 / 3.0] {
             let exact = exact(poisson, e);
             let mut errors = [0.0; 3];
             for (error, elements) in errors.iter_mut().zip([10, 20, 40]) {
                 let computed = punch(poisson, e, elements)?;
                 *error = (computed.tilt / exact.tilt - 1.0).abs();
-                let longest = PI / elements as f64;
-                edge = worse(edge, (computed.length - exact.length).abs() / longest);
+                let max_element = PI / elements as f64;
+                edge = worse(edge, (computed.length - exact.length).abs() / max_element);
             }
-            worst = worse(worst, errors[2]);
+            max_error = worse(max_error, errors[2]);
             let slope = (errors[1] / errors[2]).log2();
             order = [order[0].min(slope), order[1].max(slope)];
             // Error of this closed form against the table.
@@ -144,7 +144,7 @@ fn run(_short: bool) -> Result<ValidationOutcome, AnyError> {
         }
         checks.push(ValidationCheck::below(
             format!("tilt at e = {e} b, 40 elements, relative"),
-            worst,
+            max_error,
             limit,
         ));
     }
@@ -156,8 +156,8 @@ fn run(_short: bool) -> Result<ValidationOutcome, AnyError> {
     checks.push(ValidationCheck::within("order in the element size, largest", order[1], 1.9..=2.2));
     checks.push(ValidationCheck::below("edge of contact, off by elements", edge, 1.0));
     checks.push(ValidationCheck::below("closed form against the table", table_error, 1e-9));
-    let pressed = punch(0.0, 0.75, 40)?;
-    let misplaced: f64 = pressed
+    let pressed_punch = punch(0.0, 0.75, 40)?;
+    let misplaced_force: f64 = pressed_punch
         .pressure
         .iter()
         .map(|(element, pressure)| {
@@ -167,20 +167,20 @@ fn run(_short: bool) -> Result<ValidationOutcome, AnyError> {
         .sum();
     checks.push(ValidationCheck::below(
         "pressure at e = 0.75 b, misplaced part of the load",
-        misplaced,
+        misplaced_force,
         1e-2,
     ));
-    let mut worst = [0.0_f64; 2];
+    let mut max_error = [0.0_f64; 2];
     for poisson in [0.0, 1.0 / 3.0] {
         let [computed, expected] = bonded_strip(poisson, 40)?;
         for k in 0..2 {
-            worst[k] = worse(worst[k], (computed[k] / expected[k] - 1.0).abs());
+            max_error[k] = worse(max_error[k], (computed[k] / expected[k] - 1.0).abs());
         }
     }
     let names =
         ["glued strip: tilt under a moment, relative", "glued strip: sideways motion, relative"];
-    checks.extend(ValidationCheck::list(&names, &worst, &[1.2e-3, 1e-3]));
-    Ok(ValidationOutcome { checks, figure: figure(&pressed)? })
+    checks.extend(ValidationCheck::list(&names, &max_error, &[1.2e-3, 1e-3]));
+    Ok(ValidationOutcome { checks, figure: figure(&pressed_punch)? })
 }
 
 fn figure(pressed: &PunchState) -> Result<Figure, AnyError> {
@@ -203,7 +203,7 @@ fn figure(pressed: &PunchState) -> Result<Figure, AnyError> {
         left = left.circles(name, color, points);
     }
     left = left.room(0.02, 0.08);
-    let exact = (0..=970)
+    let expected = (0..=970)
         .map(|k| 1e-3 * f64::from(k))
         .map(|x| (x, 2.0 / PI * (x / (1.0 - x)).sqrt()))
         .collect();
@@ -214,7 +214,7 @@ fn figure(pressed: &PunchState) -> Result<Figure, AnyError> {
         .filter(|(x, _)| *x < 0.97);
     let right = FigurePanel::new("place under the punch, x/b", "pressure p b/N, e = 0.75 b")
         .legend(SeriesLabelPosition::UpperLeft)
-        .reference("closed form: contact over 0 ≤ x ≤ b", CURVE_RED, exact)
+        .reference("closed form: contact over 0 ≤ x ≤ b", CURVE_RED, expected)
         .circles("basemat, 40 elements", CURVE_BLUE, computed.collect());
     let title = "Rigid frictionless punch of half width b under a load N at eccentricity e = M/N";
     Ok(Figure::new(title, 2, vec![left, right]))

@@ -161,18 +161,22 @@ fn quarter_ratios(speed: f64, elements: usize) -> Result<QuarterRatios, AnyError
     let tilt = tilts[peak];
     let after = tilts[peak + 1];
     let peak_step = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
-    let upright = (peak..tilts.len() - 1)
+    let last_sample_before = (peak..tilts.len() - 1)
         .find(|&k| tilts[k + 1] < 0.0)
         .ok_or("the block does not come back")?;
-    let crossing_step = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
+    let crossing_step = last_sample_before as f64
+        + tilts[last_sample_before] / (tilts[last_sample_before] - tilts[last_sample_before + 1]);
     let computed = (crossing_step - peak_step) * time_step;
     let rate = (weight() * H / (inertia() + mass() * B * B)).sqrt();
     let housner = (1.0 / (1.0 - tilt * H / B)).acosh() / rate;
     let lift_off = (1.0 - poisson) * weight() / (PI * soil.shear_modulus() * B);
     // Pressure on the last element acts at its middle, about which the block rotates.
     let slenderness = (B - 0.5 * edge) / H;
-    let yielding = quarter_period(tilt, lift_off, slenderness, rate);
-    Ok(QuarterRatios { rigid_base: computed / housner, deformable_soil: computed / yielding })
+    let quarter_on_soil = quarter_period(tilt, lift_off, slenderness, rate);
+    Ok(QuarterRatios {
+        rigid_base: computed / housner,
+        deformable_soil: computed / quarter_on_soil,
+    })
 }
 
 /// Largest tilt between two times.

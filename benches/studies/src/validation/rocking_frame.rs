@@ -110,13 +110,13 @@ fn march(
     let bed = SpringGround::under(&model, 2, 4e12, 1e13)?
         .with_dashpots(2e8, 0.0)?
         .with_theta(1.0)?;
-    let pushed = model.row(hinges[0], Direction::X)? + model.row(hinges[1], Direction::X)?;
+    let pushed_row = model.row(hinges[0], Direction::X)? + model.row(hinges[1], Direction::X)?;
     let rows = [model.row(hinges[0], Direction::X)?, model.row(left_foot, Direction::Rotation)?];
     let mut simulation = Simulation::builder(time_step)
         .structure(model)
         .ground(bed)
         .interface(Coulomb::uplift_only())
-        .load(Load::new(pushed, move |time| push * pulse(time)))
+        .load(Load::new(pushed_row, move |time| push * pulse(time)))
         .build()?;
     let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
     let mut series: FrameSeries = [vec![0.0], vec![0.0]];
@@ -207,9 +207,10 @@ impl BendingColumn {
         let first = self.rates(time, start);
         let second = self.rates(time + 0.5 * step, advanced(&first, 0.5));
         let third = self.rates(time + 0.5 * step, advanced(&second, 0.5));
-        let last = self.rates(time + step, advanced(&third, 1.0));
+        let last_rates = self.rates(time + step, advanced(&third, 1.0));
         for i in 0..6 {
-            self.state[i] += step / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + last[i]);
+            self.state[i] +=
+                step / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + last_rates[i]);
         }
     }
 

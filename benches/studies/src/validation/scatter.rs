@@ -70,11 +70,12 @@ fn twisting_column(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
 }
 
 /// Value below which this fraction of the sorted values lies.
-fn quantile(sorted: &[f64], part: f64) -> f64 {
-    let position = part * (sorted.len() - 1) as f64;
+fn quantile(sorted_values: &[f64], part: f64) -> f64 {
+    let position = part * (sorted_values.len() - 1) as f64;
     let below = nearest_integer(position.floor());
-    let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (position - position.floor()) * (sorted[above] - sorted[below])
+    let above = (below + 1).min(sorted_values.len() - 1);
+    sorted_values[below]
+        + (position - position.floor()) * (sorted_values[above] - sorted_values[below])
 }
 
 /// Peaks of the run with factor 1, and the sorted peaks of all inputs.
@@ -98,13 +99,13 @@ fn peaks(
     factors: &[f64],
     time_step: f64,
 ) -> Result<[Peaks; 2], AnyError> {
-    let single = scene(scale, time_step)?;
+    let single_run = scene(scale, time_step)?;
     let runs = factors.iter().map(|factor| scene(scale * factor, time_step));
     let runs: Vec<[f64; 2]> = runs.collect::<Result<_, _>>()?;
     Ok([0, 1].map(|k| {
         let mut all: Vec<f64> = runs.iter().map(|run| run[k]).collect();
         all.sort_by(f64::total_cmp);
-        Peaks { single: single[k], all }
+        Peaks { single: single_run[k], all }
     }))
 }
 
@@ -125,7 +126,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         ("column that twists", twisting_column, 1.0, 5e-3, 0.6, &["tilt", "twist"]),
     ];
     for (scene, run, scale, step, spread, quantities) in scenes {
-        let near = 1.0 - spread / 3.0..=1.0 + spread / 3.0;
+        let close_range = 1.0 - spread / 3.0..=1.0 + spread / 3.0;
         let coarse = peaks(run, scale, &factors, step)?;
         let fine = peaks(run, scale, &factors, 0.5 * step)?;
         for ((name, coarse), fine) in quantities.iter().zip(&coarse).zip(&fine) {
@@ -139,12 +140,12 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
             let parts = [0.16, 0.5, 0.84].map(|part| quantile(&coarse.all, part));
             add("factor 1, mrad", coarse.single, 30.0..=130.0);
             let half = fine.single / coarse.single;
-            add("factor 1 at half the step, over that", half, near.clone());
+            add("factor 1 at half the step, over that", half, close_range.clone());
             add("median, mrad", parts[1], 30.0..=130.0);
             add("16 % over the median", parts[0] / parts[1], 1.0 - spread..=1.0);
             add("84 % over the median", parts[2] / parts[1], 1.0..=1.0 + spread);
             let half = quantile(&fine.all, 0.5) / parts[1];
-            add("median at half the step, over that", half, near.clone());
+            add("median at half the step, over that", half, close_range.clone());
             panels.push(
                 FigurePanel::new(&format!("{scene}: largest {name}, mrad"), "part of the inputs")
                     .line("fifty inputs", CURVE_BLUE, coarse.distribution())

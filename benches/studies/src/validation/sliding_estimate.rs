@@ -83,13 +83,14 @@ fn on_soil(speed: f64, horizontal: &Record, vertical: Option<Record>) -> Result<
         .interface(Coulomb::new(FRICTION_COEFFICIENT)?)
         .motion(VerticalIncidence { horizontal: Some(horizontal.clone()), vertical })
         .build()?;
-    let mut largest = 0.0_f64;
+    let mut max_magnitude = 0.0_f64;
     let steps = nearest_integer((horizontal.duration() + 2.0) / TIME_STEP);
-    let run = simulation.run(steps, |state| largest = largest.max(state.mean_slip.abs()))?;
+    let run =
+        simulation.run(steps, |state| max_magnitude = max_magnitude.max(state.mean_slip.abs()))?;
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
-    Ok(largest)
+    Ok(max_magnitude)
 }
 
 /// Estimates and slips of one ground at one level, in the order of the motions.
@@ -139,8 +140,8 @@ impl EstimateGroup {
     }
 
     fn millimetres(&self) -> Vec<(f64, f64)> {
-        let visible = self.points.iter().filter(|point| point[0] > 1e-4 && point[1] > 1e-4);
-        visible.map(|[estimate, slip]| (1e3 * estimate, 1e3 * slip)).collect()
+        let visible_points = self.points.iter().filter(|point| point[0] > 1e-4 && point[1] > 1e-4);
+        visible_points.map(|[estimate, slip]| (1e3 * estimate, 1e3 * slip)).collect()
     }
 }
 
@@ -164,27 +165,32 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut groups = Vec::new();
     for (level, factor) in PEAK_LEVELS.into_iter().enumerate() {
         let peak = factor * FRICTION_COEFFICIENT * STANDARD_GRAVITY;
-        let mut rigid = Vec::new();
-        let mut stiff = Vec::new();
-        let mut soft = Vec::new();
-        let mut both = Vec::new();
+        let mut rigid_points = Vec::new();
+        let mut stiff_points = Vec::new();
+        let mut soft_points = Vec::new();
+        let mut points_of_both = Vec::new();
         for (_, horizontal, vertical) in &motions {
             let horizontal = horizontal.scaled_to_peak(peak)?;
             let estimated = estimate(&horizontal, 0.0)?;
-            rigid.push([estimated, on_rigid_ground(&horizontal)?]);
-            stiff.push([estimated, on_soil(STIFF_SOIL_SPEED, &horizontal, None)?]);
-            soft.push([estimated, on_soil(SOFT_SOIL_SPEED, &horizontal, None)?]);
+            rigid_points.push([estimated, on_rigid_ground(&horizontal)?]);
+            stiff_points.push([estimated, on_soil(STIFF_SOIL_SPEED, &horizontal, None)?]);
+            soft_points.push([estimated, on_soil(SOFT_SOIL_SPEED, &horizontal, None)?]);
             if level == SHOWN_LEVEL {
                 let vertical = vertical.scaled_to_peak(VERTICAL_RATIO * peak)?;
                 let estimated = estimate(&horizontal, VERTICAL_RATIO * peak)?;
-                both.push([estimated, on_soil(STIFF_SOIL_SPEED, &horizontal, Some(vertical))?]);
+                points_of_both
+                    .push([estimated, on_soil(STIFF_SOIL_SPEED, &horizontal, Some(vertical))?]);
             }
         }
-        groups.push(EstimateGroup { name: "rigid ground", level, points: rigid });
-        groups.push(EstimateGroup { name: "soil of 800 m/s", level, points: stiff });
-        groups.push(EstimateGroup { name: "soil of 150 m/s", level, points: soft });
+        groups.push(EstimateGroup { name: "rigid ground", level, points: rigid_points });
+        groups.push(EstimateGroup { name: "soil of 800 m/s", level, points: stiff_points });
+        groups.push(EstimateGroup { name: "soil of 150 m/s", level, points: soft_points });
         if level == SHOWN_LEVEL {
-            groups.push(EstimateGroup { name: "800 m/s, vertical too", level, points: both });
+            groups.push(EstimateGroup {
+                name: "800 m/s, vertical too",
+                level,
+                points: points_of_both,
+            });
         }
     }
     let mut checks: Vec<ValidationCheck> = groups.iter().flat_map(EstimateGroup::checks).collect();

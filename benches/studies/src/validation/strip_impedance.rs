@@ -69,28 +69,28 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let list = [("0333", 1.0 / 3.0), ("025", 0.25), ("0", 0.0)];
     let list = if short { &list[..1] } else { &list[..] };
     let mut checks = Vec::new();
-    let mut shown = None;
+    let mut shown_curves = None;
     let names = ["horizontal", "vertical", "rocking", "coupling"];
     let limits = [3.5e-3, 3.2e-3, 9e-3, 6e-3];
     for bonded in [true, false] {
-        let mut worst = [0.0_f64; 4];
+        let mut max_errors = [0.0_f64; 4];
         for (name, poisson) in list {
             let curves = curves(name, *poisson, bonded);
-            for (worst, error) in worst.iter_mut().zip(curves.errors()) {
-                *worst = worse(*worst, error);
+            for (max_errors, error) in max_errors.iter_mut().zip(curves.errors()) {
+                *max_errors = worse(*max_errors, error);
             }
-            shown.get_or_insert(curves);
+            shown_curves.get_or_insert(curves);
         }
         // Without friction, horizontal and vertical motions are not coupled.
         let kind = if bonded { "bonded" } else { "relaxed" };
         let count = if bonded { 4 } else { 3 };
         let names = names.map(|name| format!("{kind}, {name}"));
-        let errors = names.into_iter().zip(worst).zip(limits).take(count);
+        let errors = names.into_iter().zip(max_errors).zip(limits).take(count);
         checks.extend(
             errors.map(|((name, error), limit)| ValidationCheck::below(name, error, limit)),
         );
     }
-    let curves = shown.ok_or("no table")?;
+    let curves = shown_curves.ok_or("no table")?;
     let titles =
         ["horizontal: K_hh/μ", "vertical: K_vv/μ", "rocking: K_rr/(μb²)", "coupling: K_hr/(μb)"];
     let panels = titles.iter().enumerate().map(|(k, title)| {

@@ -182,7 +182,7 @@ fn blocks(short: bool) -> Result<ValidationOutcome, AnyError> {
     let list = if short { &list[..2] } else { &list[..] };
     let mut checks: Vec<ValidationCheck> = Vec::new();
     let mut worst_balance = 0.0_f64;
-    let mut shown = Vec::new();
+    let mut shown_curves = Vec::new();
     for (name, poisson, height, density) in list {
         let time_series = block(name, *poisson, *height, *density)?;
         worst_balance = worse(worst_balance, time_series.energy_error);
@@ -196,13 +196,13 @@ fn blocks(short: bool) -> Result<ValidationOutcome, AnyError> {
                 )),
             }
         }
-        if shown.is_empty() {
-            shown = time_series.list;
+        if shown_curves.is_empty() {
+            shown_curves = time_series.list;
         }
     }
     checks.push(ValidationCheck::below("energy balance, residual", worst_balance, 1e-10));
     let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A b)"];
-    let panels = [0, 1, 3, 4].map(|k| panel(&shown[k], units[k]));
+    let panels = [0, 1, 3, 4].map(|k| panel(&shown_curves[k], units[k]));
     let title = "Block of height 2b and the soil's density, ν = 1/3; the free field is a Ricker pulse of amplitude A";
     Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, panels.into()) })
 }

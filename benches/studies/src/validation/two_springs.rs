@@ -49,12 +49,12 @@ fn product(a: &StateMatrix, b: &StateMatrix) -> StateMatrix {
 fn exponential(matrix: &StateMatrix, time: f64) -> StateMatrix {
     let halvings = 20;
     let part = time / f64::from(1 << halvings);
-    let scaled: StateMatrix = matrix.map(|row| row.map(|value| value * part));
+    let scaled_matrix: StateMatrix = matrix.map(|row| row.map(|value| value * part));
     let mut sum: StateMatrix =
         std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
     let mut term = sum;
     for n in 1..10 {
-        term = product(&term, &scaled).map(|row| row.map(|value| value / f64::from(n)));
+        term = product(&term, &scaled_matrix).map(|row| row.map(|value| value / f64::from(n)));
         for i in 0..5 {
             for j in 0..5 {
                 sum[i][j] += term[i][j];
@@ -114,7 +114,7 @@ impl TwoSprings {
     /// Margins of the corners after `elapsed`; a negative margin is an event.
     ///
     /// They are the force of a spring in contact, and the distance of an open spring from its corner.
-    fn margins(&self, state: &BlockState, elapsed: f64) -> [f64; 2] {
+    fn margins(&self, state: &BlockState, elapsed_time: f64) -> [f64; 2] {
         std::array::from_fn(|k| {
             let x = Self::CORNER_POSITIONS[k];
             let compression = -(state[0] + x * state[1]);
@@ -122,7 +122,7 @@ impl TwoSprings {
             match self.open[k] {
                 None => SPRING_STIFFNESS * compression + self.dashpot * closing_rate,
                 Some(spring) => {
-                    let creep = -SPRING_STIFFNESS * (spring.elapsed + elapsed) / self.dashpot;
+                    let creep = -SPRING_STIFFNESS * (spring.elapsed + elapsed_time) / self.dashpot;
                     spring.compression * creep.exp() - compression
                 }
             }
@@ -130,14 +130,14 @@ impl TwoSprings {
     }
 
     /// State after `elapsed` with derivatives by `matrix`.
-    fn after(&self, matrix: &StateMatrix, elapsed: f64) -> BlockState {
-        let map = exponential(matrix, elapsed);
+    fn after(&self, matrix: &StateMatrix, elapsed_time: f64) -> BlockState {
+        let map = exponential(matrix, elapsed_time);
         map.map(|row| row.iter().zip(&self.state).map(|(a, b)| a * b).sum())
     }
 
     /// Whether an event happens within `elapsed`.
-    fn has_event(&self, matrix: &StateMatrix, elapsed: f64) -> bool {
-        let margins = self.margins(&self.after(matrix, elapsed), elapsed);
+    fn has_event(&self, matrix: &StateMatrix, elapsed_time: f64) -> bool {
+        let margins = self.margins(&self.after(matrix, elapsed_time), elapsed_time);
         margins.into_iter().any(|margin| margin < 0.0)
     }
 

@@ -171,15 +171,15 @@ fn fitted(base: BodyBase, count: usize, friction: f64) -> Result<FittedLaw, AnyE
         }
     }
     let law = UpliftLaw::new(low)?;
-    let mut fitted = FittedLaw { alpha: low, moment_error: 0.0, contact_error: 0.0 };
+    let mut best_law = FittedLaw { alpha: low, moment_error: 0.0, contact_error: 0.0 };
     for [moment, rotation, contact] in points {
         let ratio = rotation * low / compliance;
         let moment_error = (law.moment_ratio(ratio)? / low - moment).abs();
         let contact_error = (law.contact_ratio(ratio)? - contact).abs();
-        fitted.moment_error = worse(fitted.moment_error, moment_error);
-        fitted.contact_error = worse(fitted.contact_error, contact_error);
+        best_law.moment_error = worse(best_law.moment_error, moment_error);
+        best_law.contact_error = worse(best_law.contact_error, contact_error);
     }
-    Ok(fitted)
+    Ok(best_law)
 }
 
 /// θ/θ₀, M/(N L) and the force on the soil over the weight N in the middle of each step under El Centro.
@@ -294,8 +294,8 @@ fn at_rest(short: bool) -> Result<Vec<ValidationCheck>, AnyError> {
         let count = if base.is_in_plane() { 40 } else { cells };
         let fitted = fitted(*base, count, *friction)?;
         let name = format!("static, {}, {}", base.name(), friction_name(*friction));
-        let near = alpha - limits[0]..=alpha + limits[0];
-        checks.push(ValidationCheck::within(format!("{name}: α"), fitted.alpha, near));
+        let close_range = alpha - limits[0]..=alpha + limits[0];
+        checks.push(ValidationCheck::within(format!("{name}: α"), fitted.alpha, close_range));
         let label = format!("{name}: largest error of M/(N L)");
         checks.push(ValidationCheck::below(label, fitted.moment_error, limits[1]));
         let label = format!("{name}: of the contact");
@@ -319,18 +319,20 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
             FigurePanel::new("θ/θ₀", &format!("M/(N L) ({}, α = {alpha})", base.name()))
                 .legend(SeriesLabelPosition::LowerRight)
                 .room(0.1, 0.05);
-        let mut widest = 1.0_f64;
+        let mut max_factor = 1.0_f64;
         for ((friction, color), limits) in
             [(f64::INFINITY, CURVE_BLUE), (0.0, CURVE_ORANGE)].into_iter().zip(limits)
         {
             let points = loops(base, count, friction, alpha)?;
             let name = format!("{}, {}", base.name(), friction_name(friction));
             checks.extend(shaken(&name, law, alpha, &points, limits)?);
-            widest = points.iter().fold(widest, |widest, point| worse(widest, point[0].abs()));
+            max_factor = points
+                .iter()
+                .fold(max_factor, |max_factor, point| worse(max_factor, point[0].abs()));
             let points = points.into_iter().map(|point| (point[0], point[1])).collect();
             panel = panel.line(friction_name(friction), color, points);
         }
-        let rotations = (-200..=200).map(|k| widest * f64::from(k) / 200.0);
+        let rotations = (-200..=200).map(|k| max_factor * f64::from(k) / 200.0);
         let curve = rotations.map(|rotation| Ok((rotation, law_at(law, alpha, rotation)?)));
         panels.push(panel.reference("the law", CURVE_RED, curve.collect::<basemat::Result<_>>()?));
     }

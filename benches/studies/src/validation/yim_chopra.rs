@@ -191,8 +191,8 @@ impl StripBed {
     }
 
     fn uplifted_part(&self) -> f64 {
-        let open = self.touching.iter().filter(|touches| !**touches).count();
-        open as f64 / self.touching.len() as f64
+        let open_springs = self.touching.iter().filter(|touches| !**touches).count();
+        open_springs as f64 / self.touching.len() as f64
     }
 }
 
@@ -314,10 +314,10 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let name = "reference against half its strips and steps";
     checks.push(ValidationCheck::below(name, reference_error, 1e-3));
     checks.push(ValidationCheck::below("energy balance, residual", energy_error, 1e-9));
-    let reduced = peak(&series[0]) / peak(&bonded[0]);
+    let peak_ratio = peak(&series[0]) / peak(&bonded[0]);
     checks.push(ValidationCheck::within(
         "peak deformation over that without uplift",
-        reduced,
+        peak_ratio,
         0.2..=0.6,
     ));
     // The weight balances a moment of at most (m+m₀) g b at the column's foot.

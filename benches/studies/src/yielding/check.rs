@@ -73,11 +73,11 @@ pub(super) fn markdown(checks: &[Check]) -> String {
     let mut text = String::from("|check|reference|result|limit|\n|---|---|---|---|\n");
     for check in checks {
         let separator = if check.remark.is_empty() { "" } else { "; " };
-        let failed = if check.holds() { "" } else { " **exceeded**" };
+        let mark = if check.holds() { "" } else { " **exceeded**" };
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
-            "|{}|{}|{}{separator}{}|{}{failed}|",
+            "|{}|{}|{}{separator}{}|{}{mark}|",
             check.name,
             check.reference,
             number_text(check.value),

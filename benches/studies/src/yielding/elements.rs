@@ -28,13 +28,14 @@ struct PlacedQuad {
 }
 
 fn quads(material: &SharedMaterial) -> [PlacedQuad; 3] {
-    let reduced = Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], material.clone());
-    let full = reduced.clone().with_integration(Quad8Integration::Full);
-    let four = Quad4::new([0, 1, 2, 3], material.clone(), QuadFormulation::MeanDilatation);
+    let reduced_quad = Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], material.clone());
+    let full_quad = reduced_quad.clone().with_integration(Quad8Integration::Full);
+    let four_node_quad =
+        Quad4::new([0, 1, 2, 3], material.clone(), QuadFormulation::MeanDilatation);
     [
-        PlacedQuad { element: Box::new(reduced), node_count: 8 },
-        PlacedQuad { element: Box::new(full), node_count: 8 },
-        PlacedQuad { element: Box::new(four), node_count: 4 },
+        PlacedQuad { element: Box::new(reduced_quad), node_count: 8 },
+        PlacedQuad { element: Box::new(full_quad), node_count: 8 },
+        PlacedQuad { element: Box::new(four_node_quad), node_count: 4 },
     ]
 }
 
@@ -103,17 +104,18 @@ fn compare_tangent(
             changed_force(law, coordinates, &displacement, &variables, (column, change))
         };
         let ends = [force(-step)?, force(-0.5 * step)?, force(0.5 * step)?, force(step)?];
-        let mut largest = 0.0_f64;
+        let mut max_difference = 0.0_f64;
         let mut is_smooth = true;
         for row in 0..order {
             let coarse = (ends[3][row] - ends[0][row]) / (2.0 * step);
             let fine = (ends[2][row] - ends[1][row]) / step;
             // At a kink the differences of two steps are not the same.
             is_smooth &= (coarse - fine).abs() < 0.3 * TANGENT_LIMIT * scale;
-            largest = largest.max((tangent[row * order + column] - coarse).abs() / scale);
+            max_difference =
+                max_difference.max((tangent[row * order + column] - coarse).abs() / scale);
         }
         if is_smooth {
-            comparison.difference = comparison.difference.max(largest);
+            comparison.difference = comparison.difference.max(max_difference);
             comparison.compared_count += 1;
         }
     }

@@ -49,10 +49,11 @@ pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
         splice_into(&docs.join("validation.md"), "yielding", &table)?;
         figure.draw(&docs.join("images/validation_moment_capacity.svg"))?;
     }
-    let failed: Vec<&str> = checks.iter().filter(|check| !check.holds()).map(Check::name).collect();
-    if failed.is_empty() {
+    let failed_checks: Vec<&str> =
+        checks.iter().filter(|check| !check.holds()).map(Check::name).collect();
+    if failed_checks.is_empty() {
         Ok(())
     } else {
-        Err(format!("failed: {}", failed.join("; ")).into())
+        Err(format!("failed: {}", failed_checks.join("; ")).into())
     }
 }

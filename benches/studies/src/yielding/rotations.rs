@@ -12,9 +12,9 @@ use super::check::{Check, Limit};
 use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, Figure, FigurePanel};
 
 /// Largest relative difference from a moment of the reference, from 0.02 rad on.
-const MOMENT_LIMIT: f64 = 0.05;
+const MAX_MOMENT_DIFFERENCE: f64 = 0.05;
 /// Moments at 0.06 rad over the capacity of the effective width on the finer mesh.
-const CAPACITY_LIMITS: [f64; 2] = [0.92, 1.03];
+const CAPACITY_RATIO_LIMITS: [f64; 2] = [0.92, 1.03];
 /// Safety factors of slow cycles.
 const CYCLE_SAFETY_FACTORS: [f64; 5] = [1.5, 2.0, 3.0, 5.0, 10.0];
 /// Elements under half of the strip in slow cycles.
@@ -25,7 +25,7 @@ const CYCLE_COUNT: usize = 4;
 /// Steps of a quarter of a cycle.
 const QUARTER_STEPS: usize = 20;
 /// Smallest moment of the last cycle over that of the first one, at the largest rotation.
-const DEGRADATION_LIMIT: f64 = 0.98;
+const MIN_MOMENT_RATIO: f64 = 0.98;
 
 /// Checks of moments, of slow cycles, and the picture of these cycles.
 pub(super) fn checks(is_short: bool) -> Result<(Vec<Check>, Figure)> {
@@ -43,7 +43,7 @@ pub(super) fn checks(is_short: bool) -> Result<(Vec<Check>, Figure)> {
     Ok((checks, picture(&cycles)))
 }
 
-/// Moments of the strips of reference on a mesh with this number of elements under half of the strip.
+/// Checks of the moments of the reference strips on a mesh with this number of elements under half of the strip.
 fn moment_checks(half_elements: usize) -> Result<Vec<Check>> {
     let mut largest_difference = 0.0_f64;
     let mut last_moments = Vec::new();
@@ -73,17 +73,17 @@ fn moment_checks(half_elements: usize) -> Result<Vec<Check>> {
     let reference =
         "an independent program, same mesh, contact at nodes: moments at 0.02, 0.04, 0.06 rad";
     let mut checks = vec![
-        Check::new(&name, reference, largest_difference, Limit::AtMost(MOMENT_LIMIT))
+        Check::new(&name, reference, largest_difference, Limit::AtMost(MAX_MOMENT_DIFFERENCE))
             .with_remark(remark),
     ];
     if half_elements > CYCLE_HALF_ELEMENTS {
         let reference = "(N B/2)(1 − N/N_u) at 0.06 rad";
-        let smallest = last_moments.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = last_moments.iter().copied().fold(0.0, f64::max);
-        let lower_limit = Limit::AtLeast(CAPACITY_LIMITS[0]);
-        let upper_limit = Limit::AtMost(CAPACITY_LIMITS[1]);
-        checks.push(Check::new(format!("{name}: smallest"), reference, smallest, lower_limit));
-        checks.push(Check::new(format!("{name}: largest"), reference, largest, upper_limit));
+        let min_moment = last_moments.iter().copied().fold(f64::INFINITY, f64::min);
+        let max_moment = last_moments.iter().copied().fold(0.0, f64::max);
+        let lower_limit = Limit::AtLeast(CAPACITY_RATIO_LIMITS[0]);
+        let upper_limit = Limit::AtMost(CAPACITY_RATIO_LIMITS[1]);
+        checks.push(Check::new(format!("{name}: smallest"), reference, min_moment, lower_limit));
+        checks.push(Check::new(format!("{name}: largest"), reference, max_moment, upper_limit));
     }
     Ok(checks)
 }
@@ -114,21 +114,21 @@ struct SlowCycles {
 
 impl SlowCycles {
     /// State after this number of quarters of a cycle.
-    fn after(&self, quarters: usize) -> StripState {
+    fn state_after(&self, quarters: usize) -> StripState {
         self.states[quarters * QUARTER_STEPS - 1]
     }
 
-    /// Mean size of the moments at both largest rotations of a cycle, over the capacity of the effective width.
+    /// Mean magnitude of the moments at both largest rotations of a cycle, over the capacity of the effective width.
     fn peak_moment(&self, cycle: usize) -> f64 {
-        let moments = [1, 3].map(|quarter| self.after(4 * cycle + quarter).moment.abs());
+        let moments = [1, 3].map(|quarter| self.state_after(4 * cycle + quarter).moment.abs());
         0.5 * (moments[0] + moments[1]) / self.strip.moment_capacity()
     }
 
     /// Settlement of a cycle over the width of the strip.
     fn settlement(&self, cycle: usize) -> f64 {
-        let end = self.after(4 * cycle + 4).settlement;
-        // The first cycle counts from its first largest rotation.
-        let start = self.after((4 * cycle).max(1)).settlement;
+        let end = self.state_after(4 * cycle + 4).settlement;
+        // The settlement of the first cycle is measured from its first largest rotation.
+        let start = self.state_after((4 * cycle).max(1)).settlement;
         (end - start) / (2.0 * HALF_WIDTH)
     }
 }
@@ -136,7 +136,7 @@ impl SlowCycles {
 /// Settlements and moments of slow cycles.
 fn table(cycles: &[SlowCycles]) -> String {
     let mut text = String::from(
-        "|F|settlement of cycle 2, of the last cycle, over B|moment of the first, of the last cycle, over (N B/2)(1 − N/N_u)|in contact at the amplitude|\n\
+        "|F|settlement of cycle 2, of the last cycle, over B|moment of the first, of the last cycle, over (N B/2)(1 − N/N_u)|fraction in contact at the largest rotation|\n\
          |---|---|---|---|\n",
     );
     for run in cycles {
@@ -149,7 +149,7 @@ fn table(cycles: &[SlowCycles]) -> String {
             run.settlement(CYCLE_COUNT - 1),
             run.peak_moment(0),
             run.peak_moment(CYCLE_COUNT - 1),
-            run.after(4 * CYCLE_COUNT - 3).closed_fraction,
+            run.state_after(4 * CYCLE_COUNT - 3).closed_fraction,
         );
     }
     text
@@ -159,24 +159,24 @@ fn table(cycles: &[SlowCycles]) -> String {
 fn cycle_checks(cycles: &[SlowCycles]) -> Vec<Check> {
     let name =
         format!("slow cycles of rotation, ±{CYCLE_AMPLITUDE} rad, F = {CYCLE_SAFETY_FACTORS:?}");
-    let last = CYCLE_COUNT - 1;
-    let settlements: Vec<f64> = cycles.iter().map(|run| run.settlement(last)).collect();
-    let smallest_ratio = settlements.windows(2).map(|pair| pair[0] / pair[1]);
-    let moment_ratios = cycles.iter().map(|run| run.peak_moment(last) / run.peak_moment(0));
+    let last_cycle = CYCLE_COUNT - 1;
+    let settlements: Vec<f64> = cycles.iter().map(|run| run.settlement(last_cycle)).collect();
+    let settlement_ratios = settlements.windows(2).map(|pair| pair[0] / pair[1]);
+    let moment_ratios = cycles.iter().map(|run| run.peak_moment(last_cycle) / run.peak_moment(0));
     vec![
         Check::new(
             format!(
                 "{name}: smallest ratio of settlements of the last cycle from one F to the next"
             ),
             "grows as F falls",
-            smallest_ratio.fold(f64::INFINITY, f64::min),
+            settlement_ratios.fold(f64::INFINITY, f64::min),
             Limit::AtLeast(1.0),
         ),
         Check::new(
             format!("{name}: smallest moment of the last cycle over that of the first"),
             "does not degrade",
             moment_ratios.fold(f64::INFINITY, f64::min),
-            Limit::AtLeast(DEGRADATION_LIMIT),
+            Limit::AtLeast(MIN_MOMENT_RATIO),
         ),
     ]
 }

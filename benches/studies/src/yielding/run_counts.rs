@@ -15,7 +15,7 @@ pub(super) struct RunCounts {
 }
 
 impl RunCounts {
-    /// Runs a scene, whose `text` says what it is; `None` for a scene that is refused or fails.
+    /// Runs a scene, whose `text` says what it is; `None` for a scene whose build or run returns an error.
     pub(super) fn energies(
         &mut self,
         simulation: Result<Simulation>,

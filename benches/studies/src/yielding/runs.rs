@@ -22,7 +22,7 @@ const SHORT_SCENE_COUNT: u64 = 60;
 const BALANCE_LIMIT: f64 = 1e-9;
 /// Largest decrease of a sum that never falls, relative to the largest energy.
 const DECREASE_LIMIT: f64 = 1e-12;
-/// Largest part of random scenes that may be refused while they are built.
+/// Largest fraction of random scenes whose build may return an error.
 const REFUSED_LIMIT: f64 = 0.05;
 const SLOPE_LIMIT: f64 = 1.5;
 

@@ -117,8 +117,8 @@ fn case_checks(case: &StripCase) -> Vec<Check> {
     ];
     if case.limit == SAND_LIMIT {
         let reference = "capacity of Prandtl and Reissner: excess";
-        let excess = last_pressure / case.capacity - 1.0;
-        checks.push(Check::new(name, reference, excess, Limit::AtMost(EXCESS_LIMIT)));
+        let excess_pressure = last_pressure / case.capacity - 1.0;
+        checks.push(Check::new(name, reference, excess_pressure, Limit::AtMost(EXCESS_LIMIT)));
     }
     checks
 }

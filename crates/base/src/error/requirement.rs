@@ -100,7 +100,7 @@ pub fn number_text(value: f64) -> String {
     let is_whole = value.fract() == 0.0 || !value.is_finite();
     let round_number = rounded_to(ROUND_NUMBER_FIGURES, value);
     let printed_number = rounded_to(PRINTED_FIGURES, value);
-    let rounded = if is_whole {
+    let rounded_value = if is_whole {
         value
     } else if printed_number.to_bits() == round_number.to_bits() {
         rounded_to(PRECISE_FIGURES, value)
@@ -108,7 +108,7 @@ pub fn number_text(value: f64) -> String {
         printed_number
     };
     // Adding zero removes the sign of a negative zero.
-    (rounded + 0.0).to_string()
+    (rounded_value + 0.0).to_string()
 }
 
 /// `value` rounded to a number of decimal figures.

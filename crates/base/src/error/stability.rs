@@ -6,12 +6,8 @@ use crate::error::number_text;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StabilityError {
-    /// The loads lift the structure off.
-    #[error(
-        "weight and loads at t = 0 lift it off with {upward:.4e} {}{}",
-        force_unit(*across),
-        base_text(*ends, *across)
-    )]
+    /// The loads lift the structure off, or it floats.
+    #[error("{}{}", uplift_text(*upward, *buoyancy, force_unit(*across)), base_text(*ends, *across))]
     Uplift {
         /// Left and right end of the base of the lifted part, m.
         ends: [f64; 2],
@@ -21,6 +17,10 @@ pub enum StabilityError {
         across: Option<[f64; 2]>,
         /// Upward resultant, N/m; zero if no part of the base is under pressure.
         upward: f64,
+        /// Upward force of the water on a floating part, N/m; zero for a part that the loads lift off.
+        ///
+        /// The part weighs `buoyancy` − `upward`.
+        buoyancy: f64,
     },
     /// The horizontal load exceeds friction.
     #[error(
@@ -195,6 +195,18 @@ pub enum StabilityError {
         /// Whether the part has neither mass nor damping.
         massless: bool,
     },
+}
+
+/// Beginning of the message of [`StabilityError::Uplift`].
+fn uplift_text(upward: f64, buoyancy: f64, unit: &str) -> String {
+    if buoyancy > 0.0 {
+        let weight = buoyancy - upward;
+        format!(
+            "it floats: the water lifts it with {buoyancy:.4e} {unit}, but it weighs {weight:.4e} {unit}"
+        )
+    } else {
+        format!("weight and loads at t = 0 lift it off with {upward:.4e} {unit}")
+    }
 }
 
 /// Message of [`StabilityError::Mechanism`].

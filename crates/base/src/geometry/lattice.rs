@@ -81,10 +81,10 @@ impl Lattice {
         if !self.is_square() {
             return (i * row_length + j, false);
         }
-        let smaller = i.min(j);
-        let larger = i.max(j);
+        let smaller_index = i.min(j);
+        let larger_index = i.max(j);
         // Row `smaller` of the triangle stores the columns from `smaller` on.
-        (smaller * row_length - smaller * (smaller + 1) / 2 + larger, i > j)
+        (smaller_index * row_length - smaller_index * (smaller_index + 1) / 2 + larger_index, i > j)
     }
 
     /// Class index and compliance terms of an offset.

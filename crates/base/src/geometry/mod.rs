@@ -124,11 +124,11 @@ impl ContactLayout {
 
 /// Smallest interval that contains all intervals.
 pub fn enclosing_interval(intervals: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    let mut enclosing = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut interval = [f64::INFINITY, f64::NEG_INFINITY];
     for [low, high] in intervals {
-        enclosing = [enclosing[0].min(low), enclosing[1].max(high)];
+        interval = [interval[0].min(low), interval[1].max(high)];
     }
-    enclosing
+    interval
 }
 
 /// Smallest and largest value.

@@ -164,11 +164,11 @@ impl Graph {
                 representatives.push(v);
             }
         }
-        let mut coarse = Self::new();
+        let mut coarse_graph = Self::new();
         // Index of the newest edge to each vertex. An index from the first edge of the current vertex on is its edge.
         let mut edge_to = vec![0; representatives.len()];
         for (new_vertex, &v) in representatives.iter().enumerate() {
-            let first_edge = coarse.edges.len();
+            let first_edge = coarse_graph.edges.len();
             let pair = [v, partner_of[v]];
             let members = if pair[0] == pair[1] { &pair[..1] } else { &pair };
             for &(u, weight) in members.iter().flat_map(|member| self.neighbours(*member)) {
@@ -177,19 +177,20 @@ impl Graph {
                     continue;
                 }
                 let edge_index = edge_to[neighbour];
-                let edge = coarse.edges.get_mut(edge_index).filter(|_| edge_index >= first_edge);
+                let edge =
+                    coarse_graph.edges.get_mut(edge_index).filter(|_| edge_index >= first_edge);
                 if let Some(edge) = edge.filter(|edge| edge.0 == neighbour) {
                     edge.1 += weight;
                 } else {
-                    edge_to[neighbour] = coarse.edges.len();
-                    coarse.edges.push((neighbour, weight));
+                    edge_to[neighbour] = coarse_graph.edges.len();
+                    coarse_graph.edges.push((neighbour, weight));
                 }
             }
-            coarse.first_edges.push(coarse.edges.len());
-            coarse
+            coarse_graph.first_edges.push(coarse_graph.edges.len());
+            coarse_graph
                 .vertex_weights
                 .push(members.iter().map(|member| self.vertex_weights[*member]).sum());
         }
-        CoarseGraph { graph: coarse, coarse_vertex }
+        CoarseGraph { graph: coarse_graph, coarse_vertex }
     }
 }

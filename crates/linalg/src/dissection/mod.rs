@@ -72,30 +72,31 @@ pub(super) fn dissection<'a>(
 fn vertex_parts(graph: &Graph) -> Vec<u8> {
     let mut levels: Vec<CoarseGraph> = Vec::new();
     loop {
-        let current = levels.last().map_or(graph, |level| &level.graph);
-        if current.len() <= MAX_COARSEST_VERTICES {
+        let current_graph = levels.last().map_or(graph, |level| &level.graph);
+        if current_graph.len() <= MAX_COARSEST_VERTICES {
             break;
         }
-        let coarse = current.coarser();
-        if 100 * coarse.graph.len() > MAX_COARSE_PERCENT * current.len() {
+        let coarse_level = current_graph.coarser();
+        if 100 * coarse_level.graph.len() > MAX_COARSE_PERCENT * current_graph.len() {
             break;
         }
-        levels.push(coarse);
+        levels.push(coarse_level);
     }
-    let coarsest = levels.last().map_or(graph, |level| &level.graph);
-    let start_count = COARSEST_HALVING_COUNT.min(coarsest.len());
+    let coarsest_graph = levels.last().map_or(graph, |level| &level.graph);
+    let start_count = COARSEST_HALVING_COUNT.min(coarsest_graph.len());
     let candidates = (0..start_count).map(|k| {
-        let mut halves = GraphHalves::from_seed(coarsest, k * coarsest.len() / start_count);
+        let mut halves =
+            GraphHalves::from_seed(coarsest_graph, k * coarsest_graph.len() / start_count);
         halves.improve();
         halves
     });
     let best_halves = candidates.min_by_key(GraphHalves::cost);
     let mut is_second = best_halves.map_or(Vec::new(), |halves| halves.is_second);
-    while let Some(coarse) = levels.pop() {
-        let finer = levels.last().map_or(graph, |level| &level.graph);
+    while let Some(coarse_level) = levels.pop() {
+        let finer_graph = levels.last().map_or(graph, |level| &level.graph);
         let is_finer_second =
-            coarse.coarse_vertex.iter().map(|vertex| is_second[*vertex]).collect();
-        let mut halves = GraphHalves::new(finer, is_finer_second);
+            coarse_level.coarse_vertex.iter().map(|vertex| is_second[*vertex]).collect();
+        let mut halves = GraphHalves::new(finer_graph, is_finer_second);
         halves.improve();
         is_second = halves.is_second;
     }

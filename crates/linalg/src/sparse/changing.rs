@@ -306,13 +306,13 @@ impl ChangingFactor {
 }
 
 /// Overwrites `rhs` with (L Lᵀ)⁻¹ rhs, for a row-major lower triangle L.
-fn solve_by_lower(lower: &[f64], rhs: &mut [f64]) {
+fn solve_by_lower(lower_triangle: &[f64], rhs: &mut [f64]) {
     let count = rhs.len();
-    for (i, row) in lower.chunks_exact(count).enumerate() {
+    for (i, row) in lower_triangle.chunks_exact(count).enumerate() {
         let sum: f64 = row[..i].iter().zip(&*rhs).map(|(l, x)| l * x).sum();
         rhs[i] = (rhs[i] - sum) / row[i];
     }
-    for (i, row) in lower.chunks_exact(count).enumerate().rev() {
+    for (i, row) in lower_triangle.chunks_exact(count).enumerate().rev() {
         rhs[i] /= row[i];
         let x = rhs[i];
         rhs[..i].iter_mut().zip(row).for_each(|(value, l)| *value -= l * x);

@@ -2,14 +2,14 @@
 
 use super::*;
 
-fn ladder(order: usize, skew: f64) -> Triplets {
+fn ladder(order: usize, asymmetry: f64) -> Triplets {
     let mut matrix = Triplets::new(order);
     for i in 0..order {
         matrix.add(i, i, 3.0 + i as f64);
         if i > 0 {
-            matrix.add(i, i - 1, -1.0 + skew);
+            matrix.add(i, i - 1, -1.0 + asymmetry);
             matrix.add(i - 1, i, -0.5);
-            matrix.add(i - 1, i, -0.5 - skew);
+            matrix.add(i - 1, i, -0.5 - asymmetry);
         }
     }
     matrix
@@ -17,14 +17,14 @@ fn ladder(order: usize, skew: f64) -> Triplets {
 
 #[test]
 fn sparse_factors_solve_symmetric_and_unsymmetric() {
-    for skew in [0.0, 0.3] {
-        let triplets = ladder(40, skew);
+    for asymmetry in [0.0, 0.3] {
+        let triplets = ladder(40, asymmetry);
         let matrix = SparseMatrix::new("test", &triplets).unwrap();
         let x: Vec<f64> = (0..40).map(|i| f64::from(i).sin()).collect();
         let mut rhs = vec![0.0; 40];
         matrix.multiply_add(1.0, &x, &mut rhs);
         let mut factor = SparseFactor::new("test", &triplets).unwrap();
-        assert_eq!(matches!(factor.factors, Factors::Cholesky { .. }), skew == 0.0);
+        assert_eq!(matches!(factor.factors, Factors::Cholesky { .. }), asymmetry == 0.0);
         factor.solve(&mut rhs);
         for (a, b) in rhs.iter().zip(&x) {
             assert!((a - b).abs() < 1e-13);
@@ -61,7 +61,7 @@ fn indefinite_matrices_have_an_indefinite_row() {
     assert_eq!(row_of_entries(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]), Some(0));
     // The row of the most negative entry is returned.
     assert_eq!(row_of_entries(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
-    // A negative entry is a rounding error below the floor, and an error above it.
+    // A negative entry is a rounding error if its magnitude is below the floor.
     for (value, expected_row) in [(0.99e-12, None), (1.01e-12, Some(1))] {
         assert_eq!(row_of_entries(&[(0, 0, 1.0), (1, 1, -value)]), expected_row);
     }
@@ -75,11 +75,11 @@ fn indefinite_matrices_have_an_indefinite_row() {
 
 #[test]
 fn singular_and_invalid_matrices_are_errors() {
-    let mut singular = Triplets::new(2);
-    singular.add(0, 0, 1.0);
-    assert!(matches!(SparseFactor::new("k", &singular), Err(Error::Singular { .. })));
-    singular.add(1, 2, 1.0);
-    assert!(matches!(SparseMatrix::new("k", &singular), Err(Error::Index { index: 2, .. })));
+    let mut singular_matrix = Triplets::new(2);
+    singular_matrix.add(0, 0, 1.0);
+    assert!(matches!(SparseFactor::new("k", &singular_matrix), Err(Error::Singular { .. })));
+    singular_matrix.add(1, 2, 1.0);
+    assert!(matches!(SparseMatrix::new("k", &singular_matrix), Err(Error::Index { index: 2, .. })));
     let mut nan = Triplets::new(1);
     nan.add(0, 0, f64::NAN);
     assert!(matches!(SparseMatrix::new("k", &nan), Err(Error::Input { .. })));

@@ -25,13 +25,14 @@ pub fn first_coincident_points(points: &[[f64; 3]], tolerance: f64) -> Result<Ve
     for (index, point) in points.iter().enumerate() {
         let cell = point.map(|coordinate| cell_index(coordinate, tolerance));
         let near_points = points_within_tolerance(points, *point, cell, tolerance, &cell_points);
-        let first_point = near_points.iter().map(|&near| first_points[near]).min().unwrap_or(index);
+        let first_point =
+            near_points.iter().map(|&near_point| first_points[near_point]).min().unwrap_or(index);
         // All points of the group must lie within the tolerance, and all points of other groups beyond it.
         let group = groups.entry(first_point).or_default();
         let distant_member =
             group.iter().find(|member| distance(points[**member], *point) > tolerance);
         let point_of_other_group =
-            near_points.iter().find(|near| first_points[**near] != first_point);
+            near_points.iter().find(|near_point| first_points[**near_point] != first_point);
         if let Some(&other) = distant_member.or(point_of_other_group) {
             return Err(chain_error(other, index, tolerance));
         }

@@ -48,14 +48,14 @@ pub(super) fn condense<const N: usize>(matrix: &mut [[f64; N]; N], outer_order: 
 
 /// Overwrites the inner displacements, from `outer_order` on, by the outer displacements.
 ///
-/// `condensed`: matrix after [`condense`].
+/// `condensed_matrix`: matrix after [`condense`].
 pub(super) fn recover_inner<const N: usize>(
-    condensed: &[[f64; N]; N],
+    condensed_matrix: &[[f64; N]; N],
     outer_order: usize,
     displacement: &mut [f64; N],
 ) {
     for pivot in outer_order..N {
-        let pivot_row = &condensed[pivot];
+        let pivot_row = &condensed_matrix[pivot];
         let force: f64 =
             pivot_row[..pivot].iter().zip(&displacement[..pivot]).map(|(k, u)| k * u).sum();
         displacement[pivot] = -force / pivot_row[pivot];

@@ -60,13 +60,13 @@ impl Grid {
     /// Corner nodes of the cell between two rows and after a column.
     ///
     /// A pole counts as one corner.
-    fn cell(lower: &[usize], upper: &[usize], column: usize) -> Vec<usize> {
+    fn cell(lower_row: &[usize], upper_row: &[usize], column: usize) -> Vec<usize> {
         let next_column = column + 1;
         let mut corners = vec![
-            lower[column % lower.len()],
-            lower[next_column % lower.len()],
-            upper[next_column % upper.len()],
-            upper[column % upper.len()],
+            lower_row[column % lower_row.len()],
+            lower_row[next_column % lower_row.len()],
+            upper_row[next_column % upper_row.len()],
+            upper_row[column % upper_row.len()],
         ];
         corners.dedup();
         corners
@@ -96,8 +96,8 @@ impl Grid {
     /// corners of the grid's cells must run counter-clockwise seen from above.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a mesh in the plane or a grid with a pole, [`Error::Index`] for a mesh without the grid's
-    /// nodes, [`Error::Input`] unless the heights are finite and ascend from above zero.
+    /// [`Error::Scene`] for a grid with a pole, [`Error::Index`] for a mesh without the grid's nodes, [`Error::Input`]
+    /// for a mesh in the plane, and unless the heights are finite and ascend from above zero.
     pub fn extrude(&self, mesh: &mut Mesh, heights: &[f64]) -> Result<Vec<[usize; 8]>> {
         let quads: Option<Vec<[usize; 4]>> =
             self.cells().map(|(_, cell)| cell.try_into().ok()).collect();
@@ -187,7 +187,7 @@ impl Mesh {
     /// example.
     ///
     /// # Errors
-    /// [`Error::Size`] for fewer than two rows or three sectors; [`Error::Input`] for a negative radius;
+    /// [`Error::Size`] for fewer than two rows or three sectors; [`Error::Input`] for a negative radius and numbers that are not finite;
     /// [`Error::Scene`] for a mesh in the plane, or for two neighbouring rows on the axis.
     pub fn revolve(
         &mut self,

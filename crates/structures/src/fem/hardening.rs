@@ -43,9 +43,9 @@ impl SolidMaterial for HiddenElastic {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hardening {
     /// Shear modulus, Pa.
-    pub(crate) shear: f64,
+    pub(crate) shear_modulus: f64,
     /// Bulk modulus, Pa.
-    pub(crate) bulk: f64,
+    pub(crate) bulk_modulus: f64,
     /// Norm of the deviator at first yield, Pa.
     pub(crate) strength: f64,
     /// Growth of the yield surface's radius with the plastic arc length, Pa.
@@ -53,8 +53,12 @@ pub(crate) struct Hardening {
 }
 
 impl Hardening {
-    pub(crate) const FIRM_SOIL: Self =
-        Self { shear: 10.0e6, bulk: 30.0e6, strength: 20.0e3, plastic_modulus: 1.0e6 };
+    pub(crate) const FIRM_SOIL: Self = Self {
+        shear_modulus: 10.0e6,
+        bulk_modulus: 30.0e6,
+        strength: 20.0e3,
+        plastic_modulus: 1.0e6,
+    };
 }
 
 /// State after the return to the yield surface.
@@ -80,19 +84,20 @@ impl Hardening {
         let mut trial = [0.0; 4];
         for i in 0..3 {
             let deviator = strain[i] - dilatation / 3.0 - variables[i];
-            trial[i] = 2.0 * self.shear * deviator + variables[6 + i] - initial_pressure;
+            trial[i] = 2.0 * self.shear_modulus * deviator + variables[6 + i] - initial_pressure;
         }
-        trial[3] = self.shear * (strain[3] - variables[3]) + variables[9];
+        trial[3] = self.shear_modulus * (strain[3] - variables[3]) + variables[9];
         let trial_norm = tensor_norm(trial);
         let yield_radius = self.strength + self.plastic_modulus * variables[4];
-        let increment =
-            ((trial_norm - yield_radius) / (2.0 * self.shear + self.plastic_modulus)).max(0.0);
+        let increment = ((trial_norm - yield_radius)
+            / (2.0 * self.shear_modulus + self.plastic_modulus))
+            .max(0.0);
         let flow = trial.map(|s| if trial_norm > 0.0 { s / trial_norm } else { 0.0 });
         let deviator: [f64; 4] =
-            std::array::from_fn(|i| trial[i] - 2.0 * self.shear * increment * flow[i]);
+            std::array::from_fn(|i| trial[i] - 2.0 * self.shear_modulus * increment * flow[i]);
         let mut stress = deviator;
         for entry in &mut stress[..3] {
-            *entry += self.bulk * dilatation + initial_pressure;
+            *entry += self.bulk_modulus * dilatation + initial_pressure;
         }
         ReturnMapping { stress, deviator, trial_norm, increment, flow }
     }
@@ -107,11 +112,11 @@ impl SolidMaterial for Hardening {
         let mut elasticity = [[0.0; 4]; 4];
         for i in 0..3 {
             for j in 0..3 {
-                let diagonal = if i == j { 2.0 * self.shear } else { 0.0 };
-                elasticity[i][j] = self.bulk - 2.0 * self.shear / 3.0 + diagonal;
+                let diagonal = if i == j { 2.0 * self.shear_modulus } else { 0.0 };
+                elasticity[i][j] = self.bulk_modulus - 2.0 * self.shear_modulus / 3.0 + diagonal;
             }
         }
-        elasticity[3][3] = self.shear;
+        elasticity[3][3] = self.shear_modulus;
         elasticity
     }
 
@@ -139,9 +144,10 @@ impl SolidMaterial for Hardening {
         if increment == 0.0 {
             return Ok(tangent);
         }
-        let shear = self.shear;
-        let stress_reduction = 2.0 * shear * increment / trial_norm;
-        let normal_factor = 2.0 * shear / (2.0 * shear + self.plastic_modulus) - stress_reduction;
+        let shear_modulus = self.shear_modulus;
+        let stress_reduction = 2.0 * shear_modulus * increment / trial_norm;
+        let normal_factor =
+            2.0 * shear_modulus / (2.0 * shear_modulus + self.plastic_modulus) - stress_reduction;
         for i in 0..4 {
             for j in 0..4 {
                 let deviatoric_projection = match (i == j, i < 3 && j < 3) {
@@ -151,7 +157,7 @@ impl SolidMaterial for Hardening {
                     (false, false) => 0.0,
                 };
                 tangent[i][j] -= 2.0
-                    * shear
+                    * shear_modulus
                     * (stress_reduction * deviatoric_projection
                         + normal_factor * flow[i] * flow[j]);
             }
@@ -166,22 +172,22 @@ impl SolidMaterial for Hardening {
         let arc_length = variables[4] + increment;
         let hardening_energy = 0.5 * self.plastic_modulus * arc_length * arc_length;
         Ok(InternalEnergy {
-            stored: tensor_norm(deviator).powi(2) / (4.0 * self.shear)
-                + 0.5 * pressure * pressure / self.bulk
+            stored: tensor_norm(deviator).powi(2) / (4.0 * self.shear_modulus)
+                + 0.5 * pressure * pressure / self.bulk_modulus
                 + hardening_energy,
             dissipated: variables[5] + self.strength * increment,
         })
     }
 
     fn commit(&self, strain: [f64; 4], variables: &mut [f64]) {
-        let dissipated =
+        let dissipated_energy =
             self.energy(strain, variables).map_or(f64::NAN, |energy| energy.dissipated);
         let ReturnMapping { increment, flow, .. } = self.return_to_yield_surface(strain, variables);
         for (i, direction) in flow.iter().enumerate() {
             variables[i] += if i < 3 { 1.0 } else { 2.0 } * increment * direction;
         }
         variables[4] += increment;
-        variables[5] = dissipated;
+        variables[5] = dissipated_energy;
     }
 
     fn state(&self, strain: [f64; 4], variables: &[f64]) -> SolidState {

@@ -46,12 +46,18 @@ impl IntegrationRule<DOF_COUNT> for QuadFormulation {
             }
             let area = jacobian.determinant;
             let has_derivatives = false;
-            visit(&IntegrationPoint { index, natural: point, area, strains, has_derivatives })?;
+            visit(&IntegrationPoint {
+                index,
+                natural_point: point,
+                area,
+                strains,
+                has_derivatives,
+            })?;
         }
         Ok(())
     }
 
-    fn node_weights(self, natural: [f64; 2]) -> impl IntoIterator<Item = f64> {
-        shape_functions(natural)
+    fn node_weights(self, natural_point: [f64; 2]) -> impl IntoIterator<Item = f64> {
+        shape_functions(natural_point)
     }
 }

@@ -44,22 +44,22 @@ impl Mesh {
     ///
     /// # Errors
     /// [`Error::Input`] unless the tolerance is finite and not negative. [`Error::Part`] for a chain of nodes, of which
-    /// neighbours are within the tolerance but the ends are not. [`Error::Item`] with the element that two merged
-    /// nodes would make degenerate, that would be a duplicate of another one ([`Mesh::add`]), or that cannot be
-    /// renumbered ([`Element::with_nodes`]).
+    /// neighbours are within the tolerance but the ends are not; for an element that two merged nodes would make
+    /// degenerate; and for one that cannot be renumbered ([`Element::with_nodes`]). [`Error::Item`] with an element
+    /// that would be a duplicate of another one ([`Mesh::add`]).
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<MergedNodes> {
         let first_nodes = first_coincident_points(self.nodes(), tolerance)?;
-        let mut merged = self.empty_mesh();
+        let mut merged_mesh = self.empty_mesh();
         let mut new_indices: Vec<usize> = Vec::with_capacity(first_nodes.len());
         for (node, &first_node) in first_nodes.iter().enumerate() {
             let new_index = if first_node == node {
-                merged.add_node_at(self.nodes()[node])?
+                merged_mesh.add_node_at(self.nodes()[node])?
             } else {
                 new_indices[first_node]
             };
             new_indices.push(new_index);
         }
-        let removed_count = self.nodes().len() - merged.nodes().len();
+        let removed_count = self.nodes().len() - merged_mesh.nodes().len();
         for (index, element) in self.elements().enumerate() {
             let item = || format!("element {index} on nodes {:?}", element.nodes());
             let nodes: Vec<usize> = element.nodes().iter().map(|&node| new_indices[node]).collect();
@@ -77,9 +77,9 @@ impl Mesh {
                 .ok_or_else(|| {
                     Error::part(item(), "it cannot be renumbered (Element::with_nodes)")
                 })?;
-            merged.add(renumbered).map_err(|fault| fault.within(item()))?;
+            merged_mesh.add(renumbered).map_err(|fault| fault.within(item()))?;
         }
-        *self = merged;
+        *self = merged_mesh;
         Ok(MergedNodes { count: removed_count, indices: new_indices })
     }
 }

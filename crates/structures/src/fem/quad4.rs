@@ -349,8 +349,9 @@ impl Jacobian {
     }
 
     /// Derivatives (∂/∂x, ∂/∂y) from derivatives (∂/∂ξ, ∂/∂η).
-    pub(super) fn global_derivatives(&self, natural: [f64; 2]) -> [f64; 2] {
-        self.inverse_transpose.map(|row| row[0] * natural[0] + row[1] * natural[1])
+    pub(super) fn global_derivatives(&self, natural_gradient: [f64; 2]) -> [f64; 2] {
+        self.inverse_transpose
+            .map(|row| row[0] * natural_gradient[0] + row[1] * natural_gradient[1])
     }
 
     /// Derivatives (∂/∂x, ∂/∂y) of the four shape functions at `point`, the point of this Jacobian.

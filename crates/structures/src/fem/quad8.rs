@@ -161,8 +161,8 @@ impl IntegrationRule<DOF_COUNT> for Quad8Integration {
         coordinates: &[[f64; 3]],
         mut visit: impl FnMut(&IntegrationPoint<DOF_COUNT>) -> Result<()>,
     ) -> Result<()> {
-        for (index, (natural, weight)) in gauss::square(self.points_per_axis()).enumerate() {
-            let (derivatives, determinant) = global_derivatives(natural, coordinates);
+        for (index, (natural_point, weight)) in gauss::square(self.points_per_axis()).enumerate() {
+            let (derivatives, determinant) = global_derivatives(natural_point, coordinates);
             let mut strains = [[0.0; 4]; DOF_COUNT];
             for ([dx, dy], columns) in derivatives.into_iter().zip(strains.chunks_exact_mut(2)) {
                 columns[0] = [dx, 0.0, 0.0, dy];
@@ -170,13 +170,13 @@ impl IntegrationRule<DOF_COUNT> for Quad8Integration {
             }
             let area = weight * determinant;
             let has_derivatives = true;
-            visit(&IntegrationPoint { index, natural, area, strains, has_derivatives })?;
+            visit(&IntegrationPoint { index, natural_point, area, strains, has_derivatives })?;
         }
         Ok(())
     }
 
-    fn node_weights(self, natural: [f64; 2]) -> impl IntoIterator<Item = f64> {
-        shape_functions(natural)
+    fn node_weights(self, natural_point: [f64; 2]) -> impl IntoIterator<Item = f64> {
+        shape_functions(natural_point)
     }
 }
 

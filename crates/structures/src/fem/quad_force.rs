@@ -16,7 +16,7 @@ pub(super) struct IntegrationPoint<const N: usize> {
     /// Index among the points of the element.
     pub(super) index: usize,
     /// Natural coordinates (ξ, η).
-    pub(super) natural: [f64; 2],
+    pub(super) natural_point: [f64; 2],
     /// Area of the point, m²: the weight of the rule times the Jacobian.
     pub(super) area: f64,
     /// Strains `[xx, yy, zz, xy]` due to a unit displacement of each degree of freedom, 1/m.
@@ -121,7 +121,7 @@ pub(super) trait IntegrationRule<const N: usize>: Copy + Send + Sync {
     ) -> Result<()>;
 
     /// Shape functions of the N/2 nodes at natural coordinates (ξ, η), for the position of a point.
-    fn node_weights(self, natural: [f64; 2]) -> impl IntoIterator<Item = f64>;
+    fn node_weights(self, natural_point: [f64; 2]) -> impl IntoIterator<Item = f64>;
 }
 
 /// Material of a quadrilateral with N degrees of freedom, its stress at rest, and its integration rule.
@@ -164,7 +164,9 @@ impl<R: IntegrationRule<N>, const N: usize> QuadSolid<R, N> {
     /// Position [x, y] of a point, m.
     fn position(&self, point: &IntegrationPoint<N>, coordinates: &[[f64; 3]]) -> [f64; 2] {
         let mut position = [0.0; 2];
-        for (weight, node) in self.rule.node_weights(point.natural).into_iter().zip(coordinates) {
+        for (weight, node) in
+            self.rule.node_weights(point.natural_point).into_iter().zip(coordinates)
+        {
             position[0] += weight * node[0];
             position[1] += weight * node[1];
         }

@@ -30,11 +30,11 @@ pub(super) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Option<[[f64
             matrix[pivot][column] /= value;
             inverse[pivot][column] /= value;
         }
-        for other in (0..N).filter(|other| *other != pivot) {
-            let factor = matrix[other][pivot];
+        for other_row in (0..N).filter(|other_row| *other_row != pivot) {
+            let factor = matrix[other_row][pivot];
             for column in 0..N {
-                matrix[other][column] -= factor * matrix[pivot][column];
-                inverse[other][column] -= factor * inverse[pivot][column];
+                matrix[other_row][column] -= factor * matrix[pivot][column];
+                inverse[other_row][column] -= factor * inverse[pivot][column];
             }
         }
     }
@@ -59,9 +59,9 @@ pub(super) fn add_congruent<const R: usize, const C: usize>(
     for (k, row) in c.iter().enumerate() {
         for (l, value) in row.iter().enumerate() {
             for i in 0..C {
-                let left = factor * value * a[k][i];
+                let left_factor = factor * value * a[k][i];
                 for j in 0..C {
-                    sum[i][j] += left * a[l][j];
+                    sum[i][j] += left_factor * a[l][j];
                 }
             }
         }

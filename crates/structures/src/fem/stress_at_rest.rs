@@ -80,9 +80,10 @@ impl StressAtRest {
     /// Tension is positive. Above the surface all stresses are zero.
     pub fn at(&self, position: [f64; 2]) -> [f64; 4] {
         let depth = (-position[1]).max(0.0);
-        let vertical = self.vertical_pressure(depth);
-        let horizontal = self.layer(depth).map_or(0.0, |layer| layer.ratio) * vertical;
-        [-horizontal, -vertical, -horizontal, 0.0]
+        let vertical_pressure = self.vertical_pressure(depth);
+        let horizontal_pressure =
+            self.layer(depth).map_or(0.0, |layer| layer.ratio) * vertical_pressure;
+        [-horizontal_pressure, -vertical_pressure, -horizontal_pressure, 0.0]
     }
 
     /// Weight of the soil above a depth (m), Pa.

@@ -167,10 +167,12 @@ impl BaseNode {
         let height_range = span(nodes.iter().map(|node| node.z));
         let max_floor_height =
             height_range[0] + FLATNESS_TOLERANCE * (height_range[1] - height_range[0]);
-        let first = nodes.iter().position(|node| node.z <= max_floor_height);
-        let last = nodes.iter().rposition(|node| node.z <= max_floor_height);
-        match (first, last) {
-            (Some(first), Some(last)) if first < last => &nodes[first..=last],
+        let first_index = nodes.iter().position(|node| node.z <= max_floor_height);
+        let last_index = nodes.iter().rposition(|node| node.z <= max_floor_height);
+        match (first_index, last_index) {
+            (Some(first_index), Some(last_index)) if first_index < last_index => {
+                &nodes[first_index..=last_index]
+            }
             _ => nodes,
         }
     }
@@ -292,13 +294,13 @@ impl BaseNode {
 ///
 /// Both are zero without a positive value.
 fn largest_value(values: impl Iterator<Item = f64>) -> LargestValue {
-    let mut largest = LargestValue { value: 0.0, index: 0 };
+    let mut largest_value = LargestValue { value: 0.0, index: 0 };
     for (index, value) in values.enumerate() {
-        if value > largest.value {
-            largest = LargestValue { value, index };
+        if value > largest_value.value {
+            largest_value = LargestValue { value, index };
         }
     }
-    largest
+    largest_value
 }
 
 /// Largest of several values, and its index.

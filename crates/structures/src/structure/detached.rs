@@ -94,7 +94,7 @@ fn detached_dofs(
     }
     let masses = mass.diagonal();
     let is_massless = massless(mass);
-    let mut detached = Vec::new();
+    let mut detached_dofs = Vec::new();
     for (part, dofs) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
         let has_mass = dofs.iter().any(|&dof| !is_massless[dof]);
         let is_mode = dofs.len() == 1 && (masses[dofs[0]] - 1.0).abs() <= UNIT_MASS_TOLERANCE;
@@ -102,11 +102,11 @@ fn detached_dofs(
         let is_empty = !has_mass && part_stiffness[part].entries().is_empty();
         let is_attached = is_empty || is_coupled && resists_all_motions(&part_stiffness[part])?;
         if !is_attached {
-            detached.extend_from_slice(dofs);
+            detached_dofs.extend_from_slice(dofs);
         }
     }
-    detached.sort_unstable();
-    Ok(detached)
+    detached_dofs.sort_unstable();
+    Ok(detached_dofs)
 }
 
 /// Part of a degree of freedom, and its index among the degrees of freedom of this part.

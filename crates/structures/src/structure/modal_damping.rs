@@ -126,12 +126,12 @@ impl ModalDamping {
         let nodes = structure.base().into_nodes();
         check_rows(&nodes, matrices.mass.order())?;
         let spring_stiffness = FIXED_BASE_STIFFNESS_RATIO * max_diagonal_stiffness(stiffness);
-        let supported = SpringSupportedBase::new(&nodes, stiffness, spring_stiffness);
+        let supported_base = SpringSupportedBase::new(&nodes, stiffness, spring_stiffness);
         let supported_stiffness =
-            SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &supported.matrix)?;
+            SparseMatrix::new(SpringSupportedBase::STIFFNESS_NAME, &supported_base.matrix)?;
         let Eigenpairs { values: eigenvalues, vectors: eigenvectors } =
             generalised_modes(&matrices.mass, &supported_stiffness).ok_or(UNRESISTED_MOTION)?;
-        let mut damped = WithModalDamping::new(structure);
+        let mut damped_structure = WithModalDamping::new(structure);
         let max_eigenvalue = eigenvalues.last().copied().unwrap_or(0.0);
         let mut mode = vec![0.0; eigenvalues.len()];
         let mut force = vec![0.0; eigenvalues.len()];
@@ -145,11 +145,15 @@ impl ModalDamping {
             stiffness.multiply_add(1.0, &mode, &mut force);
             if dot(&mode, &force) > MIN_STRUCTURE_ENERGY {
                 let circular_frequency = eigenvalue.sqrt().recip();
-                let ratio = self.ratio(damped.frequencies.len());
-                damped.add_mode(circular_frequency, 2.0 * ratio / circular_frequency, &force);
+                let ratio = self.ratio(damped_structure.frequencies.len());
+                damped_structure.add_mode(
+                    circular_frequency,
+                    2.0 * ratio / circular_frequency,
+                    &force,
+                );
             }
         }
-        Ok(damped)
+        Ok(damped_structure)
     }
 
     /// Adds this damping to the modes of a structure without ground.
@@ -168,7 +172,7 @@ impl ModalDamping {
             generalised_modes(&matrices.stiffness, &matrices.mass).ok_or(UNSUITABLE_MATRICES)?;
         let nodes = structure.base().into_nodes();
         let rigid_momenta = rigid_momenta(&nodes, &matrices.stiffness, &matrices.mass)?;
-        let mut damped = WithModalDamping::new(structure);
+        let mut damped_structure = WithModalDamping::new(structure);
         let mut mode = vec![0.0; eigenvalues.len()];
         let mut momentum = vec![0.0; eigenvalues.len()];
         for (mode_index, eigenvalue) in eigenvalues.iter().enumerate() {
@@ -183,10 +187,14 @@ impl ModalDamping {
             let circular_frequency = eigenvalue.sqrt();
             momentum.fill(0.0);
             matrices.mass.multiply_add(1.0, &mode, &mut momentum);
-            let ratio = self.ratio(damped.frequencies.len());
-            damped.add_mode(circular_frequency, 2.0 * ratio * circular_frequency, &momentum);
+            let ratio = self.ratio(damped_structure.frequencies.len());
+            damped_structure.add_mode(
+                circular_frequency,
+                2.0 * ratio * circular_frequency,
+                &momentum,
+            );
         }
-        Ok(damped)
+        Ok(damped_structure)
     }
 
     /// Damping ratio of a mode that is not rigid, counted from the lowest.

@@ -32,14 +32,14 @@ pub(super) fn rigid_momenta(
         contact_nodes.iter().map(|node| node.x).sum::<f64>() / node_count,
         contact_nodes.iter().map(|node| node.y).sum::<f64>() / node_count,
     ];
-    let supported =
+    let supported_base =
         SpringSupportedBase::new(contact_nodes, stiffness, max_diagonal_stiffness(stiffness));
-    let mut factor = supported.factor()?;
-    let mut base_forces = supported.translation_forces();
-    base_forces.extend(supported.rotation_forces(contact_nodes.iter(), center));
-    let mut coupled = Partition::new(n);
-    coupled.couple(stiffness);
-    let parts = coupled.sets();
+    let mut factor = supported_base.factor()?;
+    let mut base_forces = supported_base.translation_forces();
+    base_forces.extend(supported_base.rotation_forces(contact_nodes.iter(), center));
+    let mut coupled_parts = Partition::new(n);
+    coupled_parts.couple(stiffness);
+    let parts = coupled_parts.sets();
     let mut rigid_motions = OrthonormalMotions::default();
     for mut whole_motion in base_forces {
         factor.solve(&mut whole_motion);

@@ -160,18 +160,18 @@ fn bits_of_a_block_do_not_depend_on_other_blocks() {
 fn eigenvalues_are_continuous() {
     for stages in [Stages::Two, Stages::Three] {
         for log_radius in [-0.06, -1e-3, -1e-6] {
-            let mut previous: Vec<Complex> = vec![];
+            let mut previous_roots: Vec<Complex> = vec![];
             for point in 0..4000 {
                 let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 4000.0;
                 let CirclePoint { z, one_less_z } = on_circle(log_radius, angle);
                 let roots: Vec<_> = stages.nodes(z, one_less_z).map(|node| node.lambda).collect();
-                for (root_before, root) in previous.iter().zip(&roots) {
+                for (root_before, root) in previous_roots.iter().zip(&roots) {
                     assert!(
                         (*root_before - *root).abs() < 0.02,
                         "{stages:?} {point} {root_before:?} {root:?}"
                     );
                 }
-                previous = roots;
+                previous_roots = roots;
             }
         }
     }

@@ -21,9 +21,9 @@ fn profile(layers: &str, has_rigid_bedrock: bool) -> SoilProfile {
     }
     let mut profile = SoilProfile::on_rigid_bedrock();
     if !has_rigid_bedrock {
-        let last = rows.pop().unwrap();
-        let loss = LossFactor(last[2] / last[1]);
-        profile = SoilProfile::on_half_plane(soil(&last)).with_bedrock_damping(loss);
+        let last_row = rows.pop().unwrap();
+        let loss = LossFactor(last_row[2] / last_row[1]);
+        profile = SoilProfile::on_half_plane(soil(&last_row)).with_bedrock_damping(loss);
     }
     for row in &rows {
         let loss = LossFactor(row[2] / row[1]);
@@ -138,15 +138,15 @@ fn half_plane_agrees_with_lambs_solution() {
 
 #[test]
 fn extremes_are_finite() {
-    let soft = Soil::new(1.0, 0.4999, 1.0).unwrap();
-    let stiff = Soil::new(1e6, -0.99, 3.0).unwrap();
+    let soft_soil = Soil::new(1.0, 0.4999, 1.0).unwrap();
+    let stiff_soil = Soil::new(1e6, -0.99, 3.0).unwrap();
     for profile in [
-        SoilProfile::on_half_plane(stiff)
-            .with_layer(soft, 1e-3)
+        SoilProfile::on_half_plane(stiff_soil)
+            .with_layer(soft_soil, 1e-3)
             .unwrap()
-            .with_layer(stiff, 1e5)
+            .with_layer(stiff_soil, 1e5)
             .unwrap(),
-        SoilProfile::on_rigid_bedrock().with_layer(soft, 2.0).unwrap(),
+        SoilProfile::on_rigid_bedrock().with_layer(soft_soil, 2.0).unwrap(),
     ] {
         for re in [0.0, 1e-9, 1e-3, 1.0, 1e4] {
             for im in [0.0, 1e-6, 1.0, 1e5] {
@@ -204,8 +204,8 @@ fn damped_profiles() -> [SoilProfile; 3] {
     let rock = Soil::new(9.0, 0.3, 1.2).unwrap();
     let on_rock = SoilProfile::on_half_plane(rock).with_bedrock_damping(damped());
     let thin_layer = Soil::new(1.0, 0.3, 1.0).unwrap();
-    let thin = SoilProfile::on_rigid_bedrock().with_layer(thin_layer, 1e-4).unwrap();
-    [with_two_layers(on_rock), with_two_layers(SoilProfile::on_rigid_bedrock()), thin]
+    let thin_profile = SoilProfile::on_rigid_bedrock().with_layer(thin_layer, 1e-4).unwrap();
+    [with_two_layers(on_rock), with_two_layers(SoilProfile::on_rigid_bedrock()), thin_profile]
 }
 
 fn with_two_layers(profile: SoilProfile) -> SoilProfile {

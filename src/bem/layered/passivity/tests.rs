@@ -46,11 +46,11 @@ fn mobility_of_random_grounds_is_accretive() {
         let mut random = Random(scene);
         let mut layers: Vec<_> =
             (0..random.pick(&[1, 2, 3, 4])).map(|_| random_layer(&mut random)).collect();
-        let last = layers.pop().unwrap();
+        let last_layer = layers.pop().unwrap();
         let bedrock = if random.chance(0.5) && !layers.is_empty() {
             crate::soil::Bedrock::Rigid
         } else {
-            crate::soil::Bedrock::HalfPlane { soil: last.soil, damping: last.damping }
+            crate::soil::Bedrock::HalfPlane { soil: last_layer.soil, damping: last_layer.damping }
         };
         let profile = SoilProfile::new(layers, bedrock).unwrap();
         let element_count = random.pick(&[1, 2, 3, 4, 5, 6]);
@@ -140,10 +140,10 @@ fn mobilities_are_reciprocal() {
     }
     let scales: Vec<_> =
         (0..order).map(|index| 1.0 / matrix[index * (order + 1)].norm().sqrt()).collect();
-    let scaled: Vec<_> = (0..order * order)
+    let scaled_matrix: Vec<_> = (0..order * order)
         .map(|index| matrix[index] * scales[index / order] * scales[index % order])
         .collect();
-    let min_eigenvalue = crate::linalg::hermitian_range(&scaled, order).unwrap()[0];
+    let min_eigenvalue = crate::linalg::hermitian_range(&scaled_matrix, order).unwrap()[0];
     let computed_margin = margin(&classes, &values);
     assert!(
         max_imaginary_part > 0.0 && (min_eigenvalue - computed_margin).abs() < 1e-13,

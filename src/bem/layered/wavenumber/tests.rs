@@ -173,7 +173,7 @@ fn errors_are_below_the_tolerance() {
             for (tolerance, max_error_ratio) in
                 [1e-8, 1e-10, 1e-12].into_iter().zip(&mut max_error_ratios)
             {
-                let coarse = compliances(&profile, &strip, s, tolerance);
+                let coarse_compliances = compliances(&profile, &strip, s, tolerance);
                 let mut max_error = 0.0_f64;
                 for class in 0..classes.count() {
                     let lengths =
@@ -181,13 +181,14 @@ fn errors_are_below_the_tolerance() {
                     let pair_compliance =
                         (self_compliance(lengths[0]) * self_compliance(lengths[1])).sqrt();
                     for c in 0..3 {
-                        let difference = coarse.values[class][c] - reference.values[class][c];
+                        let difference =
+                            coarse_compliances.values[class][c] - reference.values[class][c];
                         max_error = max_error.max(difference.abs() / pair_compliance);
                     }
                 }
                 println!(
                     "{s:?} tolerance {tolerance:e}: {max_error:e}, {} of {}",
-                    coarse.evaluation_count, reference.evaluation_count
+                    coarse_compliances.evaluation_count, reference.evaluation_count
                 );
                 *max_error_ratio = max_error_ratio.max(max_error / tolerance);
             }

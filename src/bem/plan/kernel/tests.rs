@@ -124,17 +124,19 @@ fn largest_sum_error(
 #[test]
 fn weights_depend_on_the_offset_alone() {
     for stages in [Stages::Two, Stages::Three] {
-        let small =
+        let small_kernel =
             kernel(p1(gmb(5), gmb(1)), &Lattice { pitch: [0.5, 0.4], counts: [2, 3] }, stages);
-        let large =
+        let large_kernel =
             kernel(p1(gmb(5), gmb(1)), &Lattice { pitch: [0.5, 0.4], counts: [4, 3] }, stages);
-        large.prepare(200, &mut unobserved).unwrap();
-        let small_weights = weights(&small, 100);
-        let large_weights = weights(&large, 200);
+        large_kernel.prepare(200, &mut unobserved).unwrap();
+        let small_weights = weights(&small_kernel, 100);
+        let large_weights = weights(&large_kernel, 200);
         let max_weight = small_weights[0][1][0];
         let mut max_error = 0.0_f64;
-        let large_offsets = large.classes.plan().unwrap().0.classes();
-        for (class, offset) in small.classes.plan().unwrap().0.classes().into_iter().enumerate() {
+        let large_offsets = large_kernel.classes.plan().unwrap().0.classes();
+        for (class, offset) in
+            small_kernel.classes.plan().unwrap().0.classes().into_iter().enumerate()
+        {
             let large_class =
                 large_offsets.iter().position(|large_offset| *large_offset == offset).unwrap();
             for (small_weight, large_weight) in small_weights[class]

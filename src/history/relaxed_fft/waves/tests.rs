@@ -59,8 +59,8 @@ impl Mask {
     fn new(picture: &str) -> Self {
         let rows: Vec<Vec<char>> = picture.lines().map(|line| line.chars().collect()).collect();
         let counts = [rows[0].len(), rows.len()];
-        let all = (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]);
-        Self { cells: all.filter(|[i, j]| rows[*j][*i] == '#').collect(), counts }
+        let places = (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]);
+        Self { cells: places.filter(|[i, j]| rows[*j][*i] == '#').collect(), counts }
     }
 }
 
@@ -82,30 +82,30 @@ fn transforms_are_the_direct_sum() {
             let lattice = PlanLattice { pitch, counts };
             let size = 3 * cells.len();
             let kernel = RandomWeights::new(&lattice, cells.clone());
-            let mut direct = DirectHistory::new(kernel.clone());
-            let mut fast = RelaxedFftHistory::new(kernel.clone());
+            let mut direct_history = DirectHistory::new(kernel.clone());
+            let mut fft_history = RelaxedFftHistory::new(kernel.clone());
             let mut expected = vec![0.0; size];
             let mut computed = vec![0.0; size];
             let mut random = Random(3);
-            let mut past: Vec<Vec<f64>> = vec![];
+            let mut past_tractions: Vec<Vec<f64>> = vec![];
             let mut max_errors = [0.0_f64; 2];
             for step in 0..300 {
-                direct.evaluate(&mut expected).unwrap();
-                fast.evaluate(&mut computed).unwrap();
+                direct_history.evaluate(&mut expected).unwrap();
+                fft_history.evaluate(&mut computed).unwrap();
                 let scale = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
                 for (computed, expected) in computed.iter().zip(&expected) {
                     max_errors[0] = max_errors[0].max((computed - expected).abs() / scale);
                 }
                 if step == 20 {
-                    let reference = summed(&kernel, &cells, &past);
+                    let reference = summed(&kernel, &cells, &past_tractions);
                     for (reference, expected) in reference.iter().zip(&expected) {
                         max_errors[1] = max_errors[1].max((reference - expected).abs() / scale);
                     }
                 }
                 let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
-                direct.push(&traction);
-                fast.push(&traction);
-                past.push(traction);
+                direct_history.push(&traction);
+                fft_history.push(&traction);
+                past_tractions.push(traction);
             }
             println!("{counts:?} {pitch:?} {max_errors:?}");
             assert!(max_errors[0].max(max_errors[1]) < 1e-13, "{mask} {max_errors:?}");
@@ -114,11 +114,11 @@ fn transforms_are_the_direct_sum() {
 }
 
 /// Σ G τ, block by block.
-fn summed(kernel: &RandomWeights, cells: &[[usize; 2]], past: &[Vec<f64>]) -> Vec<f64> {
+fn summed(kernel: &RandomWeights, cells: &[[usize; 2]], past_tractions: &[Vec<f64>]) -> Vec<f64> {
     let count = cells.len();
     let mut sums = vec![0.0; 3 * count];
     let area = kernel.lattice.pitch.iter().product::<f64>();
-    for (ago, traction) in past.iter().rev().enumerate() {
+    for (ago, traction) in past_tractions.iter().rev().enumerate() {
         let classes = 0..kernel.lattice.classes().len();
         let lag: Vec<_> = classes.map(|class| kernel.lag(class, ago + 2)).collect();
         for (p, receiver) in cells.iter().enumerate() {
@@ -147,9 +147,9 @@ fn histories_resume_where_they_were_saved() {
         let mut values = vec![0.0; size];
         for step in 0..300 {
             if stop == Some(step) {
-                let saved = history.save().unwrap();
+                let saved_state = history.save().unwrap();
                 history = RelaxedFftHistory::new(kernel.clone());
-                history.restore(step, &saved).unwrap();
+                history.restore(step, &saved_state).unwrap();
             }
             history.evaluate(&mut values).unwrap();
             history.push(&(0..size).map(|_| random.within(-1.0, 1.0)).collect::<Vec<_>>());

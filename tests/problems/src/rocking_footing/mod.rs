@@ -34,11 +34,11 @@ pub struct FootingRow {
     pub settlement: f64,
     /// u/L.
     pub sliding: f64,
-    /// rad.
+    /// Rotation, rad.
     pub rotation: f64,
 }
 
-/// Three cycles of one amplitude.
+/// Rows of three cycles of one amplitude.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingPacket {
     pub name: String,
@@ -81,8 +81,8 @@ impl RockingPacket {
     }
 
     fn half_range(&self, value: impl Fn(&FootingRow) -> f64) -> f64 {
-        let highest = self.rows.iter().map(&value).fold(f64::NEG_INFINITY, f64::max);
-        let lowest = self.rows.iter().map(&value).fold(f64::INFINITY, f64::min);
-        0.5 * (highest - lowest)
+        let max_value = self.rows.iter().map(&value).fold(f64::NEG_INFINITY, f64::max);
+        let min_value = self.rows.iter().map(&value).fold(f64::INFINITY, f64::min);
+        0.5 * (max_value - min_value)
     }
 }

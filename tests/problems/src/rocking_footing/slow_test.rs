@@ -45,7 +45,7 @@ const GUIDE_STIFFNESS: f64 = 1e9;
 /// Time step, s. A cycle of 200 steps takes a minute, in which waves cross the footing 3000 times.
 const TIME_STEP: f64 = 0.3;
 
-/// The test, and how finely it is computed.
+/// The test, with the numbers of cells and steps of its computation.
 #[derive(Debug, Clone)]
 pub struct SlowRockingTest {
     /// G of the half-space, Pa.
@@ -146,7 +146,7 @@ impl SlowRockingTest {
 fn wall(time_step: f64) -> basemat::Result<MatrixModel> {
     let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
     let mass = VERTICAL_FORCE / STANDARD_GRAVITY;
-    // Inertia has no effect: that of a wall of twice the height of its centre of gravity.
+    // Inertia has no effect; here it is that of a wall of twice the height of its centre of gravity.
     let tilt_inertia = mass * (2.0 * GRAVITY_CENTER_HEIGHT).powi(2) / 12.0;
     let inertia = [[tilt_inertia, 0.0, 0.0], [0.0, tilt_inertia, 0.0], [0.0, 0.0, mass]];
     let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];

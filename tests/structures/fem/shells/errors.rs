@@ -1,4 +1,4 @@
-//! GOAL: shells that cannot be are refused with a typed error that names their nodes.
+//! GOAL: impossible shells are typed errors that name their nodes.
 //! SCENE: bad numbers of nodes, thicknesses and shapes.
 //! REFERENCE: the fields of the error.
 
@@ -39,7 +39,7 @@ fn warped_square(height: f64) -> Vec<[f64; 3]> {
 
 #[test]
 fn shapes_are_checked_when_a_shell_joins_a_mesh() {
-    let bad: [(&str, Vec<[f64; 3]>); 9] = [
+    let invalid_shells: [(&str, Vec<[f64; 3]>); 9] = [
         ("coincident", vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
         ("reflex", vec![[0.0; 3], [2.0, 0.0, 0.0], [0.4, 0.4, 0.0], [0.0, 2.0, 0.0]]),
         ("straight corner", vec![[0.0; 3], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]]),
@@ -50,14 +50,14 @@ fn shapes_are_checked_when_a_shell_joins_a_mesh() {
         ("coincident", vec![[0.0; 3], [0.0; 3], [1.0, 0.0, 0.0]]),
         ("on a line", vec![[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]]),
     ];
-    for (kind, points) in bad {
+    for (kind, points) in invalid_shells {
         let mut mesh = Mesh::in_space();
         mesh.add_node_at([9.0, 9.0, 9.0]).unwrap();
         let nodes: Vec<usize> = points.iter().map(|&p| mesh.add_node_at(p).unwrap()).collect();
         let shell = Shell::new(&nodes, material(1.0, 0.0, 1.0), 0.1).unwrap();
         let error = fault(mesh.add(shell.clone()), &format!("{nodes:?}"));
         assert!(matches!(error, Error::Input { .. }), "{kind}: {error}");
-        // Resultants and loads check, too.
+        // Resultants and loads check the nodes, too.
         let rest = vec![0.0; shell.order()];
         assert!(shell.resultants(&points, &rest).is_err(), "{kind}");
         assert!(shell.areas(&points).is_err() && shell.pressure_forces(&points, 1.0).is_err());
@@ -76,18 +76,21 @@ fn shapes_are_checked_when_a_shell_joins_a_mesh() {
 }
 
 #[test]
-fn lists_of_wrong_length_are_refused() {
+fn lists_of_wrong_length_are_errors() {
     let shell = Shell::new([0, 1, 2], material(1.0, 0.0, 1.0), 0.1).unwrap();
-    let three = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let four = [three[0], three[1], [1.0, 1.0, 0.0], three[2]];
+    let triangle = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let quadrilateral = [triangle[0], triangle[1], [1.0, 1.0, 0.0], triangle[2]];
     assert!(matches!(
-        fault(shell.check(&four), "[0, 1, 2]"),
+        fault(shell.check(&quadrilateral), "[0, 1, 2]"),
         Error::Size { found: 4, needed: 3, .. }
     ));
-    assert!(matches!(shell.resultants(&three, &[0.0; 17]), Err(Error::Size { found: 17, .. })));
-    let mut bad = [0.0; 18];
-    bad[4] = f64::NAN;
-    assert!(matches!(shell.resultants(&three, &bad), Err(Error::NotFinite { index: 4, .. })));
+    assert!(matches!(shell.resultants(&triangle, &[0.0; 17]), Err(Error::Size { found: 17, .. })));
+    let mut invalid_displacements = [0.0; 18];
+    invalid_displacements[4] = f64::NAN;
+    assert!(matches!(
+        shell.resultants(&triangle, &invalid_displacements),
+        Err(Error::NotFinite { index: 4, .. })
+    ));
 }
 
 #[test]
@@ -99,8 +102,11 @@ fn axes_must_fit_the_shell() {
     for (along, outward) in
         [(up, up), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), ([0.0; 3], up), ([1.0; 3], [0.0; 3])]
     {
-        let found = resultants.in_axes(along, outward);
-        assert!(matches!(found, Err(Error::Input { .. })), "{along:?} {outward:?}: {found:?}");
+        let computed = resultants.in_axes(along, outward);
+        assert!(
+            matches!(computed, Err(Error::Input { .. })),
+            "{along:?} {outward:?}: {computed:?}"
+        );
     }
     assert!(resultants.in_axes([f64::NAN, 0.0, 0.0], up).is_err());
 }

@@ -43,8 +43,8 @@ fn straight_cantilever() {
                 2 if column % 2.0 == 0.0 => -0.1,
                 _ => 0.1,
             };
-            let inner = column > 0.0 && column < 6.0;
-            let shift = if inner { slope * (1.0 - 2.0 * across) } else { 0.0 };
+            let is_inner = column > 0.0 && column < 6.0;
+            let shift = if is_inner { slope * (1.0 - 2.0 * across) } else { 0.0 };
             [6.0 * along + shift, 0.2 * across, 0.0]
         });
         strip.fix(nodes[0][0], &ALL_DIRECTIONS);
@@ -60,10 +60,10 @@ fn straight_cantilever() {
             let u = strip.solve();
             let a = u[dof(low, direction)];
             let b = u[dof(high, direction)];
-            let found = if twist { (b - a) / 0.2 } else { 0.5 * (a + b) };
+            let computed = if twist { (b - a) / 0.2 } else { 0.5 * (a + b) };
             assert_close(
                 &format!("{pattern:?} {shape} {direction:?}"),
-                found,
+                computed,
                 expected,
                 0.0,
                 PRINTED_TOLERANCE,
@@ -97,9 +97,9 @@ fn twisted_cantilever() {
         {
             strip.load.fill(0.0);
             spread(&mut strip, &nodes[12], direction, 1.0);
-            let found = strip.solve()[dof(nodes[12][1], direction)];
-            assert_close("tip of the twisted strip", found, expected, 0.0, PRINTED_TOLERANCE);
-            assert_close("tip of the twisted strip", found, target, 0.0, 0.01);
+            let computed = strip.solve()[dof(nodes[12][1], direction)];
+            assert_close("tip of the twisted strip", computed, expected, 0.0, PRINTED_TOLERANCE);
+            assert_close("tip of the twisted strip", computed, target, 0.0, 0.01);
         }
     }
 }
@@ -128,11 +128,11 @@ fn scordelis_lo_roof() {
                 roof.load[dof(node, Z)] -= 90.0 * area;
             }
         }
-        let found = roof.solve()[dof(nodes[0][8], Z)];
-        assert_close("edge of the roof", found, expected, 0.0, PRINTED_TOLERANCE);
+        let computed = roof.solve()[dof(nodes[0][8], Z)];
+        assert_close("edge of the roof", computed, expected, 0.0, PRINTED_TOLERANCE);
         assert_close(
             "edge of the roof",
-            found,
+            computed,
             -0.3024,
             0.0,
             if pattern == CellPattern::Quads { 0.01 } else { 0.02 },
@@ -229,8 +229,9 @@ fn z_section_in_torsion() {
             if let Some(corner) = shell.nodes().iter().position(|&node| node == tip) {
                 let points = beam.points(shell.nodes());
                 let displacements = Assembly::node_displacements(shell, &u);
-                let all = shell.resultants(&points, &displacements).unwrap();
-                let resultants = all[corner].in_axes([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]).unwrap();
+                let resultants = shell.resultants(&points, &displacements).unwrap();
+                let resultants =
+                    resultants[corner].in_axes([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]).unwrap();
                 stresses.push(1e-6 * resultants.membrane[0] / 0.1);
             }
         }

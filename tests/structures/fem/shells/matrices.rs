@@ -14,13 +14,13 @@ fn matrices_are_the_tabled_ones() {
         let order = shell.order();
         for matrix in ["stiffness", "mass", "lumped_mass"] {
             let expected = table.symmetric(matrix, order);
-            let mut found = vec![0.0; order * order];
+            let mut computed = vec![0.0; order * order];
             match matrix {
-                "stiffness" => shell.stiffness(&nodes, &mut found),
-                "mass" => shell.mass(&nodes, MassKind::Consistent, &mut found),
-                _ => shell.mass(&nodes, MassKind::Lumped, &mut found),
+                "stiffness" => shell.stiffness(&nodes, &mut computed),
+                "mass" => shell.mass(&nodes, MassKind::Consistent, &mut computed),
+                _ => shell.mass(&nodes, MassKind::Lumped, &mut computed),
             }
-            let error: Vec<f64> = found.iter().zip(&expected).map(|(a, b)| a - b).collect();
+            let error: Vec<f64> = computed.iter().zip(&expected).map(|(a, b)| a - b).collect();
             let error = largest(&error) / largest(&expected);
             assert!(error < 1e-13, "{matrix} of {name}: {error:.1e}");
         }

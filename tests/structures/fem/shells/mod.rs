@@ -101,20 +101,20 @@ impl Assembly {
         add: impl Fn(&dyn Element, &[[f64; 3]], &mut [f64]),
     ) -> DenseMatrix {
         let order = self.load.len();
-        let mut all = vec![vec![0.0; order]; order];
+        let mut matrix = vec![vec![0.0; order]; order];
         for element in self.mesh.elements() {
             let nodes = element.nodes();
             let order = element.order();
-            let mut matrix = vec![0.0; order * order];
-            add(element, &self.points(nodes), &mut matrix);
+            let mut element_matrix = vec![0.0; order * order];
+            add(element, &self.points(nodes), &mut element_matrix);
             let dofs: Vec<usize> = (0..order).map(|k| 6 * nodes[k / 6] + k % 6).collect();
             for i in 0..order {
                 for j in 0..order {
-                    all[dofs[i]][dofs[j]] += matrix[i * order + j];
+                    matrix[dofs[i]][dofs[j]] += element_matrix[i * order + j];
                 }
             }
         }
-        all
+        matrix
     }
 
     pub(super) fn stiffness(&self) -> DenseMatrix {
@@ -131,8 +131,12 @@ impl Assembly {
     }
 
     /// Displacements of the nodes of a shell.
-    pub(super) fn node_displacements(shell: &Shell, all: &[f64]) -> Vec<f64> {
-        shell.nodes().iter().flat_map(|&node| all[6 * node..6 * node + 6].to_vec()).collect()
+    pub(super) fn node_displacements(shell: &Shell, displacements: &[f64]) -> Vec<f64> {
+        shell
+            .nodes()
+            .iter()
+            .flat_map(|&node| displacements[6 * node..6 * node + 6].to_vec())
+            .collect()
     }
 }
 
@@ -190,7 +194,7 @@ pub(super) fn tabled_shells() -> Vec<TabledShell> {
     let concrete = material(30.0e9, 0.2, 2500.0);
     let steel = material(210.0e9, 0.3, 7850.0);
     let rectangle = [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let distorted = [
+    let distorted_nodes = [
         [1.0, 2.0, 3.0],
         [2.940_768, 2.694_816, 3.44794],
         [2.779_765, 3.830_647, 4.459_852],
@@ -202,7 +206,7 @@ pub(super) fn tabled_shells() -> Vec<TabledShell> {
     let distant_triangle = [[5.0, 1.0, 2.0], [5.0, 3.0, 2.0], [4.2, 2.4, 3.6]];
     vec![
         tabled("shell4_1", &rectangle, concrete, 0.3),
-        tabled("shell4_2", &distorted, concrete, 0.2),
+        tabled("shell4_2", &distorted_nodes, concrete, 0.2),
         tabled("shell4_3", &warped, concrete, 0.25),
         tabled("shell3_1", &right_triangle, concrete, 0.1),
         tabled("shell3_2", &oblique_triangle, concrete, 0.2),

@@ -9,16 +9,16 @@ use basemat_problems::patch::{PATCH_NODES, PATCH_QUADS, SHELL_STATES, field};
 
 /// Elements of the patch by their corners: quadrilaterals both ways round, triangles, or both.
 fn elements(kind: &str) -> Vec<Vec<usize>> {
-    let mut all = Vec::new();
+    let mut elements = Vec::new();
     for (index, corners) in PATCH_QUADS.into_iter().enumerate() {
         let [a, b, c, d] = corners;
         match (kind, index) {
-            ("triangles", _) | ("mixed", 2) => all.extend([vec![a, b, c], vec![a, c, d]]),
-            (_, 0 | 4) => all.push(vec![d, c, b, a]),
-            _ => all.push(corners.to_vec()),
+            ("triangles", _) | ("mixed", 2) => elements.extend([vec![a, b, c], vec![a, c, d]]),
+            (_, 0 | 4) => elements.push(vec![d, c, b, a]),
+            _ => elements.push(corners.to_vec()),
         }
     }
-    all
+    elements
 }
 
 /// Axes of the patch in space.
@@ -46,7 +46,7 @@ struct SolvedPatch {
     assembly: Assembly,
     /// The uniform state.
     exact: Vec<f64>,
-    /// What the patch finds with the displacements of its outline prescribed.
+    /// Displacements that the patch computes from those of its outline.
     computed: Vec<f64>,
 }
 
@@ -67,15 +67,15 @@ impl SolvedPatch {
                 assembly.mesh.add(shell).unwrap();
             }
         }
-        let mut exact = Vec::new();
+        let mut expected = Vec::new();
         for [x, y] in PATCH_NODES {
             let [u, v, w, a, b, c] = field(state, x, y);
-            exact.extend(in_space([u, v, w]));
-            exact.extend(in_space([a, b, c]));
+            expected.extend(in_space([u, v, w]));
+            expected.extend(in_space([a, b, c]));
         }
-        assembly.prescribed = (0..24).map(|index| (index, exact[index])).collect();
+        assembly.prescribed = (0..24).map(|index| (index, expected[index])).collect();
         let computed = assembly.solve();
-        Self { assembly, exact, computed }
+        Self { assembly, exact: expected, computed }
     }
 
     /// Largest error over the largest displacement.
@@ -91,16 +91,16 @@ fn uniform_states_are_exact() {
         for state in SHELL_STATES {
             for thickness in [0.001, 0.05] {
                 let patch = SolvedPatch::new(kind, state, thickness, true);
-                let exact = &patch.exact;
+                let expected = &patch.exact;
                 let error = patch.error();
                 assert!(error < 1e-9, "{kind}, {state}, t = {thickness}: {error:.1e}");
                 // Inner nodes are free of forces: the state is in equilibrium, too. Forces of thin plates are
                 // small beside the rounding of the membrane's.
-                let forces = multiply(&patch.assembly.stiffness(), exact);
-                let rounding = 1e-13 * 1.0e6 * thickness * largest(exact);
+                let forces = multiply(&patch.assembly.stiffness(), expected);
+                let rounding = 1e-13 * 1.0e6 * thickness * largest(expected);
                 let inside = largest(&forces[24..]);
                 assert!(inside < 1e-9 * largest(&forces[..24]) + rounding, "{kind}, {state}");
-                check_resultants(&patch.assembly, exact, state, thickness);
+                check_resultants(&patch.assembly, expected, state, thickness);
             }
         }
     }
@@ -120,8 +120,12 @@ fn triangles_beside_quadrilaterals_need_a_match_in_their_plane_only() {
 fn plane_stress([x, y, shear]: [f64; 3]) -> [f64; 3] {
     let young = 1.0e6;
     let poisson = 0.25;
-    let direct = young / (1.0 - poisson * poisson);
-    [direct * (x + poisson * y), direct * (y + poisson * x), 0.4 * young * shear]
+    let direct_modulus = young / (1.0 - poisson * poisson);
+    [
+        direct_modulus * (x + poisson * y),
+        direct_modulus * (y + poisson * x),
+        0.4 * young * shear,
+    ]
 }
 
 /// Membrane forces and moments are uniform, in the axes of the patch, whatever the order of the nodes.
@@ -140,17 +144,17 @@ fn check_resultants(patch: &Assembly, exact: &[f64], state: &str, thickness: f64
         let points = patch.points(shell.nodes());
         let displacements = Assembly::node_displacements(shell, exact);
         for corner in shell.resultants(&points, &displacements).unwrap() {
-            let found = corner.in_axes(first, normal).unwrap();
+            let computed = corner.in_axes(first, normal).unwrap();
             for k in 0..3 {
                 let scale = largest(&membrane).max(young * thickness * 1e-3);
-                let error = (found.membrane[k] - membrane[k]).abs();
-                assert!(error < 1e-9 * scale, "{state} {found:?}");
+                let error = (computed.membrane[k] - membrane[k]).abs();
+                assert!(error < 1e-9 * scale, "{state} {computed:?}");
                 let scale = largest(&moments).max(young * thickness.powi(3) * 1e-3);
-                let error = (found.moments[k] - moments[k]).abs();
-                assert!(error < 1e-9 * scale, "{state} {found:?}");
+                let error = (computed.moments[k] - moments[k]).abs();
+                assert!(error < 1e-9 * scale, "{state} {computed:?}");
             }
             let scale = young * thickness * 0.1;
-            assert!(largest(&found.shears) < 1e-9 * scale, "{state} {found:?}");
+            assert!(largest(&computed.shears) < 1e-9 * scale, "{state} {computed:?}");
         }
     }
 }

@@ -49,11 +49,11 @@ fn frequencies(plate: &Assembly) -> Vec<f64> {
     for _ in 0..30 {
         for k in 0..shapes.len() {
             let mut shape = multiply(&flexibility, &multiply(&mass, &shapes[k]));
-            for found in &shapes[..k] {
-                let ratio = form(found, &mass, &shape);
+            for computed in &shapes[..k] {
+                let ratio = form(computed, &mass, &shape);
                 shape
                     .iter_mut()
-                    .zip(found)
+                    .zip(computed)
                     .for_each(|(value, submatrix)| *value -= ratio * submatrix);
             }
             let size = form(&shape, &mass, &shape).sqrt();
@@ -128,10 +128,16 @@ fn thin_plates_do_not_lock() {
             }
             let stiffness = 200.0e9 * thickness.powi(3) / 12.0 / (1.0 - 0.09);
             let deflection = assembly.solve()[dof(nodes[4][4], Z)];
-            let found = deflection * stiffness / (0.001_265_32 * 1e4);
+            let computed = deflection * stiffness / (0.001_265_32 * 1e4);
             // The ratio of shear and bending stiffness, 1e12 for the thinnest plate, costs digits.
             let digits = if slenderness < 1e-5 { 1e-3 } else { 1e-6 };
-            assert_close(&format!("{pattern:?}, t/L = {slenderness}"), found, ratio, 0.0, digits);
+            assert_close(
+                &format!("{pattern:?}, t/L = {slenderness}"),
+                computed,
+                ratio,
+                0.0,
+                digits,
+            );
         }
     }
 }

@@ -27,9 +27,9 @@ fn at_node(model: &Assembly, u: &[f64], node: usize) -> [f64; 8] {
             continue;
         };
         let displacements = Assembly::node_displacements(shell, u);
-        let all = shell.resultants(&model.points(shell.nodes()), &displacements).unwrap();
+        let resultants = shell.resultants(&model.points(shell.nodes()), &displacements).unwrap();
         for (sum, value) in
-            sum.iter_mut().zip(values(&all[corner].in_axes(X_AXIS, Z_AXIS).unwrap()))
+            sum.iter_mut().zip(values(&resultants[corner].in_axes(X_AXIS, Z_AXIS).unwrap()))
         {
             *sum += value;
         }
@@ -59,10 +59,10 @@ fn cantilever_is_in_equilibrium() {
     }
     let u = strip.solve();
     for (column, lever) in [(3, 4.5), (6, 3.0), (9, 1.5)] {
-        let found = at_node(&strip, &u, nodes[column][1]);
+        let computed = at_node(&strip, &u, nodes[column][1]);
         let expected = [5000.0, 0.0, 0.0, 1000.0 * lever, 0.0, 0.0, 1000.0, 0.0];
-        for (found, expected) in found.into_iter().zip(expected) {
-            assert_close("resultant", found, expected, 1e-5, 0.0);
+        for (computed, expected) in computed.into_iter().zip(expected) {
+            assert_close("resultant", computed, expected, 1e-5, 0.0);
         }
     }
 }
@@ -108,8 +108,8 @@ fn raft_on_springs() {
     for ([i, j], component, expected) in
         [([4, 4], 3, 477.9421), ([6, 4], 3, 55.672_89), ([8, 4], 4, 107.9159)]
     {
-        let found = 1e-3 * at_node(&raft, &u, nodes[i][j])[component];
-        assert_close("moment, kNm/m", found, expected, 0.0, 1e-6);
+        let computed = 1e-3 * at_node(&raft, &u, nodes[i][j])[component];
+        assert_close("moment, kNm/m", computed, expected, 0.0, 1e-6);
     }
 }
 
@@ -118,10 +118,13 @@ fn listed_resultants(tabled: &TabledShell, state: &[f64], order: &[usize]) -> Ve
     let points: Vec<[f64; 3]> = order.iter().map(|&node| tabled.nodes[node]).collect();
     let u: Vec<f64> =
         order.iter().flat_map(|&node| state[6 * node..6 * node + 6].to_vec()).collect();
-    let all = tabled.shell.resultants(&points, &u).unwrap();
+    let resultants = tabled.shell.resultants(&points, &u).unwrap();
     let along = [0.3, 1.0, -0.2];
     let outward = [0.5, -0.4, 1.0];
-    all.iter().map(|resultants| resultants.in_axes(along, outward).unwrap()).collect()
+    resultants
+        .iter()
+        .map(|resultants| resultants.in_axes(along, outward).unwrap())
+        .collect()
 }
 
 /// A state with every resultant is the same from any list of nodes.
@@ -132,8 +135,8 @@ fn resultants_do_not_depend_on_the_list_of_nodes() {
         let count = tabled.nodes.len();
         let state: Vec<f64> =
             (0..6 * count).map(|k| 1e-4 * ((7 * k * k + 3) % 11) as f64).collect();
-        let straight: Vec<usize> = (0..count).collect();
-        let expected = listed_resultants(&tabled, &state, &straight);
+        let ascending_order: Vec<usize> = (0..count).collect();
+        let expected = listed_resultants(&tabled, &state, &ascending_order);
         let scale = expected.iter().map(|node| largest(&values(node))).fold(0.0, f64::max);
         for start in 0..count {
             for clockwise in [false, true] {
@@ -160,9 +163,9 @@ fn axes_turn_resultants() {
     let corners = [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let state: Vec<f64> = (0..24).map(|k| f64::from(k * k % 7)).collect();
     let original = shell.resultants(&corners, &state).unwrap()[2];
-    let same = original.in_axes([5.0, 0.0, 1.0], [0.0, 3.0, 0.1]).unwrap();
-    assert_eq!(same.axes, original.axes);
-    assert_eq!(same.shears, original.shears);
+    let original_resultants = original.in_axes([5.0, 0.0, 1.0], [0.0, 3.0, 0.1]).unwrap();
+    assert_eq!(original_resultants.axes, original.axes);
+    assert_eq!(original_resultants.shears, original.shears);
     let north = original.in_axes([0.0, 1.0, 0.0], Z_AXIS).unwrap();
     let membrane = original.membrane;
     let moments = original.moments;

@@ -14,9 +14,9 @@ fn resultants_at(rows: &[ShellRows], node: usize, u: &[f64]) -> ShellResultants 
 }
 
 fn assert_resultants(computed: &ShellResultants, expected: [f64; 8]) {
-    let found = [&computed.membrane[..], &computed.moments, &computed.shears].concat();
-    for (found, expected) in found.into_iter().zip(expected) {
-        assert_close("resultant", found, expected, 1e-5, 0.0);
+    let components = [&computed.membrane[..], &computed.moments, &computed.shears].concat();
+    for (components, expected) in components.into_iter().zip(expected) {
+        assert_close("resultant", components, expected, 1e-5, 0.0);
     }
 }
 
@@ -27,7 +27,8 @@ fn a_strip_is_a_beam() {
     let nodes = strip.grid([12, 2], CellPattern::Clockwise, concrete, |x, y| [6.0 * x, y, 0.0]);
     let shells: Vec<usize> = (0..strip.shells.len()).collect();
     let tip = &nodes[12];
-    let last = strip.mesh.add(LumpedMass::in_space(tip[1], 1.0, [0.0; 3]).unwrap()).unwrap();
+    let last_element =
+        strip.mesh.add(LumpedMass::in_space(tip[1], 1.0, [0.0; 3]).unwrap()).unwrap();
     let model = FemModel::on_base(strip.mesh).unwrap();
     let model = model.with_rigid_link(tip[1], &[tip[0], tip[2]]).unwrap();
     let mut load = vec![0.0; model.dofs()];
@@ -52,8 +53,11 @@ fn a_strip_is_a_beam() {
             let principal = resultants.principal_moments();
             assert_close("principal moment", principal[0], moment, 1e-5, 0.0);
             assert_close("principal moment", principal[1], 0.0, 1e-5, 0.0);
-            let turned = resultants_at(&away_down, node, &u);
-            assert_resultants(&turned, [0.0, 5000.0, 0.0, 0.0, -moment, 0.0, 0.0, -1000.0]);
+            let rotated_resultants = resultants_at(&away_down, node, &u);
+            assert_resultants(
+                &rotated_resultants,
+                [0.0, 5000.0, 0.0, 0.0, -moment, 0.0, 0.0, -1000.0],
+            );
         }
     }
     // Bending is constant over an element: at a follower the lever of the middle of the last one.
@@ -69,11 +73,15 @@ fn a_strip_is_a_beam() {
     let units = [rows.membrane[2].unit, rows.moments[0].unit, rows.shears[1].unit];
     assert_eq!(units, ["N/m", "N·m/m", "N/m"]);
 
-    let mass = model.shell_resultants(last, &u).unwrap_err();
-    assert_eq!(mass.to_string(), format!("element {last}: it is not a shell"));
-    let missing = model.shell_resultants(last + 1, &u).unwrap_err();
-    assert!(matches!(missing, Error::Index { .. }));
+    let mass = model.shell_resultants(last_element, &u).unwrap_err();
+    assert_eq!(mass.to_string(), format!("element {last_element}: it is not a shell"));
+    let error_of_a_missing_node = model.shell_resultants(last_element + 1, &u).unwrap_err();
+    assert!(matches!(error_of_a_missing_node, Error::Index { .. }));
     assert!(matches!(model.shell_resultants(0, &u[1..]), Err(Error::Size { .. })));
-    let steep = model.shell_rows(&shells, |_| [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]).unwrap_err();
-    assert!(steep.to_string().starts_with("element 0: part of the direction"), "{steep}");
+    let error_of_a_normal_axis =
+        model.shell_rows(&shells, |_| [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]).unwrap_err();
+    assert!(
+        error_of_a_normal_axis.to_string().starts_with("element 0: part of the direction"),
+        "{error_of_a_normal_axis}"
+    );
 }

@@ -34,11 +34,11 @@ fn area(nodes: &[[f64; 3]], n: usize) -> f64 {
 fn areas_are_areas_of_the_surface() {
     for TabledShell { name, shell, nodes } in tabled_shells() {
         let areas = shell.areas(&nodes).unwrap();
-        let found: f64 = areas.iter().sum();
+        let computed: f64 = areas.iter().sum();
         if nodes.len() == 4 {
             // Richardson's limit of the midpoint rule.
             let expected = (4.0 * area(&nodes, 200) - area(&nodes, 100)) / 3.0;
-            assert_close(name, found, expected, 0.0, 1e-6);
+            assert_close(name, computed, expected, 0.0, 1e-6);
         }
         // The lumped mass lies on the same areas.
         let order = shell.order();

@@ -3,17 +3,17 @@
 use super::*;
 use crate::Triplets;
 
-/// Grid of springs to near neighbours, with stiffnesses between `low` and 1, and an unsymmetric part.
-fn grid(side: usize, seed: f64, low: f64, skew: f64) -> SparseMatrix {
+/// Grid of springs to near neighbours, with stiffnesses between `min_stiffness` and 1, and an unsymmetric part.
+fn grid(side: usize, seed: f64, min_stiffness: f64, asymmetry: f64) -> SparseMatrix {
     let mut matrix = Triplets::new(side * side);
     for v in 0..side * side {
         matrix.add(v, v, 0.1);
-        let stiffness = low + (seed + v as f64).sin().abs() * (1.0 - low);
+        let stiffness = min_stiffness + (seed + v as f64).sin().abs() * (1.0 - min_stiffness);
         // Many neighbours: the factor of a large grid then has dense blocks.
         for [x, y] in (1..16).map(|k| [v % side + k % 4, v / side + k / 4]) {
             if x < side && y < side {
                 matrix.add_spring(v, x + side * y, stiffness);
-                matrix.add(v, x + side * y, skew);
+                matrix.add(v, x + side * y, asymmetry);
             }
         }
     }
@@ -22,9 +22,9 @@ fn grid(side: usize, seed: f64, low: f64, skew: f64) -> SparseMatrix {
 
 /// Checks that no value differs by more than rounding of the largest.
 fn assert_near(computed: &[f64], expected: &[f64]) {
-    let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
+    let max_magnitude = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
     let differences = computed.iter().zip(expected).map(|(a, b)| (a - b).abs());
-    assert!(differences.fold(0.0, f64::max) < 1e-10 * largest);
+    assert!(differences.fold(0.0, f64::max) < 1e-10 * max_magnitude);
 }
 
 /// REFERENCE: a new factor of each matrix, to the last bit where it is Cholesky's.
@@ -32,30 +32,30 @@ fn assert_near(computed: &[f64], expected: &[f64]) {
 fn changing_factors_are_new_factors() {
     for side in [5, 40] {
         let elimination = Elimination::default();
-        let first = grid(side, 0.0, 0.5, 0.0);
-        let mut changing = ChangingFactor::new("grid", &first, &elimination).unwrap();
+        let first_matrix = grid(side, 0.0, 0.5, 0.0);
+        let mut changing_factor = ChangingFactor::new("grid", &first_matrix, &elimination).unwrap();
         // Symmetric, unsymmetric, indefinite and symmetric again.
         let cases = [(0.1, 0.0), (0.5, 0.2), (-0.9, 0.0), (0.3, 0.0), (0.3, -0.1)];
-        for (k, (low, skew)) in (0..).zip(cases) {
-            let matrix = grid(side, f64::from(k), low, skew);
-            changing.refactor(&matrix).unwrap();
+        for (k, (min_stiffness, asymmetry)) in (0..).zip(cases) {
+            let matrix = grid(side, f64::from(k), min_stiffness, asymmetry);
+            changing_factor.refactor(&matrix).unwrap();
             let new_factor = SparseFactor::with_elimination("grid", &matrix, &elimination).unwrap();
-            let is_definite = changing.factor().unwrap().is_positive_definite();
+            let is_definite = changing_factor.factor().unwrap().is_positive_definite();
             assert_eq!(is_definite, new_factor.is_positive_definite());
-            assert_eq!(is_definite, low > 0.0 && skew == 0.0);
+            assert_eq!(is_definite, min_stiffness > 0.0 && asymmetry == 0.0);
             let right_sides: Vec<f64> = (0..7 * side * side).map(|i| (i as f64).sin()).collect();
             let mut computed = right_sides.clone();
             let mut expected = right_sides.clone();
-            changing.solve_many(&mut computed);
+            changing_factor.solve_many(&mut computed);
             new_factor.solve_many(&mut expected);
             if is_definite {
                 assert_eq!(computed, expected);
             } else {
                 assert_near(&computed, &expected);
-                assert_eq!(changing.method == Method::BlockLu, side == 40);
+                assert_eq!(changing_factor.method == Method::BlockLu, side == 40);
                 let mut computed = right_sides[..side * side].to_vec();
                 let mut expected = computed.clone();
-                changing.factor().unwrap().solve_transposed(&mut computed);
+                changing_factor.factor().unwrap().solve_transposed(&mut computed);
                 new_factor.solve_transposed(&mut expected);
                 assert_near(&computed, &expected);
             }
@@ -63,19 +63,19 @@ fn changing_factors_are_new_factors() {
             let error = residual.iter().enumerate().map(|(i, r)| (r - (i as f64).sin()).abs());
             assert!(error.fold(0.0, f64::max) < 1e-9);
         }
-        // On the last rows, with computed dense block or without.
+        // Solutions on the last rows alone. Only the factor of the large grid has a dense block there.
         let last_rows: Vec<usize> = (0..side).map(|k| k * side + (k * k) % side).collect();
         let mut ending_factor =
-            ChangingFactor::ending_with("grid", &first, &elimination, &last_rows).unwrap();
-        for (low, skew) in [(0.2, 0.0), (0.2, 0.1), (-0.9, 0.0), (0.4, 0.0)] {
-            let matrix = grid(side, 0.7, low, skew);
+            ChangingFactor::ending_with("grid", &first_matrix, &elimination, &last_rows).unwrap();
+        for (min_stiffness, asymmetry) in [(0.2, 0.0), (0.2, 0.1), (-0.9, 0.0), (0.4, 0.0)] {
+            let matrix = grid(side, 0.7, min_stiffness, asymmetry);
             ending_factor.refactor(&matrix).unwrap();
-            changing.refactor(&matrix).unwrap();
+            changing_factor.refactor(&matrix).unwrap();
             let mut last_values: Vec<f64> = (0..3 * side).map(|i| (i as f64).cos()).collect();
             for (k, column) in last_values.clone().chunks_exact(side).enumerate() {
                 let mut full_solution = vec![0.0; side * side];
                 last_rows.iter().zip(column).for_each(|(row, value)| full_solution[*row] = *value);
-                changing.solve(&mut full_solution);
+                changing_factor.solve(&mut full_solution);
                 ending_factor.solve_on_last_rows(&mut last_values[k * side..][..side]);
                 for (row, value) in last_rows.iter().zip(&last_values[k * side..]) {
                     assert!(
@@ -87,10 +87,10 @@ fn changing_factors_are_new_factors() {
             }
         }
         assert_eq!(ending_factor.last_entries.is_some(), side == 40);
-        let zero = grid(side, 0.0, 0.0, 0.0);
-        let mut singular = zero.clone();
-        singular.values.fill(0.0);
-        assert!(matches!(changing.refactor(&singular), Err(Error::Singular { .. })));
-        changing.refactor(&first).unwrap();
+        let zero_matrix = grid(side, 0.0, 0.0, 0.0);
+        let mut singular_matrix = zero_matrix.clone();
+        singular_matrix.values.fill(0.0);
+        assert!(matches!(changing_factor.refactor(&singular_matrix), Err(Error::Singular { .. })));
+        changing_factor.refactor(&first_matrix).unwrap();
     }
 }

@@ -15,13 +15,14 @@ type PlacedElement = (Box<dyn Element>, Vec<[f64; 3]>);
 /// Distorted elements of a material.
 fn elements(material: &SharedMaterial) -> Vec<PlacedElement> {
     let eight_nodes = std::array::from_fn(|k| k);
-    let reduced = Quad8::new(eight_nodes, material.clone());
-    let full = reduced.clone().with_integration(Quad8Integration::Full);
-    let four = Quad4::new([0, 1, 2, 3], material.clone(), QuadFormulation::MeanDilatation);
+    let reduced_quad = Quad8::new(eight_nodes, material.clone());
+    let full_quad = reduced_quad.clone().with_integration(Quad8Integration::Full);
+    let four_node_quad =
+        Quad4::new([0, 1, 2, 3], material.clone(), QuadFormulation::MeanDilatation);
     vec![
-        (Box::new(reduced), DISTORTED_QUAD_NODES.to_vec()),
-        (Box::new(full), DISTORTED_QUAD_NODES.to_vec()),
-        (Box::new(four), DISTORTED_QUAD_NODES[..4].to_vec()),
+        (Box::new(reduced_quad), DISTORTED_QUAD_NODES.to_vec()),
+        (Box::new(full_quad), DISTORTED_QUAD_NODES.to_vec()),
+        (Box::new(four_node_quad), DISTORTED_QUAD_NODES[..4].to_vec()),
     ]
 }
 
@@ -121,8 +122,8 @@ fn linear_displacements_give_the_stress_of_their_strain() {
         if points.len() == 4 {
             let outline: f64 = (0..4)
                 .map(|k| {
-                    let next = points[(k + 1) % 4];
-                    0.5 * (points[k][0] * next[1] - next[0] * points[k][1])
+                    let next_point = points[(k + 1) % 4];
+                    0.5 * (points[k][0] * next_point[1] - next_point[0] * points[k][1])
                 })
                 .sum();
             assert!((area - outline).abs() < 1e-14);
@@ -163,10 +164,10 @@ fn difference_quotients(
     let order = u.len();
     let mut quotients = vec![0.0; order * order];
     for column in 0..order {
-        let mut shifted = [u.to_vec(), u.to_vec()];
-        shifted[0][column] += 1e-8;
-        shifted[1][column] -= 1e-8;
-        let forces = shifted.map(|u| force(law, points, &u, variables));
+        let mut shifted_displacements = [u.to_vec(), u.to_vec()];
+        shifted_displacements[0][column] += 1e-8;
+        shifted_displacements[1][column] -= 1e-8;
+        let forces = shifted_displacements.map(|u| force(law, points, &u, variables));
         for row in 0..order {
             quotients[row * order + column] = (forces[0][row] - forces[1][row]) / 2e-8;
         }
@@ -215,10 +216,10 @@ fn unsymmetric_tangent_has_its_rows_and_columns() {
         let differences = difference_quotients(law, &points, &u, &variables);
         let error = max_difference(&tangent, &differences) / max_magnitude(&tangent);
         assert!(error < 1e-6, "{error}");
-        let mirrored: Vec<f64> = (0..order * order)
+        let mirrored_tangent: Vec<f64> = (0..order * order)
             .map(|index| tangent[index % order * order + index / order])
             .collect();
-        assert!(max_difference(&tangent, &mirrored) > 0.1 * max_magnitude(&tangent));
+        assert!(max_difference(&tangent, &mirrored_tangent) > 0.1 * max_magnitude(&tangent));
         assert!(!law.has_symmetric_tangent());
     }
 }
@@ -248,13 +249,13 @@ fn work_is_stored_dissipated_or_the_remainder() {
             assert!(
                 (committed_energy.stored - end_energy.stored).abs() < 1e-12 * end_energy.stored
             );
-            let dissipated = end_energy.dissipated - start_energy.dissipated;
+            let dissipated_energy = end_energy.dissipated - start_energy.dissipated;
             let stored = end_energy.stored - start_energy.stored;
             let rounding = 1e-12 * end_energy.dissipated;
-            assert!(dissipated >= -rounding);
+            assert!(dissipated_energy >= -rounding);
             assert!(end_energy.dissipated >= last_dissipated - rounding);
-            let scale = 1e-12 * (end_energy.stored + dissipated);
-            assert!((work - stored - dissipated - remainder).abs() < scale);
+            let scale = 1e-12 * (end_energy.stored + dissipated_energy);
+            assert!((work - stored - dissipated_energy - remainder).abs() < scale);
             last_dissipated = committed_energy.dissipated;
             start = end;
         }
@@ -318,7 +319,7 @@ fn initial_stress_acts_at_zero_displacement() {
 }
 
 #[test]
-fn refused_elements_are_named() {
+fn elements_in_errors_are_named() {
     let mut mesh = Mesh::new();
     for [x, y, _] in DISTORTED_QUAD_NODES {
         mesh.add_node(x, y).unwrap();

@@ -107,10 +107,11 @@ impl<const N: usize> LocalFrame<N> {
         let mut membrane_and_bending = [[0.0; M]; 2];
         for (node, node_displacement) in displacement.chunks_exact(6).take(N).enumerate() {
             let link = self.rigid_link(node);
-            let projected =
+            let projected_motion =
                 link.map(|row| row.iter().zip(node_displacement).map(|(a, b)| a * b).sum::<f64>());
             for (values, dofs) in membrane_and_bending.iter_mut().zip(MEMBRANE_AND_BENDING_DOFS) {
-                values[3 * node..3 * node + 3].copy_from_slice(&dofs.map(|dof| projected[dof]));
+                values[3 * node..3 * node + 3]
+                    .copy_from_slice(&dofs.map(|dof| projected_motion[dof]));
             }
         }
         LocalDisplacements { membrane: membrane_and_bending[0], bending: membrane_and_bending[1] }

@@ -284,8 +284,8 @@ impl Shell {
 }
 
 /// Nodes of a side in ascending order.
-fn side_nodes(from: usize, to: usize) -> [usize; 2] {
-    [from.min(to), from.max(to)]
+fn side_nodes(start_node: usize, end_node: usize) -> [usize; 2] {
+    [start_node.min(end_node), start_node.max(end_node)]
 }
 
 /// Adds the nodes of a shell to its error.

@@ -85,8 +85,8 @@ fn check_sides<const N: usize>(nodes: &[[f64; 3]; N]) -> Result<()> {
 
 /// Cross product of the unit vectors from a node to the next and to the previous one.
 fn corner_normal<const N: usize>(nodes: &[[f64; 3]; N], node: usize) -> [f64; 3] {
-    let [next, previous] = sides(nodes, node);
-    cross(unit_vector(next), unit_vector(previous))
+    let [next_side, previous_side] = sides(nodes, node);
+    cross(unit_vector(next_side), unit_vector(previous_side))
 }
 
 /// Vectors from a node to the next and to the previous one.

@@ -152,8 +152,8 @@ impl TriangleMembrane<'_> {
 
     /// Squared length of the side 1–2, 2–3 or 3–1, m².
     fn squared_side(&self, side: usize) -> f64 {
-        let next = (side + 1) % 3;
-        self.x(next, side).powi(2) + self.y(next, side).powi(2)
+        let next_node = (side + 1) % 3;
+        self.x(next_node, side).powi(2) + self.y(next_node, side).powi(2)
     }
 
     /// Transformation of the strains along the three sides to `[ε_xx, ε_yy, γ_xy]`.

@@ -79,7 +79,7 @@ struct ConeVariables {
     /// Plastic strain, with the engineering shear strain.
     plastic_strain: [f64; 4],
     /// Energy dissipated since the initial state, J/m³.
-    dissipated: f64,
+    dissipated_energy: f64,
     /// Initial stress, Pa.
     initial_stress: [f64; 4],
 }
@@ -187,7 +187,7 @@ fn read(variables: &[f64]) -> Result<ConeVariables> {
     same_length(quantity, variables.len(), VARIABLE_COUNT)?;
     Ok(ConeVariables {
         plastic_strain: std::array::from_fn(|i| variables[i]),
-        dissipated: variables[4],
+        dissipated_energy: variables[4],
         initial_stress: std::array::from_fn(|i| variables[5 + i]),
     })
 }
@@ -207,7 +207,9 @@ impl SolidMaterial for DruckerPrager {
     }
 
     /// # Errors
-    /// [`Error::Item`](crate::Error::Item) with the largest √J₂ at this pressure for a stress outside of the cone.
+    /// [`Error::Item`](crate::Error::Item) with the largest √J₂ at this pressure for a stress outside of the cone,
+    /// [`Error::NotFinite`](crate::Error::NotFinite) for a stress that is not finite, and
+    /// [`Error::Size`](crate::Error::Size) for another number of variables.
     fn initialize(&self, initial_stress: [f64; 4], variables: &mut [f64]) -> Result<()> {
         read(variables)?;
         all_finite("initial stress of Drucker-Prager's law", &initial_stress)?;
@@ -264,7 +266,7 @@ impl SolidMaterial for DruckerPrager {
         let initial_stress = Stress::of(variables.initial_stress);
         let stored = self.cone.elastic_energy(cone_return.stress(trial))
             - self.cone.elastic_energy(initial_stress);
-        let dissipated = variables.dissipated + self.cone.dissipation(trial, cone_return);
+        let dissipated = variables.dissipated_energy + self.cone.dissipation(trial, cone_return);
         all_finite("energies of Drucker-Prager's law", &[stored, dissipated])?;
         Ok(InternalEnergy { stored, dissipated })
     }

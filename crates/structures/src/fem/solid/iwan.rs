@@ -85,7 +85,7 @@ struct IwanVariables<'a> {
     /// Energy stored under the initial stress, J/m³.
     rest_energy: f64,
     /// Energy dissipated since the initial state, J/m³.
-    dissipated: f64,
+    dissipated_energy: f64,
     /// Strain deviators at which the components have no stress.
     stress_free_strains: &'a [Deviator],
 }
@@ -187,7 +187,7 @@ impl Iwan {
             rest_deviator: [variables[0], variables[1], variables[2]],
             rest_mean_stress: variables[3],
             rest_energy: variables[4],
-            dissipated: variables[5],
+            dissipated_energy: variables[5],
             stress_free_strains: variables[COMMON_VARIABLE_COUNT..].as_chunks().0,
         })
     }
@@ -226,8 +226,9 @@ impl SolidMaterial for Iwan {
     }
 
     /// # Errors
-    /// [`Error::Item`](crate::Error::Item) with the strength for a stress with √J₂ above the strength; with principal
-    /// stresses σ_v and σ_h = K₀ σ_v it is |σ_v − σ_h|/√3.
+    /// [`Error::Item`](crate::Error::Item) with the strength for a stress with √J₂ above the strength; under principal
+    /// stresses σ_v and σ_h = K₀ σ_v, √J₂ is |σ_v − σ_h|/√3. [`Error::NotFinite`](crate::Error::NotFinite) for a stress
+    /// that is not finite, and [`Error::Size`](crate::Error::Size) for another number of variables.
     fn initialize(&self, initial_stress: [f64; 4], variables: &mut [f64]) -> Result<()> {
         self.read(variables)?;
         all_finite("initial stress of Iwan's model", &initial_stress)?;
@@ -306,7 +307,7 @@ impl SolidMaterial for Iwan {
         let strain_deviator = strain_deviator(strain);
         let mean_stress = variables.rest_mean_stress + self.bulk_modulus * trace(strain);
         let mut stored = 0.5 * mean_stress * mean_stress / self.bulk_modulus;
-        let mut dissipated = variables.dissipated;
+        let mut dissipated = variables.dissipated_energy;
         for (component, &stress_free_strain) in
             self.components.iter().zip(variables.stress_free_strains)
         {

@@ -57,11 +57,11 @@ pub(super) fn shear_strain(deviator: Deviator) -> f64 {
 /// I_dev maps such a strain to its deviator. With the factors 2 G and K the matrix is that of elasticity.
 pub(super) fn isotropic_matrix(deviator_factor: f64, volume_factor: f64) -> [[f64; 4]; 4] {
     let lateral = volume_factor - deviator_factor / 3.0;
-    let direct = lateral + deviator_factor;
+    let diagonal_entry = lateral + deviator_factor;
     [
-        [direct, lateral, lateral, 0.0],
-        [lateral, direct, lateral, 0.0],
-        [lateral, lateral, direct, 0.0],
+        [diagonal_entry, lateral, lateral, 0.0],
+        [lateral, diagonal_entry, lateral, 0.0],
+        [lateral, lateral, diagonal_entry, 0.0],
         [0.0, 0.0, 0.0, 0.5 * deviator_factor],
     ]
 }

@@ -41,7 +41,7 @@ pub struct BoucWen {
     /// Hysteretic variable there.
     z: f64,
     /// Dissipated energy there, J.
-    dissipated: f64,
+    dissipated_energy: f64,
 }
 
 impl BoucWen {
@@ -64,7 +64,7 @@ impl BoucWen {
             loop_shape: LoopShape::new(DEFAULT_EXPONENT, DEFAULT_BETA),
             deformation: 0.0,
             z: 0.0,
-            dissipated: 0.0,
+            dissipated_energy: 0.0,
         })
     }
 
@@ -146,29 +146,30 @@ impl Hysteresis for BoucWen {
         let parallel_energy = self.hardening * self.stiffness * deformation * deformation;
         InternalEnergy {
             stored: 0.5 * (parallel_energy + energy_scale * z * z),
-            dissipated: self.dissipated + energy_scale * lost_energy,
+            dissipated: self.dissipated_energy + energy_scale * lost_energy,
         }
     }
 
     fn commit(&mut self, deformation: f64) {
-        self.dissipated = self.energy(deformation).dissipated;
+        self.dissipated_energy = self.energy(deformation).dissipated;
         self.z = self.path_end(deformation).z;
         self.deformation = deformation;
     }
 
     fn save(&self) -> Vec<f64> {
-        vec![self.deformation, self.z, self.dissipated]
+        vec![self.deformation, self.z, self.dissipated_energy]
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         match values {
-            &[deformation, z, dissipated]
+            &[deformation, z, dissipated_energy]
                 if deformation.is_finite()
                     && z.abs() <= 1.0
-                    && dissipated.is_finite()
-                    && dissipated >= 0.0 =>
+                    && dissipated_energy.is_finite()
+                    && dissipated_energy >= 0.0 =>
             {
-                (self.deformation, self.z, self.dissipated) = (deformation, z, dissipated);
+                (self.deformation, self.z, self.dissipated_energy) =
+                    (deformation, z, dissipated_energy);
                 Ok(())
             }
             _ => Err(corrupt_state()),

@@ -21,7 +21,7 @@ pub(super) struct CoupledBoucWen {
     /// Hysteretic vector there.
     z: [f64; 2],
     /// Dissipated energy there, J.
-    dissipated: f64,
+    dissipated_energy: f64,
 }
 
 /// Largest |z| of a saved state: the radius of the yield circle, plus rounding.
@@ -40,7 +40,7 @@ impl CoupledBoucWen {
             unloading,
             deformation: [0.0; 2],
             z: [0.0; 2],
-            dissipated: 0.0,
+            dissipated_energy: 0.0,
         }
     }
 
@@ -94,28 +94,29 @@ impl CoupledBoucWen {
         let parallel_energy = self.hardening * self.stiffness * squared_norm(deformation);
         InternalEnergy {
             stored: 0.5 * (parallel_energy + energy_scale * squared_norm(path.end_z())),
-            dissipated: self.dissipated + energy_scale * path.end.lost_energy,
+            dissipated: self.dissipated_energy + energy_scale * path.end.lost_energy,
         }
     }
 
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
-        self.dissipated = self.energy(deformation).dissipated;
+        self.dissipated_energy = self.energy(deformation).dissipated;
         self.z = self.path_to(deformation).end_z();
         self.deformation = deformation;
     }
 
     pub(super) fn save(&self) -> Vec<f64> {
-        [&self.deformation[..], &self.z, &[self.dissipated]].concat()
+        [&self.deformation[..], &self.z, &[self.dissipated_energy]].concat()
     }
 
     pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
         match values {
-            &[x, y, z_x, z_y, dissipated]
+            &[x, y, z_x, z_y, dissipated_energy]
                 if values.iter().all(|value| value.is_finite())
                     && z_x.hypot(z_y) <= MAX_SAVED_NORM
-                    && dissipated >= 0.0 =>
+                    && dissipated_energy >= 0.0 =>
             {
-                (self.deformation, self.z, self.dissipated) = ([x, y], [z_x, z_y], dissipated);
+                (self.deformation, self.z, self.dissipated_energy) =
+                    ([x, y], [z_x, z_y], dissipated_energy);
                 Ok(())
             }
             _ => Err(corrupt_state()),
@@ -192,20 +193,20 @@ impl PlanePathEnd {
         if path_length <= unloading_length {
             return Phase::unloading(unloading, path_length).end(start);
         }
-        let unloaded = Phase::unloading(unloading, unloading_length).end(start);
+        let unloaded_end = Phase::unloading(unloading, unloading_length).end(start);
         let loading_phase = Phase::loading(path_length - unloading_length);
-        let loading_start = [0.0, unloaded.z[1]];
-        let loaded = loading_phase.end(loading_start);
+        let loading_start = [0.0, unloaded_end.z[1]];
+        let loaded_end = loading_phase.end(loading_start);
         let rotation_derivative =
-            loading_phase.propagated_change(loading_start, unloaded.rotation_derivative);
+            loading_phase.propagated_change(loading_start, unloaded_end.rotation_derivative);
         let unloading_fraction = unloading_length / path_length;
         Self {
             rotation_derivative: [0, 1].map(|i| {
                 unloading_fraction * rotation_derivative[i]
-                    + (1.0 - unloading_fraction) * loaded.rotation_derivative[i]
+                    + (1.0 - unloading_fraction) * loaded_end.rotation_derivative[i]
             }),
-            lost_energy: unloaded.lost_energy + loaded.lost_energy,
-            ..loaded
+            lost_energy: unloaded_end.lost_energy + loaded_end.lost_energy,
+            ..loaded_end
         }
     }
 }
@@ -277,9 +278,9 @@ impl Phase {
         let end_square = squared_norm(end);
         if self.kappa <= 0.0 {
             let b = -self.kappa;
-            let released = (start_square - end_square).max(0.0);
-            let log = (-b * released / (1.0 + b * start_square)).ln_1p();
-            return if b > 0.0 { 0.5 * (released + log / b).max(0.0) } else { 0.0 };
+            let released_square = (start_square - end_square).max(0.0);
+            let log = (-b * released_square / (1.0 + b * start_square)).ln_1p();
+            return if b > 0.0 { 0.5 * (released_square + log / b).max(0.0) } else { 0.0 };
         }
         // q = (1 − |z₁|²)/(1 − |z₀|²), h = 1 − q
         let c = start[0];

@@ -20,7 +20,7 @@ pub(super) struct CoupledSlider {
     /// Displacement of the slider, m.
     slip: [f64; 2],
     /// Energy dissipated by the slider, J.
-    dissipated: f64,
+    dissipated_energy: f64,
 }
 
 /// Motion of the slider in a step.
@@ -37,7 +37,13 @@ impl CoupledSlider {
     /// A new spring with the parameters of `slider`.
     pub(super) fn new(slider: &Slider) -> Self {
         let Slider { parallel_stiffness, series_stiffness, limit, .. } = *slider;
-        Self { parallel_stiffness, series_stiffness, limit, slip: [0.0; 2], dissipated: 0.0 }
+        Self {
+            parallel_stiffness,
+            series_stiffness,
+            limit,
+            slip: [0.0; 2],
+            dissipated_energy: 0.0,
+        }
     }
 
     /// Motion of the slider to a deformation.
@@ -86,13 +92,13 @@ impl CoupledSlider {
             stored: 0.5
                 * (self.parallel_stiffness * squared_deformation
                     + force * force / self.series_stiffness),
-            dissipated: self.dissipated + self.limit * distance,
+            dissipated: self.dissipated_energy + self.limit * distance,
         }
     }
 
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
         let SliderMotion { direction, distance, .. } = self.motion_to(deformation);
-        self.dissipated += self.limit * distance;
+        self.dissipated_energy += self.limit * distance;
         self.slip = [0, 1].map(|k| self.slip[k] + distance * direction[k]);
     }
 
@@ -105,20 +111,20 @@ impl CoupledSlider {
         let new_motion = self.motion_to(deformation);
         let released_square =
             old_motion.force * old_motion.force - new_motion.force * new_motion.force;
-        self.dissipated += 0.5 * released_square / self.series_stiffness;
+        self.dissipated_energy += 0.5 * released_square / self.series_stiffness;
         self.slip = [0, 1].map(|k| self.slip[k] + new_motion.distance * old_motion.direction[k]);
     }
 
     pub(super) fn save(&self) -> Vec<f64> {
-        vec![self.slip[0], self.slip[1], self.dissipated]
+        vec![self.slip[0], self.slip[1], self.dissipated_energy]
     }
 
     pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
         match values {
-            &[x, y, dissipated]
-                if values.iter().all(|value| value.is_finite()) && dissipated >= 0.0 =>
+            &[x, y, dissipated_energy]
+                if values.iter().all(|value| value.is_finite()) && dissipated_energy >= 0.0 =>
             {
-                (self.slip, self.dissipated) = ([x, y], dissipated);
+                (self.slip, self.dissipated_energy) = ([x, y], dissipated_energy);
                 Ok(())
             }
             _ => Err(corrupt_state()),

@@ -20,7 +20,7 @@ pub(super) struct Slider {
     /// Displacement of the slider, m.
     slip: f64,
     /// Energy dissipated by the slider, J.
-    dissipated: f64,
+    dissipated_energy: f64,
 }
 
 /// Force (N) and displacement (m) of a slider.
@@ -31,7 +31,7 @@ struct SliderState {
 
 impl Slider {
     pub(super) fn new(parallel_stiffness: f64, series_stiffness: f64, limit: f64) -> Self {
-        Self { parallel_stiffness, series_stiffness, limit, slip: 0.0, dissipated: 0.0 }
+        Self { parallel_stiffness, series_stiffness, limit, slip: 0.0, dissipated_energy: 0.0 }
     }
 
     /// State of the slider at a deformation.
@@ -59,25 +59,27 @@ impl Slider {
             stored: 0.5
                 * (self.parallel_stiffness * deformation * deformation
                     + force * force / self.series_stiffness),
-            dissipated: self.dissipated + self.limit * (slip - self.slip).abs(),
+            dissipated: self.dissipated_energy + self.limit * (slip - self.slip).abs(),
         }
     }
 
     pub(super) fn commit(&mut self, deformation: f64) {
-        self.dissipated = self.energy(deformation).dissipated;
+        self.dissipated_energy = self.energy(deformation).dissipated;
         self.slip = self.state_at(deformation).slip;
     }
 
     pub(super) fn save(&self) -> Vec<f64> {
-        vec![self.slip, self.dissipated]
+        vec![self.slip, self.dissipated_energy]
     }
 
     pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
         match values {
-            &[slip, dissipated]
-                if slip.is_finite() && dissipated.is_finite() && dissipated >= 0.0 =>
+            &[slip, dissipated_energy]
+                if slip.is_finite()
+                    && dissipated_energy.is_finite()
+                    && dissipated_energy >= 0.0 =>
             {
-                (self.slip, self.dissipated) = (slip, dissipated);
+                (self.slip, self.dissipated_energy) = (slip, dissipated_energy);
                 Ok(())
             }
             _ => Err(corrupt_state()),

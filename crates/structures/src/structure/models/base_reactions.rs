@@ -328,7 +328,7 @@ fn outermost_nodes(nodes: &[BaseNode]) -> Vec<BaseNode> {
             node_row.clone().min_by(|a, b| row_coordinate(a).total_cmp(&row_coordinate(b)));
         let second_end = node_row.max_by(|a, b| row_coordinate(a).total_cmp(&row_coordinate(b)));
         for node in first_end.into_iter().chain(second_end) {
-            if outermost.iter().all(|other| other.place() != node.place()) {
+            if outermost.iter().all(|outer_node| outer_node.place() != node.place()) {
                 outermost.push(node.clone());
             }
         }

@@ -138,14 +138,14 @@ impl FemModel {
 ///
 /// A boxed element is unboxed first.
 fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
-    let any: &dyn Any = element;
-    if let Some(inner) = any.downcast_ref::<Box<dyn Element>>() {
+    let any_element: &dyn Any = element;
+    if let Some(inner) = any_element.downcast_ref::<Box<dyn Element>>() {
         return end_frame(inner.as_ref(), coordinates);
     }
-    if let Some(beam) = any.downcast_ref::<SpaceBeam>() {
+    if let Some(beam) = any_element.downcast_ref::<SpaceBeam>() {
         return beam.end_frame(coordinates);
     }
-    any.downcast_ref::<Beam>()?.end_frame(coordinates)
+    any_element.downcast_ref::<Beam>()?.end_frame(coordinates)
 }
 
 /// Weights of the nodal displacements in one end force or moment.

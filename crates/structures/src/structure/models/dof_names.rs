@@ -52,12 +52,16 @@ pub(super) fn describe(
     }
     let mut text = joined_items(&texts, nodes.len());
     let coincident_pair = nodes.iter().find_map(|&node| {
-        let other =
-            mesh.coincident_nodes(node).find(|other| nodes.binary_search(other).is_err())?;
-        Some((node, other))
+        let other_node = mesh
+            .coincident_nodes(node)
+            .find(|other_node| nodes.binary_search(other_node).is_err())?;
+        Some((node, other_node))
     });
-    if let Some((node, other)) = coincident_pair {
-        let _ = write!(text, "; node {node} lies where node {other} is, but is not merged with it");
+    if let Some((node, other_node)) = coincident_pair {
+        let _ = write!(
+            text,
+            "; node {node} lies where node {other_node} is, but is not merged with it"
+        );
     }
     Some(text)
 }

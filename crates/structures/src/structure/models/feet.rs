@@ -78,7 +78,7 @@ pub(super) fn face_feet(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foo
             let is_level = (z - *common_height.get_or_insert(z)).abs() <= mesh.height_tolerance();
             require("z of a corner of the base", z, is_level, "the height of the others")?;
         }
-        let shell = shells.get(&sorted(face));
+        let shell = shells.get(&sorted_nodes(face));
         let thickness = shell
             .map_or_else(|| max_covered_thickness(mesh, &shells, face), ElementFace::thickness);
         feet.push(feet_at(face, 0.5 * thickness));
@@ -147,7 +147,8 @@ pub(super) fn uncovered_faces(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize,
     let height = mesh.nodes()[feet.first()?.first()?.node][mesh.up_axis()];
     let base_faces: Vec<Vec<usize>> =
         feet.iter().map(|face| face.iter().map(|foot| foot.node).collect()).collect();
-    let base_corners: HashSet<Vec<usize>> = base_faces.iter().map(|face| sorted(face)).collect();
+    let base_corners: HashSet<Vec<usize>> =
+        base_faces.iter().map(|face| sorted_nodes(face)).collect();
     let level_faces =
         faces_by_corners(mesh, |face| mesh.has_depth() && is_level(mesh, face.corners(), height));
     let other_faces =
@@ -184,16 +185,17 @@ fn faces_by_corners(
 ) -> HashMap<Vec<usize>, ElementFace> {
     let mut faces: HashMap<Vec<usize>, ElementFace> = HashMap::new();
     for face in mesh.elements().flat_map(Element::faces).filter(is_selected) {
-        let thickest = faces.entry(sorted(face.corners())).or_insert_with(|| face.clone());
-        if face.thickness() > thickest.thickness() {
-            *thickest = face;
+        let thickest_face =
+            faces.entry(sorted_nodes(face.corners())).or_insert_with(|| face.clone());
+        if face.thickness() > thickest_face.thickness() {
+            *thickest_face = face;
         }
     }
     faces
 }
 
 /// The nodes in ascending order.
-fn sorted(nodes: &[usize]) -> Vec<usize> {
+fn sorted_nodes(nodes: &[usize]) -> Vec<usize> {
     let mut sorted_nodes = nodes.to_vec();
     sorted_nodes.sort_unstable();
     sorted_nodes

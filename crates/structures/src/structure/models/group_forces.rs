@@ -106,15 +106,16 @@ impl NonlinearForce for StructureGroup {
 
 /// Splits saved values into `count` lists; the length of each list precedes its values.
 fn split_by_length(values: &[f64], count: usize) -> Result<Vec<&[f64]>> {
-    let corrupt = || CheckpointError::Corrupt { quantity: "state of the structures" };
+    let corrupt_error = || CheckpointError::Corrupt { quantity: "state of the structures" };
     let mut remaining_values = values;
     let mut lists = Vec::with_capacity(count);
     for _ in 0..count {
-        let (&saved_length, following) = remaining_values.split_first().ok_or_else(corrupt)?;
+        let (&saved_length, following) =
+            remaining_values.split_first().ok_or_else(corrupt_error)?;
         let length =
-            (0..=following.len()).find(|n| *n as f64 == saved_length).ok_or_else(corrupt)?;
+            (0..=following.len()).find(|n| *n as f64 == saved_length).ok_or_else(corrupt_error)?;
         lists.push(&following[..length]);
         remaining_values = &following[length..];
     }
-    if remaining_values.is_empty() { Ok(lists) } else { Err(corrupt().into()) }
+    if remaining_values.is_empty() { Ok(lists) } else { Err(corrupt_error().into()) }
 }

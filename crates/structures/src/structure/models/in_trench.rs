@@ -37,7 +37,7 @@ impl FemModel {
     /// that does not exist, [`Error::Scene`](crate::Error::Scene) for a mesh in space, for nodes in another order, or
     /// for a node without horizontal and vertical degrees of freedom. [`Error::Part`](crate::Error::Part) for
     /// [soil at rest](Mesh::with_stress_at_rest) with a side that touches neither the outline, nor the surface, nor other
-    /// soil at rest, and for an outline with nodes of other elements alone.
+    /// soil at rest, and for nodes of the outline that do not belong to the soil at rest.
     pub fn in_trench(mesh: Mesh, outline: &[usize]) -> Result<Self> {
         let feet = vec![outline_feet(&mesh, outline)?];
         soil_at_rest::check(&mesh, &feet)?;

@@ -287,8 +287,8 @@ impl NonlinearForce for InelasticElements {
 
     /// Energies since the undeformed state; NaN for an element that returns an error.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let unknown = InternalEnergy { stored: f64::NAN, dissipated: f64::NAN };
-        let energy = self.total_energy(displacement).unwrap_or(unknown);
+        let unknown_energy = InternalEnergy { stored: f64::NAN, dissipated: f64::NAN };
+        let energy = self.total_energy(displacement).unwrap_or(unknown_energy);
         Some(InternalEnergy {
             stored: energy.stored - self.energy_at_rest.stored,
             dissipated: energy.dissipated - self.energy_at_rest.dissipated,
@@ -313,12 +313,12 @@ impl NonlinearForce for InelasticElements {
                 let states = points.iter().map(|point| point.state);
                 Some(NamedState { name: element.name(), state: states.max_by(by_strength)? })
             });
-            let weakest = states.max_by(|a, b| by_strength(&a.state, &b.state))?;
+            let weakest_point = states.max_by(|a, b| by_strength(&a.state, &b.state))?;
             Some(format!(
                 "{}: plastic strain {:.2e}, {:.0} % of its strength",
-                weakest.name,
-                weakest.state.plastic_strain,
-                100.0 * weakest.state.mobilised_strength
+                weakest_point.name,
+                weakest_point.state.plastic_strain,
+                100.0 * weakest_point.state.mobilised_strength
             ))
         })
     }

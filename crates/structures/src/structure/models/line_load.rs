@@ -72,15 +72,15 @@ impl FemModel {
         let weighted_nodes = self.weighted_nodes(nodes)?;
         let lengths: Vec<f64> = weighted_nodes
             .iter()
-            .map(|weighted| {
-                let [x, y, z] = weighted.segment;
+            .map(|weighted_node| {
+                let [x, y, z] = weighted_node.segment;
                 x.hypot(y).hypot(z)
             })
             .collect();
         let total_length: f64 = lengths.iter().sum();
         let mut row = DofCombination::default();
-        for (weighted, length) in weighted_nodes.iter().zip(&lengths) {
-            row += (length / total_length) * self.row(weighted.node, direction)?;
+        for (weighted_node, length) in weighted_nodes.iter().zip(&lengths) {
+            row += (length / total_length) * self.row(weighted_node.node, direction)?;
         }
         Ok(row)
     }

@@ -109,7 +109,7 @@ impl RigidBlock {
     ///
     /// The effect is `−weight · height · θ²/2` in the potential energy.
     ///
-    /// `weight`: N/m, of what stands on the block at `height` (m) above its base, such as its share of a cap. The
+    /// `weight`: N/m, of what stands on the block at `height` (m) above its base, such as its part of a cap. The
     /// weight itself acts by a load or a joint.
     ///
     /// # Errors

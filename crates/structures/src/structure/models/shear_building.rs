@@ -221,8 +221,10 @@ impl ShearBuilding {
         if self.gravity > 0.0 {
             let weight_stiffness = self.weight_on(storey) / height;
             // The first two entries of a drift are the floors' relative displacement.
-            for (drift_term, sway_term) in displacement.iter_mut().zip(Self::sway_row(storey)) {
-                drift_term.1 -= weight_stiffness * sway_term.1;
+            for (drift_term, displacement_term) in
+                displacement.iter_mut().zip(Self::relative_displacement_row(storey))
+            {
+                drift_term.1 -= weight_stiffness * displacement_term.1;
             }
         }
         let velocity = scaled_drift(self.damping_coefficient(storey)).into();
@@ -230,7 +232,7 @@ impl ShearBuilding {
     }
 
     /// Relative displacement `u_j − u_(j−1)`, which includes the part due to the base's rotation.
-    fn sway_row(storey: usize) -> [(usize, f64); 2] {
+    fn relative_displacement_row(storey: usize) -> [(usize, f64); 2] {
         let lower_dof = if storey == 0 {
             Self::BASE_HORIZONTAL_DOF
         } else {
@@ -241,8 +243,12 @@ impl ShearBuilding {
 
     /// Terms of the drift of a storey that exists.
     fn drift_terms(&self, storey: usize) -> [(usize, f64); 3] {
-        let sway = Self::sway_row(storey);
-        [sway[0], sway[1], (Self::BASE_ROTATION_DOF, self.storeys[storey].height)]
+        let relative_displacement = Self::relative_displacement_row(storey);
+        [
+            relative_displacement[0],
+            relative_displacement[1],
+            (Self::BASE_ROTATION_DOF, self.storeys[storey].height),
+        ]
     }
 
     /// Weight that the columns of `storey` carry, N.
@@ -273,7 +279,7 @@ impl ShearBuilding {
         for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             let weight = self.weight_on(index);
             if self.is_isolated && index == 0 {
-                for (dof, sign) in Self::sway_row(0) {
+                for (dof, sign) in Self::relative_displacement_row(0) {
                     matrix.add(dof, Self::BASE_ROTATION_DOF, sign * weight);
                     matrix.add(Self::BASE_ROTATION_DOF, dof, sign * weight);
                 }
@@ -284,7 +290,7 @@ impl ShearBuilding {
                     weight * storey.height,
                 );
             } else {
-                matrix.add_outer(Self::sway_row(index), -weight / storey.height);
+                matrix.add_outer(Self::relative_displacement_row(index), -weight / storey.height);
             }
         }
     }

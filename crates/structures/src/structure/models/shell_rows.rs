@@ -96,7 +96,8 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// As for [`shell_resultants`](FemModel::shell_resultants) and [`ShellResultants::in_axes`].
+    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a [`Shell`], [`Error::Item`] with
+    /// the element and an error of [`ShellResultants::in_axes`].
     pub fn shell_rows(
         &self,
         elements: &[usize],
@@ -199,10 +200,10 @@ fn shell_at(mesh: &Mesh, element: usize) -> Result<&Shell> {
 ///
 /// `None` for other elements.
 fn as_shell(element: &dyn Element) -> Option<&Shell> {
-    let any: &dyn Any = element;
-    match any.downcast_ref::<Box<dyn Element>>() {
+    let any_element: &dyn Any = element;
+    match any_element.downcast_ref::<Box<dyn Element>>() {
         Some(inner) => as_shell(inner.as_ref()),
-        None => any.downcast_ref(),
+        None => any_element.downcast_ref(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Sides of soil at rest in a finite-element model, and its mass without weight.
+//! Sides of soil at rest in a finite-element model, and its mass, whose weight does not act in a run.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,9 +7,9 @@ use crate::error::{Error, Result, same_length};
 use crate::fem::{Direction, Element, Mesh};
 use crate::structure::{FemModel, Structure, StructureGroup};
 
-/// Returns an error unless all sides of soil at rest are supported as at rest.
+/// Returns an error unless the pressure at rest acts on every side of soil at rest.
 ///
-/// A side touches other soil at rest, the surface, or the ground. Elsewhere the pressure at rest on it would be missing.
+/// A side touches other soil at rest, the surface, or the ground. Elsewhere no pressure at rest acts on it.
 pub(super) fn check(mesh: &Mesh, feet: &[Vec<Foot>]) -> Result<()> {
     let soil: Vec<&dyn Element> = mesh.elements().filter(|element| element.is_at_rest()).collect();
     if soil.is_empty() {
@@ -35,7 +35,7 @@ pub(super) fn check(mesh: &Mesh, feet: &[Vec<Foot>]) -> Result<()> {
             let item =
                 format!("soil at rest with a side from {:?} to {:?}", &start[..2], &end[..2]);
             let reason = "the side must touch other soil at rest, the surface y = 0 or the trench: \
-                          nothing has the pressure at rest on it";
+                          no pressure at rest acts on it elsewhere";
             return Err(Error::part(item, reason));
         }
     }
@@ -106,7 +106,7 @@ impl FemModel {
                 .flat_map(|node| element.directions().iter().map(|direction| (*node, *direction)))
                 .collect();
             for ((node, direction), row) in dofs.iter().zip(element_mass.chunks_exact(order)) {
-                // Inertia of an upward translation by 1 m.
+                // Row of M r, where r is the upward translation by 1 m.
                 let mut mass = 0.0;
                 for ((_, column_direction), entry) in dofs.iter().zip(row) {
                     mass += if *column_direction == up { *entry } else { 0.0 };

@@ -107,6 +107,7 @@ impl CraigBampton {
     /// [`StructureError::Detached`](crate::structure::StructureError::Detached) for a part that no stiffness connects
     /// to a kept degree of freedom, [`Error::Index`](crate::Error::Index) for a kept degree of freedom that does not
     /// exist, [`Error::Size`](crate::Error::Size) for more modes than interior degrees of freedom,
+    /// [`Error::Memory`](crate::Error::Memory) for a basis that does not fit into memory,
     /// [`Error::Singular`](crate::Error::Singular) when the interior is a mechanism with the kept degrees of freedom
     /// fixed, or its stiffness is not positive definite.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
@@ -123,7 +124,7 @@ impl CraigBampton {
 
         let mut base = structure.base();
         let partition = DofPartition::new(n, &base, &self.kept_dofs)?;
-        check_attached(&structure, &stiffness, &mass, &partition.kept)?;
+        check_attached(&structure, &stiffness, &mass, &partition.kept_dofs)?;
         let interior_count = partition.interior.len();
         same_length(
             "list of fixed-interface modes",
@@ -132,9 +133,9 @@ impl CraigBampton {
         )?;
         let (basis_rows, squared_frequencies) =
             partition.basis(&stiffness, &mass, self.mode_count)?;
-        let basis = Basis::new(partition.kept.clone(), basis_rows, n);
+        let basis = Basis::new(partition.kept_dofs.clone(), basis_rows, n);
         let order = basis.order();
-        let kept_count = partition.kept.len();
+        let kept_count = partition.kept_dofs.len();
         for node in base.nodes_mut() {
             node.map_rows(|row| partition.renumbered(row));
         }
@@ -143,7 +144,10 @@ impl CraigBampton {
             damping: without_rounding(basis.congruence(&damping), &basis, &damping),
             stiffness: basis.congruence(&stiffness),
             base,
-            circular_frequencies: squared_frequencies.iter().map(|square| square.sqrt()).collect(),
+            circular_frequencies: squared_frequencies
+                .iter()
+                .map(|squared_frequency| squared_frequency.sqrt())
+                .collect(),
             has_active_damping: structure.has_active_damping(),
             full_model: Mutex::new(FullModel {
                 load: vec![0.0; n],
@@ -215,20 +219,24 @@ impl ReducedModel {
 ///
 /// For these motions, cancellation leaves entries of either sign. They may be larger than the damping of modes, which
 /// has another unit.
-fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full_damping: &SparseMatrix) -> Vec<f64> {
+fn without_rounding(
+    mut reduced_damping: Vec<f64>,
+    basis: &Basis,
+    full_damping: &SparseMatrix,
+) -> Vec<f64> {
     let order = basis.order();
     for (i, motion) in basis.rows().enumerate() {
         let terms = full_damping
             .entries()
             .map(|(row, column, c)| (motion[row] * c * motion[column]).abs());
-        if reduced[i * (order + 1)] <= MASSLESS_FRACTION * terms.sum::<f64>() {
+        if reduced_damping[i * (order + 1)] <= MASSLESS_FRACTION * terms.sum::<f64>() {
             for j in 0..order {
-                reduced[i * order + j] = 0.0;
-                reduced[j * order + i] = 0.0;
+                reduced_damping[i * order + j] = 0.0;
+                reduced_damping[j * order + i] = 0.0;
             }
         }
     }
-    reduced
+    reduced_damping
 }
 
 /// Adds the nonzero entries of a dense row-major matrix to `matrix`.
@@ -255,8 +263,8 @@ impl Structure for ReducedModel {
     }
 
     fn mass_at_rest(&self) -> Result<Option<Vec<f64>>> {
-        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
-        let full_masses = full.structure.mass_at_rest()?;
+        let full_model = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let full_masses = full_model.structure.mass_at_rest()?;
         Ok(full_masses.map(|masses| self.basis.rows().map(|row| dot(row, &masses)).collect()))
     }
 
@@ -271,9 +279,9 @@ impl Structure for ReducedModel {
     }
 
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut triplets = Triplets::new(full.structure.dofs());
-        full.structure.geometric_stiffness(&mut triplets)?;
+        let full_model = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut triplets = Triplets::new(full_model.structure.dofs());
+        full_model.structure.geometric_stiffness(&mut triplets)?;
         if !triplets.entries().is_empty() {
             let geometric_stiffness = SparseMatrix::new("geometric stiffness matrix", &triplets)?;
             add_dense(&self.basis.congruence(&geometric_stiffness), self.dofs(), matrix);
@@ -286,26 +294,26 @@ impl Structure for ReducedModel {
     }
 
     fn has_active_stiffness(&self) -> bool {
-        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
-        full.structure.has_active_stiffness()
+        let full_model = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        full_model.structure.has_active_stiffness()
     }
 
     fn description(&self) -> StructureDescription {
-        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
-        full.structure.description()
+        let full_model = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        full_model.structure.description()
     }
 
     /// Text of the full model for kept degrees of freedom.
     ///
     /// The first mode is named by its index.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
-        let kept_dofs = self.basis.kept();
+        let full_model = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept_dofs = self.basis.kept_dofs();
         let full_dofs: Vec<usize> =
             dofs.iter().filter_map(|dof| kept_dofs.get(*dof).copied()).collect();
         let mut texts = Vec::new();
         if !full_dofs.is_empty() {
-            let description = full.structure.describe(&full_dofs);
+            let description = full_model.structure.describe(&full_dofs);
             texts.push(description.unwrap_or_else(|| dof_list_text(&full_dofs)));
         }
         if let Some(dof) = dofs.iter().find(|&&dof| dof >= kept_dofs.len()) {
@@ -316,8 +324,8 @@ impl Structure for ReducedModel {
 
     /// Adds the load of the full model on the reduced degrees of freedom.
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        let mut full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
-        let FullModel { structure, load: full_load } = &mut *full;
+        let mut full_model = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let FullModel { structure, load: full_load } = &mut *full_model;
         full_load.fill(0.0);
         structure.load(time, full_load)?;
         if full_load.iter().any(|force| *force != 0.0) {

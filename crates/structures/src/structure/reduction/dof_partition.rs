@@ -12,7 +12,7 @@ const BASIS_BYTES_PER_ENTRY: f64 = 24.0;
 
 /// Kept and interior degrees of freedom.
 pub(super) struct DofPartition {
-    pub(super) kept: Vec<usize>,
+    pub(super) kept_dofs: Vec<usize>,
     pub(super) interior: Vec<usize>,
     /// Index of each degree of freedom among the kept or among the interior ones.
     list_index: Vec<usize>,
@@ -27,16 +27,16 @@ impl DofPartition {
         for dof in base_terms.map(|&(dof, _)| dof).chain(further_dofs.iter().copied()) {
             is_kept[in_bounds("degree of freedom to be kept", dof, n)?] = true;
         }
-        let mut kept = Vec::new();
+        let mut kept_dofs = Vec::new();
         let mut interior = Vec::new();
         let mut list_index = Vec::with_capacity(n);
         for dof in 0..n {
-            let dof_list = if is_kept[dof] { &mut kept } else { &mut interior };
+            let dof_list = if is_kept[dof] { &mut kept_dofs } else { &mut interior };
             list_index.push(dof_list.len());
             dof_list.push(dof);
         }
-        at_least("list of kept degrees of freedom", kept.len(), 1)?;
-        Ok(Self { kept, interior, list_index, is_kept })
+        at_least("list of kept degrees of freedom", kept_dofs.len(), 1)?;
+        Ok(Self { kept_dofs, interior, list_index, is_kept })
     }
 
     /// A sum of kept degrees of freedom in the numbering of the reduced model.
@@ -61,7 +61,7 @@ impl DofPartition {
         const MATRIX_NAME: &str = "stiffness matrix with the kept degrees of freedom fixed";
         let n = self.list_index.len();
         let interior_count = self.interior.len();
-        let kept_count = self.kept.len();
+        let kept_count = self.kept_dofs.len();
         let row_count = (kept_count + mode_count.min(interior_count)) as f64;
         memory::check(
             "degrees of freedom and modes of the reduction",
@@ -69,7 +69,7 @@ impl DofPartition {
             BASIS_BYTES_PER_ENTRY * row_count * n as f64,
         )?;
         let mut rows = vec![0.0; kept_count * n];
-        for (kept_index, &dof) in self.kept.iter().enumerate() {
+        for (kept_index, &dof) in self.kept_dofs.iter().enumerate() {
             rows[kept_index * n + dof] = 1.0;
         }
         if interior_count == 0 {

@@ -16,7 +16,7 @@ const COLUMNS_PER_BLOCK: usize = 16;
 #[derive(Debug)]
 pub(super) struct Basis {
     /// Degrees of freedom of the full model that are among q.
-    kept: Vec<usize>,
+    kept_dofs: Vec<usize>,
     /// Tᵀ, row-major: for each reduced degree of freedom a row over the full model's.
     transposed: Vec<f64>,
     /// Number of degrees of freedom of the full model.
@@ -24,13 +24,13 @@ pub(super) struct Basis {
 }
 
 impl Basis {
-    pub(super) fn new(kept: Vec<usize>, transposed: Vec<f64>, full_dofs: usize) -> Self {
-        Self { kept, transposed, full_dofs }
+    pub(super) fn new(kept_dofs: Vec<usize>, transposed: Vec<f64>, full_dofs: usize) -> Self {
+        Self { kept_dofs, transposed, full_dofs }
     }
 
     /// Degrees of freedom of the full model that the reduced model keeps.
-    pub(super) fn kept(&self) -> &[usize] {
-        &self.kept
+    pub(super) fn kept_dofs(&self) -> &[usize] {
+        &self.kept_dofs
     }
 
     /// Number of reduced degrees of freedom.
@@ -96,7 +96,7 @@ impl Recovery {
     ///
     /// They are the first degrees of freedom of the reduced model, in this order.
     pub fn kept(&self) -> &[usize] {
-        &self.basis.kept
+        &self.basis.kept_dofs
     }
 
     /// Converts a sum of the full model's degrees of freedom to the reduced model's.
@@ -127,14 +127,18 @@ impl Recovery {
 
     /// Values of the full model's degrees of freedom from the reduced model's.
     ///
-    /// `reduced`: displacements, velocities or accelerations.
+    /// `reduced_values`: displacements, velocities or accelerations.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced degree of freedom.
-    pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
-        same_length("list of reduced degrees of freedom", reduced.len(), self.basis.order())?;
+    pub fn full(&self, reduced_values: &[f64]) -> Result<Vec<f64>> {
+        same_length(
+            "list of reduced degrees of freedom",
+            reduced_values.len(),
+            self.basis.order(),
+        )?;
         let mut full_values = vec![0.0; self.basis.full_dofs];
-        transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full_values);
+        transposed_multiply_add(&self.basis.transposed, 1.0, reduced_values, &mut full_values);
         Ok(full_values)
     }
 }

@@ -53,8 +53,8 @@ fn without_friction_the_cohesion_is_the_strength() {
     }
     let plastic_strain = soil.state(strain, &variables).plastic_strain;
     assert!((plastic_strain - (0.05 - cohesion / 2.0e7)).abs() < 1e-12);
-    let dissipated = soil.energy(strain, &variables).unwrap().dissipated;
-    assert!((dissipated - cohesion * plastic_strain).abs() < 1e-9 * dissipated);
+    let dissipated_energy = soil.energy(strain, &variables).unwrap().dissipated;
+    assert!((dissipated_energy - cohesion * plastic_strain).abs() < 1e-9 * dissipated_energy);
 }
 
 /// Equal tension in all directions ends at the tip, where σ = c cot φ. The dissipated energy is the work of this stress
@@ -76,15 +76,15 @@ fn dilation_ends_at_the_tip() {
             }
             assert_eq!(sand.state(strain, &variables).mobilised_strength, 1.0);
             let plastic_volume = 0.03 - (tip + 2.0e4) / bulk_modulus;
-            let dissipated = sand.energy(strain, &variables).unwrap().dissipated;
-            assert!((dissipated - tip * plastic_volume).abs() < 1e-9 * dissipated);
+            let dissipated_energy = sand.energy(strain, &variables).unwrap().dissipated;
+            assert!((dissipated_energy - tip * plastic_volume).abs() < 1e-9 * dissipated_energy);
             sand.commit(strain, &mut variables);
         }
         // Compression away from the tip is elastic.
-        let unloaded = [0.0099, 0.0099, 0.0099, 1e-5];
-        let stress = sand.stress(unloaded, &variables).unwrap();
+        let unloaded_strain = [0.0099, 0.0099, 0.0099, 1e-5];
+        let stress = sand.stress(unloaded_strain, &variables).unwrap();
         assert!((stress[0] - (tip - bulk_modulus * 3e-4)).abs() < 1e-6, "{stress:?}");
-        assert_eq!(sand.tangent(unloaded, &variables).unwrap(), sand.elasticity());
+        assert_eq!(sand.tangent(unloaded_strain, &variables).unwrap(), sand.elasticity());
     }
 }
 
@@ -122,16 +122,16 @@ fn an_initial_stress_does_not_change_the_strength() {
 /// Points on a straight part of the backbone have no component.
 #[test]
 fn points_on_a_straight_line_have_no_component() {
-    let straight = [[1e-3, 1.0e4], [2e-3, 2.0e4], [3e-3, 3.0e4], [0.01, 5.0e4], [0.02, 5.0e4]];
-    let clay = Iwan::new(&straight, 0.3, 0.0).unwrap();
-    let bent = Iwan::new(&[straight[2], straight[3]], 0.3, 0.0).unwrap();
-    assert_eq!(clay.variable_count(), bent.variable_count());
-    assert_eq!(clay.points(), straight);
+    let points = [[1e-3, 1.0e4], [2e-3, 2.0e4], [3e-3, 3.0e4], [0.01, 5.0e4], [0.02, 5.0e4]];
+    let clay = Iwan::new(&points, 0.3, 0.0).unwrap();
+    let bent_clay = Iwan::new(&[points[2], points[3]], 0.3, 0.0).unwrap();
+    assert_eq!(clay.variable_count(), bent_clay.variable_count());
+    assert_eq!(clay.points(), points);
     let variables = variables_at_rest(&clay, [0.0; 4]);
     for shear_strain in [1e-3, 7e-3, 0.05] {
         let strain = [0.3 * shear_strain, 0.0, 0.0, shear_strain];
         let stress = clay.stress(strain, &variables).unwrap();
-        let bent_stress = bent.stress(strain, &variables).unwrap();
+        let bent_stress = bent_clay.stress(strain, &variables).unwrap();
         let difference: [f64; 4] = std::array::from_fn(|i| stress[i] - bent_stress[i]);
         assert!(max_abs(&difference) < 1e-9 * clay.strength());
     }

@@ -75,18 +75,18 @@ fn a_closed_loop_dissipates_its_area() {
     // The loop of one component is a parallelogram with elastic flanks; its area is 4 τ (γ − τ/G).
     let clay = Iwan::new(&[[1e-3, 20.0e3]], 0.3, 0.0).unwrap();
     let mut variables = variables_at_rest(&clay, [0.0; 4]);
-    let mut dissipated = [0.0; 2];
+    let mut dissipated_energies = [0.0; 2];
     for (reversal_index, strain) in [0.004, -0.004, 0.004].into_iter().enumerate() {
         clay.commit([0.0, 0.0, 0.0, strain], &mut variables);
         let energy = clay.energy([0.0, 0.0, 0.0, strain], &variables).unwrap();
         assert!((energy.stored - 0.5 * 20.0e3 * 1e-3).abs() < 1e-10);
         if reversal_index != 1 {
-            dissipated[reversal_index / 2] = energy.dissipated;
+            dissipated_energies[reversal_index / 2] = energy.dissipated;
         }
         let state = clay.state([0.0, 0.0, 0.0, strain], &variables);
         assert!((state.plastic_strain - 0.003).abs() < 1e-12);
         assert!((state.mobilised_strength - 1.0).abs() < 1e-12);
     }
-    assert!((dissipated[0] - 20.0e3 * 0.003).abs() < 1e-9);
-    assert!((dissipated[1] - dissipated[0] - 4.0 * 20.0e3 * 0.003).abs() < 1e-9);
+    assert!((dissipated_energies[0] - 20.0e3 * 0.003).abs() < 1e-9);
+    assert!((dissipated_energies[1] - dissipated_energies[0] - 4.0 * 20.0e3 * 0.003).abs() < 1e-9);
 }

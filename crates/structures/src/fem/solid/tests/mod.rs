@@ -2,8 +2,8 @@
 
 mod closed_forms;
 mod energy;
+mod invalid_input;
 mod masing;
-mod refused;
 mod tables;
 mod tangents;
 

@@ -47,7 +47,7 @@ fn assert_row(row_label: [f64; 3], quantity: &str, computed: &[f64], expected: &
 struct PathExtras {
     initial_stresses: Option<Vec<[f64; 4]>>,
     stored: Option<Vec<f64>>,
-    dissipated: Option<Vec<f64>>,
+    dissipated_energies: Option<Vec<f64>>,
 }
 
 impl PathExtras {
@@ -57,7 +57,7 @@ impl PathExtras {
         Self {
             initial_stresses: is_general.then(|| table.rows(["i_xx", "i_yy", "i_zz", "i_xy"])),
             stored: has_stored_energy.then(|| table.column("stored")),
-            dissipated: is_general.then(|| table.column("dissipated")),
+            dissipated_energies: is_general.then(|| table.column("dissipated")),
         }
     }
 
@@ -78,10 +78,10 @@ impl PathExtras {
         if let Some(stored) = &self.stored {
             assert_row(row_label, "stored energy", &[energy.stored], &[stored[index]]);
         }
-        if let Some(dissipated) = &self.dissipated {
+        if let Some(dissipated_energies) = &self.dissipated_energies {
             // Where a soil dissipates nothing, the value is the rounding of the stored energy.
-            let scale = dissipated[index].abs().max(1e-3 * energy.stored.abs());
-            let error = (energy.dissipated - dissipated[index]).abs();
+            let scale = dissipated_energies[index].abs().max(1e-3 * energy.stored.abs());
+            let error = (energy.dissipated - dissipated_energies[index]).abs();
             assert!(error <= TABLE_TOLERANCE * scale, "{row_label:?}: {energy:?}");
         }
     }

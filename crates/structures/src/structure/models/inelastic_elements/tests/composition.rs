@@ -47,9 +47,12 @@ fn members_of_a_group_have_their_forces() {
 /// The model inside a wrapper has the variables of the last step.
 #[test]
 fn states_are_read_inside_groups_and_wrappers() {
-    let damped = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(yielding()).unwrap();
-    let mut group =
-        StructureGroup::new().with(yielding(), 0.0).unwrap().with(damped, 10.0).unwrap();
+    let damped_structure = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(yielding()).unwrap();
+    let mut group = StructureGroup::new()
+        .with(yielding(), 0.0)
+        .unwrap()
+        .with(damped_structure, 10.0)
+        .unwrap();
     let n = yielding().dofs();
     let u = displacements(1, 2 * n, 4e-3);
     group.nonlinear_mut().unwrap().commit(&u);
@@ -62,8 +65,8 @@ fn states_are_read_inside_groups_and_wrappers() {
     assert_eq!(points, separate_model.solid_points(3).unwrap());
     assert!(points.iter().any(|point| point.state.plastic_strain > 0.0));
     assert!(matches!(group.structure(2), Err(Error::Index { .. })));
-    let sprung = WithSprings::new(separate_model.clone());
-    let model: &dyn Any = sprung.structure();
+    let sprung_model = WithSprings::new(separate_model.clone());
+    let model: &dyn Any = sprung_model.structure();
     let inner_points = model.downcast_ref::<FemModel>().unwrap().solid_points(3);
     assert_eq!(inner_points.unwrap(), points);
 }
@@ -82,12 +85,12 @@ fn springs_and_elements_act_together() {
     let pairs = force(&model, &u).into_iter().zip(force(&spring_alone, &u));
     let expected: Vec<f64> = pairs.map(|(model, spring)| model + spring).collect();
     assert_near(&force(&with_springs, &u), &expected, 1e-15);
-    let combined = with_springs.nonlinear().unwrap();
-    let energy = combined.energy(&u).unwrap();
+    let combined_force = with_springs.nonlinear().unwrap();
+    let energy = combined_force.energy(&u).unwrap();
     let sum = model.nonlinear().unwrap().energy(&u).unwrap() + spring_alone.energy(&u).unwrap();
     assert_eq!(energy, sum);
-    assert!(combined.describe_state(&u, &[2]).is_some());
-    assert!(combined.has_symmetric_tangent());
+    assert!(combined_force.describe_state(&u, &[2]).is_some());
+    assert!(combined_force.has_symmetric_tangent());
 }
 
 /// REFERENCE: the work of the midstep force less the changes of the energies, and the remainder of the model alone.
@@ -98,15 +101,15 @@ fn springs_around_elements_have_the_remainder_of_both() {
     let drift = DofCombination::from(n - 2) - DofCombination::from(0);
     let spring = Bilinear::new(5.0e6, 2.0e4, 0.1).unwrap();
     let with_springs = || WithSprings::new(yielding()).spring(drift.clone(), spring.clone());
-    let mut sprung = with_springs().unwrap();
+    let mut sprung_model = with_springs().unwrap();
     // The first step starts at zero displacement.
     let mut start = vec![0.0; n];
     let mut spring_remainder = 0.0_f64;
     for (k, size) in [(2, 5e-3), (7, 2e-2), (4, 1e-2), (6, 4e-3)] {
         let end = displacements(k, n, size);
         let midstep: Vec<f64> = start.iter().zip(&end).map(|(a, b)| 0.5 * (a + b)).collect();
-        let sprung_force = sprung.nonlinear().unwrap();
-        let work: f64 = force(&sprung, &midstep)
+        let sprung_force = sprung_model.nonlinear().unwrap();
+        let work: f64 = force(&sprung_model, &midstep)
             .iter()
             .zip(end.iter().zip(&start))
             .map(|(force, (end, start))| force * (end - start))
@@ -120,33 +123,34 @@ fn springs_around_elements_have_the_remainder_of_both() {
         assert!((remainder - work + energy_change).abs() < 1e-11 * work.abs(), "{remainder}");
         let model_remainder = model.nonlinear().unwrap().remainder(&midstep, &end).unwrap();
         spring_remainder = spring_remainder.max((remainder - model_remainder) / remainder);
-        sprung.nonlinear_mut().unwrap().commit(&end);
+        sprung_model.nonlinear_mut().unwrap().commit(&end);
         model.nonlinear_mut().unwrap().commit(&end);
         start = end;
     }
     assert!(spring_remainder > 1e-6, "{spring_remainder}");
     // The displacement at the end of the last step is among the saved variables.
-    let mut restored = with_springs().unwrap();
-    restored.nonlinear_mut().unwrap().commit(&vec![0.0; n]);
-    let values = sprung.nonlinear().unwrap().save().unwrap();
-    restored.nonlinear_mut().unwrap().restore(&values).unwrap();
+    let mut restored_model = with_springs().unwrap();
+    restored_model.nonlinear_mut().unwrap().commit(&vec![0.0; n]);
+    let values = sprung_model.nonlinear().unwrap().save().unwrap();
+    restored_model.nonlinear_mut().unwrap().restore(&values).unwrap();
     let end = displacements(3, n, 5e-3);
-    let remainders = [&sprung, &restored].map(|s| s.nonlinear().unwrap().remainder(&end, &end));
+    let remainders =
+        [&sprung_model, &restored_model].map(|s| s.nonlinear().unwrap().remainder(&end, &end));
     assert!(remainders[0].is_some() && remainders[0] == remainders[1]);
-    let error = restored.nonlinear_mut().unwrap().restore(&values[1..]).unwrap_err();
+    let error = restored_model.nonlinear_mut().unwrap().restore(&values[1..]).unwrap_err();
     assert!(matches!(error, Error::Checkpoint(_)), "{error}");
-    assert_eq!(restored.nonlinear().unwrap().remainder(&end, &end), remainders[0]);
+    assert_eq!(restored_model.nonlinear().unwrap().remainder(&end, &end), remainders[0]);
 }
 
 #[test]
 fn p_delta_takes_the_forces_of_small_displacements() {
     let material = Material::new(20.0e6, 0.3, 1900.0).unwrap();
-    let user = with_link(HiddenElastic(material)).with_p_delta(9.81).unwrap();
+    let user_model = with_link(HiddenElastic(material)).with_p_delta(9.81).unwrap();
     let elastic = with_link(material).with_p_delta(9.81).unwrap();
-    let n = user.dofs();
+    let n = user_model.dofs();
     let geometric = |model: &FemModel| assembled(|m| model.geometric_stiffness(m).unwrap(), n);
-    assert!(relative_difference(&geometric(&user), &geometric(&elastic)) < 1e-12);
-    assert!(user.nonlinear().is_some());
+    assert!(relative_difference(&geometric(&user_model), &geometric(&elastic)) < 1e-12);
+    assert!(user_model.nonlinear().is_some());
 }
 
 #[test]
@@ -156,10 +160,11 @@ fn sections_and_reductions_refuse_elements_with_variables() {
     // Below the section they change nothing.
     let mut layers = mesh(Hardening::FIRM_SOIL);
     let roof = Material::new(30.0e9, 0.2, 2400.0).unwrap();
-    let left = layers.node_at(0.0, 4.0).unwrap();
-    let right = layers.node_at(1.0, 4.0).unwrap();
+    let left_node = layers.node_at(0.0, 4.0).unwrap();
+    let right_node = layers.node_at(1.0, 4.0).unwrap();
     let top = [layers.add_node(1.0, 5.0).unwrap(), layers.add_node(0.0, 5.0).unwrap()];
-    let quad = Quad4::new([left, right, top[0], top[1]], roof, QuadFormulation::default());
+    let quad =
+        Quad4::new([left_node, right_node, top[0], top[1]], roof, QuadFormulation::default());
     layers.add(quad).unwrap();
     assert!(FemModel::on_base(layers).unwrap().section(4.0, 0.0).is_ok());
     let error = CraigBampton::new(2).reduce(yielding()).unwrap_err();
@@ -168,7 +173,7 @@ fn sections_and_reductions_refuse_elements_with_variables() {
 
 #[test]
 fn merged_nodes_join_yielding_blocks() {
-    let whole = yielding();
+    let whole_model = yielding();
     // The same block in two parts on separate nodes, merged.
     let mut parts = Mesh::new();
     for y_lines in [&[0.0, 1.0][..], &[1.0, 2.0, 4.0]] {
@@ -184,11 +189,11 @@ fn merged_nodes_join_yielding_blocks() {
         }
     }
     parts.merge_nodes(1e-6).unwrap();
-    let joined = FemModel::on_base(parts).unwrap();
-    let n = whole.dofs();
-    assert_eq!(joined.dofs(), n);
+    let joined_model = FemModel::on_base(parts).unwrap();
+    let n = whole_model.dofs();
+    assert_eq!(joined_model.dofs(), n);
     let displacement_at = |[x, y, _]: [f64; 3]| [3e-3 * (x * y).sin(), 4e-3 * (x - y).cos()];
-    let forces = [&whole, &joined].map(|model| {
+    let forces = [&whole_model, &joined_model].map(|model| {
         let mut u = vec![0.0; n];
         for (node, point) in model.mesh().nodes().iter().enumerate() {
             for (direction, value) in

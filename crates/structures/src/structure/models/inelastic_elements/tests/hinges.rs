@@ -38,11 +38,11 @@ fn bilinear(nodes: [usize; 2]) -> Box<dyn Element> {
 fn ties_must_leave_the_deformations_that_yield() {
     let HingedColumn { model, ends } = column(bilinear);
     // Tied displacements leave the rotation.
-    let tied = model.clone().with_tied_nodes(ends[0], &[ends[1]]).unwrap();
-    assert_eq!(tied.dofs() + 2, model.dofs());
-    assert!(tied.dof(ends[1], Direction::Rotation).is_some());
-    let rigid = model.with_rigid_link(ends[0], &[ends[1]]).unwrap_err();
-    assert!(rigid.to_string().contains("links or ties"), "{rigid}");
+    let tied_model = model.clone().with_tied_nodes(ends[0], &[ends[1]]).unwrap();
+    assert_eq!(tied_model.dofs() + 2, model.dofs());
+    assert!(tied_model.dof(ends[1], Direction::Rotation).is_some());
+    let rigid_link_error = model.with_rigid_link(ends[0], &[ends[1]]).unwrap_err();
+    assert!(rigid_link_error.to_string().contains("links or ties"), "{rigid_link_error}");
     let HingedColumn { model, ends } = column(|nodes| {
         let surface = AxialMomentSurface::ellipse(2.0e6, 300.0e3).unwrap();
         let hinge = InteractionHinge::new(nodes, [0.0, 1.0], [1.0e10; 2], 1.0e8, surface);

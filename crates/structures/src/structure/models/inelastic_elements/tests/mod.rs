@@ -53,10 +53,10 @@ fn assembled(fill: impl Fn(&mut Triplets), order: usize) -> SparseMatrix {
 /// Largest entry of the difference of two matrices, relative to the largest entry of the second.
 fn relative_difference(a: &SparseMatrix, b: &SparseMatrix) -> f64 {
     let difference = SparseMatrix::sum("difference", a.order(), &[(1.0, a), (-1.0, b)]).unwrap();
-    let largest = |matrix: &SparseMatrix| {
+    let max_entry = |matrix: &SparseMatrix| {
         matrix.entries().fold(0.0, |max: f64, (_, _, value)| max.max(value.abs()))
     };
-    largest(&difference) / largest(b)
+    max_entry(&difference) / max_entry(b)
 }
 
 fn assert_near(values: &[f64], expected: &[f64], tolerance: f64) {
@@ -95,25 +95,25 @@ fn force_of_an_elastic_law_is_that_of_the_elastic_model() {
         ),
     ];
     let damping = RayleighDamping::new(0.1, 0.01).unwrap();
-    for (user, elastic) in pairs {
-        let n = user.dofs();
-        let user = user.with_rayleigh(damping);
+    for (user_model, elastic) in pairs {
+        let n = user_model.dofs();
+        let user_model = user_model.with_rayleigh(damping);
         let elastic = elastic.with_rayleigh(damping);
         let u = displacements(3, n, 1e-3);
         let expected = assembled(|m| elastic.stiffness(m).unwrap(), n);
-        let linear_part = assembled(|m| user.stiffness(m).unwrap(), n);
-        let mut forces = force(&user, &u);
+        let linear_part = assembled(|m| user_model.stiffness(m).unwrap(), n);
+        let mut forces = force(&user_model, &u);
         linear_part.multiply_add(1.0, &u, &mut forces);
         assert_near(&forces, &expected.times(&u), 1e-13);
         let total_stiffness = assembled(
             |m| {
-                user.stiffness(m).unwrap();
-                user.nonlinear().unwrap().tangent(&u, m).unwrap();
+                user_model.stiffness(m).unwrap();
+                user_model.nonlinear().unwrap().tangent(&u, m).unwrap();
             },
             n,
         );
         assert!(relative_difference(&total_stiffness, &expected) < 1e-13);
-        let user_damping = assembled(|m| user.damping(m).unwrap(), n);
+        let user_damping = assembled(|m| user_model.damping(m).unwrap(), n);
         let damping = assembled(|m| elastic.damping(m).unwrap(), n);
         assert!(relative_difference(&user_damping, &damping) < 1e-13);
     }
@@ -142,10 +142,10 @@ fn tangent_is_the_derivative_of_the_force() {
     let u = displacements(9, n, 6e-3);
     let matrix = Tangent::at(&model, &u).unwrap().matrix;
     let direction = displacements(4, n, 1.0);
-    let shifted =
+    let shifted_displacement =
         |step: f64| -> Vec<f64> { u.iter().zip(&direction).map(|(u, d)| u + step * d).collect() };
-    let upper_force = force(&model, &shifted(1e-9));
-    let lower_force = force(&model, &shifted(-1e-9));
+    let upper_force = force(&model, &shifted_displacement(1e-9));
+    let lower_force = force(&model, &shifted_displacement(-1e-9));
     let differences: Vec<f64> = upper_force
         .iter()
         .zip(&lower_force)
@@ -170,11 +170,11 @@ fn work_is_stored_dissipated_or_the_remainder() {
             let end_energy = nonlinear.energy(&end).unwrap();
             let remainder = nonlinear.remainder(&midstep, &end).unwrap();
             nonlinear.commit(&end);
-            let dissipated = end_energy.dissipated - start_energy.dissipated;
+            let dissipated_energy = end_energy.dissipated - start_energy.dissipated;
             let stored = end_energy.stored - start_energy.stored;
-            assert!(dissipated >= -1e-12 * end_energy.dissipated);
-            let scale = 1e-12 * (end_energy.stored + dissipated);
-            assert!((work - stored - dissipated - remainder).abs() < scale);
+            assert!(dissipated_energy >= -1e-12 * end_energy.dissipated);
+            let scale = 1e-12 * (end_energy.stored + dissipated_energy);
+            assert!((work - stored - dissipated_energy - remainder).abs() < scale);
             start = end;
         }
     }
@@ -187,27 +187,27 @@ fn saved_state_resumes_to_the_last_bit() {
     for seed in 1..4 {
         model.nonlinear_mut().unwrap().commit(&displacements(seed, n, 5e-3));
     }
-    let saved = model.nonlinear().unwrap().save().unwrap();
-    let mut resumed = with_link(Hardening::FIRM_SOIL);
-    resumed.nonlinear_mut().unwrap().restore(&saved).unwrap();
+    let saved_variables = model.nonlinear().unwrap().save().unwrap();
+    let mut resumed_model = with_link(Hardening::FIRM_SOIL);
+    resumed_model.nonlinear_mut().unwrap().restore(&saved_variables).unwrap();
     let cloned = model.clone();
     let midstep = displacements(8, n, 4e-3);
     let end = displacements(9, n, 5e-3);
-    for mut other in [resumed, cloned] {
-        assert_eq!(force(&other, &end), force(&model, &end));
-        assert_eq!(tangent(&other, &end), tangent(&model, &end));
+    for mut other_model in [resumed_model, cloned] {
+        assert_eq!(force(&other_model, &end), force(&model, &end));
+        assert_eq!(tangent(&other_model, &end), tangent(&model, &end));
         let force = model.nonlinear().unwrap();
-        let other_force = other.nonlinear_mut().unwrap();
+        let other_force = other_model.nonlinear_mut().unwrap();
         assert_eq!(other_force.energy(&end), force.energy(&end));
         assert_eq!(other_force.remainder(&midstep, &end), force.remainder(&midstep, &end));
         // A copy has variables of its own.
         other_force.commit(&end);
-        assert_ne!(other_force.save().unwrap(), saved);
-        assert_eq!(force.save().unwrap(), saved);
-        let mut not_finite = saved.clone();
+        assert_ne!(other_force.save().unwrap(), saved_variables);
+        assert_eq!(force.save().unwrap(), saved_variables);
+        let mut not_finite = saved_variables.clone();
         not_finite[0] = f64::NAN;
         let committed = other_force.save().unwrap();
-        for values in [&saved[1..], &[], &not_finite] {
+        for values in [&saved_variables[1..], &[], &not_finite] {
             assert!(matches!(other_force.restore(values), Err(Error::Checkpoint(_))));
         }
         assert_eq!(other_force.save().unwrap(), committed);
@@ -223,8 +223,8 @@ fn translations_give_no_force() {
             u[dof] = 2.5;
         }
     }
-    let largest = force(&model, &u).iter().fold(0.0, |max: f64, force| max.max(force.abs()));
-    assert!(largest < 1e-6, "{largest}");
+    let max_force = force(&model, &u).iter().fold(0.0, |max: f64, force| max.max(force.abs()));
+    assert!(max_force < 1e-6, "{max_force}");
 }
 
 #[test]
@@ -286,15 +286,15 @@ fn energies_count_from_the_state_at_rest() {
 fn wrong_displacements_are_errors_and_change_nothing() {
     let mut model = yielding();
     let n = model.dofs();
-    let short = vec![0.0; n - 1];
+    let short_displacement = vec![0.0; n - 1];
     let nonlinear = model.nonlinear_mut().unwrap();
     let previous_state = nonlinear.save().unwrap();
-    assert!(nonlinear.force(&short, &mut vec![0.0; n]).is_err());
+    assert!(nonlinear.force(&short_displacement, &mut vec![0.0; n]).is_err());
     assert!(nonlinear.force(&vec![0.0; n], &mut vec![0.0; n - 1]).is_err());
-    assert!(nonlinear.tangent(&short, &mut Triplets::new(n)).is_err());
-    assert!(nonlinear.energy(&short).unwrap().stored.is_nan());
-    assert!(nonlinear.remainder(&short, &short).unwrap().is_nan());
-    assert!(nonlinear.describe_state(&short, &[0]).is_none());
-    nonlinear.commit(&short);
+    assert!(nonlinear.tangent(&short_displacement, &mut Triplets::new(n)).is_err());
+    assert!(nonlinear.energy(&short_displacement).unwrap().stored.is_nan());
+    assert!(nonlinear.remainder(&short_displacement, &short_displacement).unwrap().is_nan());
+    assert!(nonlinear.describe_state(&short_displacement, &[0]).is_none());
+    nonlinear.commit(&short_displacement);
     assert_eq!(nonlinear.save().unwrap(), previous_state);
 }

@@ -14,7 +14,7 @@ fn assert_error_text<T: std::fmt::Debug>(result: Result<T>, part: &str) {
 }
 
 #[test]
-fn backbones_that_no_soil_has_are_refused() {
+fn backbones_that_no_soil_has_are_errors() {
     let bad_points: &[(&[[f64; 2]], &str)] = &[
         (&[], "points of the backbone has length 0"),
         (&[[0.0, 1.0e3]], "point 1 of the backbone: shear strain is 0"),
@@ -48,11 +48,14 @@ fn backbones_that_no_soil_has_are_refused() {
 }
 
 #[test]
-fn hyperbolic_backbones_that_no_soil_has_are_refused() {
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_error_text(Iwan::hyperbolic(bad, 1.0e3, 0.1, 0.3, 0.0), "shear modulus of the soil");
+fn hyperbolic_backbones_that_no_soil_has_are_errors() {
+    for invalid_value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_error_text(
-            Iwan::hyperbolic(1.0e6, bad, 0.1, 0.3, 0.0),
+            Iwan::hyperbolic(invalid_value, 1.0e3, 0.1, 0.3, 0.0),
+            "shear modulus of the soil",
+        );
+        assert_error_text(
+            Iwan::hyperbolic(1.0e6, invalid_value, 0.1, 0.3, 0.0),
             "shear strength of the soil",
         );
     }
@@ -65,7 +68,7 @@ fn hyperbolic_backbones_that_no_soil_has_are_refused() {
 }
 
 #[test]
-fn cones_that_no_soil_has_are_refused() {
+fn cones_that_no_soil_has_are_errors() {
     let material = elastic(2.0e7, 4.0e7);
     let bad_cones = [
         (-1.0, 0.5, 0.1, "cohesion of the soil is -1"),
@@ -87,7 +90,7 @@ fn cones_that_no_soil_has_are_refused() {
 }
 
 #[test]
-fn initial_stresses_outside_of_the_yield_surface_are_refused() {
+fn initial_stresses_outside_of_the_yield_surface_are_errors() {
     let sand = associated_sand();
     let mut variables = vec![0.5; sand.variable_count()];
     for (initial_stress, part) in [
@@ -135,25 +138,28 @@ fn strains_that_are_not_finite_change_nothing() {
         let mut variables = variables_at_rest(material, [0.0; 4]);
         material.commit([1e-3, 0.0, 0.0, 2e-3], &mut variables);
         let committed = variables.clone();
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e305, 1e152] {
+        for invalid_strain in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e305, 1e152] {
             for entry in 0..4 {
                 let mut strain = [1e-3, 0.0, 0.0, 2e-3];
-                strain[entry] = bad;
+                strain[entry] = invalid_strain;
                 assert!(material.stress(strain, &variables).is_err(), "{material:?}, {strain:?}");
                 assert!(material.energy(strain, &variables).is_err());
                 assert!(material.tangent(strain, &variables).is_err());
                 material.commit(strain, &mut variables);
-                assert_eq!(variables, committed, "{material:?}: {bad}");
+                assert_eq!(variables, committed, "{material:?}: {invalid_strain}");
                 let _ = material.state(strain, &variables);
             }
         }
-        let mut short = vec![0.0; 2];
-        assert!(matches!(material.stress([0.0; 4], &short), Err(Error::Size { found: 2, .. })));
-        assert!(material.initialize([0.0; 4], &mut short).is_err());
-        assert!(material.tangent([0.0; 4], &short).is_err());
-        assert!(material.energy([0.0; 4], &short).is_err());
-        material.commit([1e-3; 4], &mut short);
-        assert_eq!(short, [0.0; 2]);
-        assert_eq!(material.state([1e-3; 4], &short), super::super::SolidState::default());
+        let mut short_list = vec![0.0; 2];
+        assert!(matches!(
+            material.stress([0.0; 4], &short_list),
+            Err(Error::Size { found: 2, .. })
+        ));
+        assert!(material.initialize([0.0; 4], &mut short_list).is_err());
+        assert!(material.tangent([0.0; 4], &short_list).is_err());
+        assert!(material.energy([0.0; 4], &short_list).is_err());
+        material.commit([1e-3; 4], &mut short_list);
+        assert_eq!(short_list, [0.0; 2]);
+        assert_eq!(material.state([1e-3; 4], &short_list), super::super::SolidState::default());
     }
 }
