@@ -65,8 +65,8 @@ pub use matrix_scalar::MatrixScalar;
 pub use partition::Partition;
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
-    add_three_rows, dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products,
-    symmetric_products, transposed_multiply_add, vectorized, weighted_dot,
+    dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products, symmetric_products,
+    transposed_multiply_add, vectorized, weighted_dot,
 };
 pub use sparse::{ChangingFactor, SparseFactor, indefinite_row};
 pub use triplets::Triplets;

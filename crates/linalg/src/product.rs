@@ -196,41 +196,6 @@ pub fn add_row<S: Simd>(simd: S, factor: f64, row: &[f64], y: &mut [f64]) {
     y.tail.iter_mut().zip(row.tail).for_each(|(y, value)| *y += factor * value);
 }
 
-/// y ← y + Σ factor · row for three rows, with the rounding errors of one row after the other.
-pub fn add_three_rows(factors: [f64; 3], rows: [&[f64]; 3], y: &mut [f64]) {
-    vectorized(ThreeRows { factors, rows, y });
-}
-
-/// y ← y + Σ factor · row for three rows.
-struct ThreeRows<'a> {
-    factors: [f64; 3],
-    rows: [&'a [f64]; 3],
-    y: &'a mut [f64],
-}
-
-impl WithSimd for ThreeRows<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { factors, rows, y } = self;
-        let vector_factors = factors.map(|factor| simd.splat_f64s(factor));
-        let [a, b, c] = rows.map(SimdSlice::<S>::new);
-        let y = SimdSliceMut::<S>::new(y);
-        let rows = a.vectors.iter().zip(b.vectors).zip(c.vectors);
-        for (y, ((a, b), c)) in y.vectors.iter_mut().zip(rows) {
-            let first_sum = simd.mul_add_e_f64s(*a, vector_factors[0], *y);
-            let second_sum = simd.mul_add_e_f64s(*b, vector_factors[1], first_sum);
-            *y = simd.mul_add_e_f64s(*c, vector_factors[2], second_sum);
-        }
-        for (i, y) in y.tail.iter_mut().enumerate() {
-            for (row, factor) in [a.tail, b.tail, c.tail].iter().zip(factors) {
-                *y += factor * row[i];
-            }
-        }
-    }
-}
-
 /// Products of all rows of A with all rows of B: the row-major A Bᵀ.
 ///
 /// A and B are row-major with `column_count` columns.

@@ -8,7 +8,7 @@ use super::low_rank::LowRankCompliance;
 use super::problem::{
     Bounds, ConeProblem, SWEEP_TOLERANCE_FACTOR, SolveOutcome, is_too_slow, max_or_nan,
 };
-use crate::linalg::{add_three_rows, transposed_multiply_add};
+use crate::linalg::transposed_multiply_add;
 
 /// Largest number of projections of an element in a sweep.
 const MAX_LOCAL_PROJECTIONS: usize = 40;
@@ -163,13 +163,6 @@ impl ConeProblem {
         let block = &self.element_blocks[e];
         let r = relaxed_force(&self.bounds[e], self.rho[e], block, start, y, tolerance);
         let increment = [0, 1, 2].map(|k| r[k] - start[k]);
-        if increment.iter().all(|value| *value != 0.0) {
-            let size = self.component_count();
-            let rows = indices.map(|i| &self.w[i * size..][..size]);
-            add_three_rows(increment, rows, &mut self.y);
-            (0..3).for_each(|k| self.set_force(indices[k], r[k]));
-            return magnitude_sum(increment);
-        }
         for (k, &i) in indices.iter().enumerate() {
             if increment[k] != 0.0 {
                 // W is symmetric: its rows are its columns.
