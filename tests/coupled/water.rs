@@ -5,8 +5,8 @@
 use basemat::bem::embedded::TrenchGround;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::coupled::{
-    Checkpoint, Face, GravityStage, Load, Mistake, SimulationBuilder, StabilityError, State,
-    Warning,
+    Checkpoint, DissipativeMidpoint, Face, GravityStage, Load, Mistake, SimulationBuilder,
+    StabilityError, State, Theta, Warning,
 };
 use basemat::fem::{Beam, Direction, Mesh};
 use basemat::interface::{Bonded, Cohesive, Coulomb, Yielding};

@@ -24,7 +24,9 @@ pub(super) fn set_water_force(parts: &mut Parts, assembled: &Assembled) -> Resul
     if force.is_empty() {
         return Ok(());
     }
-    force.iter_mut().for_each(|value| *value *= gravity);
+    for value in &mut force {
+        *value *= gravity;
+    }
     let weight = StaticLoads::new(parts, assembled)?.weight;
     let base = &assembled.base;
     let laws = &parts.builder.laws;

@@ -30,7 +30,9 @@ impl PlacedBase {
                         .integral_weights(|ends| resultant(water, element, ends));
                     element_components(nodes, &weights, element).swap_remove(0)
                 };
-                row.into_iter().for_each(|(dof, mass)| masses[dof] -= mass);
+                for (dof, mass) in row {
+                    masses[dof] -= mass;
+                }
             }
         }
         Ok(masses)
