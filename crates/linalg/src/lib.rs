@@ -27,6 +27,7 @@ mod dissection;
 mod eigen;
 mod elimination;
 pub mod gauss;
+mod gauss_seidel_gmres;
 mod hermitian;
 mod lanes;
 mod lattice_product;
@@ -55,6 +56,7 @@ pub use condition::{condition_by_products, dense_condition, scale_by, sparse_con
 pub use dense::DenseFactor;
 pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
 pub use elimination::Elimination;
+pub use gauss_seidel_gmres::GaussSeidelGmres;
 pub use hermitian::hermitian_range;
 pub use lanes::Lanes;
 pub use lattice_product::{LatticeProduct, LatticeScratch, next_smooth_even};
