@@ -4,6 +4,8 @@ use std::cell::Cell;
 
 use super::delassus::Delassus;
 use super::problem::{ContactInput, ContactResponse, LawResult};
+use super::reduced_row::ReducedRow;
+use super::row_updates::{MAX_CHANGED_ROWS, RowUpdates};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{Condition, InterfaceLaw, Mode, PreviousContacts, Tolerance};
 use crate::linalg::{DenseFactor, dense_condition, largest};
@@ -12,6 +14,9 @@ use crate::linalg::{DenseFactor, dense_condition, largest};
 pub(super) const JUMP_ROUNDING_FACTOR: f64 = 1e-13;
 /// Rounding error of a traction relative to the largest traction.
 pub(super) const TRACTION_ROUNDING_FACTOR: f64 = 1e-12;
+
+/// Largest order of a system for which factors column by column take less time.
+const MAX_SMALL_ORDER: usize = 64;
 
 /// Solver for prescribed modes in the plane; reuses factors while the conditions stay the same.
 pub(super) struct ContactModeSolver {
@@ -23,22 +28,18 @@ pub(super) struct ContactModeSolver {
     factored_conditions: Vec<[Condition; 2]>,
     factor: DenseFactor,
     has_valid_factor: bool,
+    /// Whether a trial of the present step has used the factors.
+    is_factor_of_step: bool,
+    /// Rows in which the present matrix differs from the factored one.
+    updates: RowUpdates,
+    /// The factored matrix.
     matrix: Vec<f64>,
+    /// Scratch: a row of the present matrix.
+    changed_row: Vec<f64>,
     rhs: Vec<f64>,
     rows: Vec<ReducedRow>,
     /// Unknown contact components of the reduced system; one condition alone fixes each other component.
     dofs: Vec<usize>,
-}
-
-/// Row of the reduced system.
-struct ReducedRow {
-    element: usize,
-    /// Index of the condition within the element, 0 or 1.
-    condition: usize,
-    /// Columns of the element's tractions in the matrix, normal and tangential, if they are unknown.
-    columns: [Option<usize>; COMPONENTS_IN_PLANE],
-    /// Factor that makes the largest entry of the row 1.
-    scale: f64,
 }
 
 impl ContactModeSolver {
@@ -52,7 +53,10 @@ impl ContactModeSolver {
             factored_conditions: vec![[Condition::default(); 2]; element_count],
             factor: DenseFactor::with_capacity(size),
             has_valid_factor: false,
+            is_factor_of_step: false,
+            updates: RowUpdates::with_capacity(size),
             matrix: Vec::with_capacity(size * size),
+            changed_row: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
             rows: Vec::with_capacity(size),
             dofs: Vec::with_capacity(size),
@@ -62,6 +66,13 @@ impl ContactModeSolver {
     /// Discards the factors; call this when W has changed.
     pub(super) fn invalidate(&mut self) {
         self.has_valid_factor = false;
+    }
+
+    /// Makes rounding errors independent of previous time steps.
+    ///
+    /// The first trial of a step has factors of its own matrix, as in a resumed run.
+    pub(super) fn begin_step(&mut self) {
+        self.is_factor_of_step = false;
     }
 
     /// Condition number of the system with all elements in their modes of rest.
@@ -89,7 +100,7 @@ impl ContactModeSolver {
             let rest_mode = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
             *conditions = input.conditions(e, rest_mode)?;
         }
-        let is_regular = self.assemble(&input);
+        let is_regular = self.assemble(&input, false);
         self.has_valid_factor = false;
         if !is_regular {
             return Ok(f64::INFINITY);
@@ -120,10 +131,14 @@ impl ContactModeSolver {
             && self.conditions.iter().zip(&self.factored_conditions).all(|(a, b)| {
                 have_equal_coefficients(&a[0], &b[0]) && have_equal_coefficients(&a[1], &b[1])
             });
-        if !is_factored && !self.assemble(input) {
+        let has_curve = (0..modes.len()).any(|e| self.yields_with_hardening(e, modes[e]));
+        if is_factored {
+            self.reset_rows();
+        } else if !(has_curve && self.update_rows(input)) && !self.assemble(input, has_curve) {
             self.has_valid_factor = false;
             return Ok(false);
         }
+        self.is_factor_of_step = true;
         self.solve(input);
         self.response.evaluate(input);
         Ok(self.response.traction.iter().all(|t| t.is_finite()))
@@ -132,15 +147,81 @@ impl ContactModeSolver {
     /// Factors the reduced system: of the conditions that do not fix a component alone.
     ///
     /// Returns `false` if the system is singular.
-    fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
+    fn assemble(&mut self, input: &ContactInput<'_>, has_curve: bool) -> bool {
         self.list_rows_and_dofs();
         let order = self.dofs.len();
         if self.rows.len() != order || !self.fill_matrix(input) {
             return false;
         }
         self.factored_conditions.copy_from_slice(&self.conditions);
-        self.has_valid_factor = self.factor.factor(&self.matrix, order);
+        self.updates.begin_matrix();
+        self.has_valid_factor = if has_curve && order <= MAX_SMALL_ORDER {
+            self.factor.factor_small(&self.matrix, order)
+        } else {
+            self.factor.factor(&self.matrix, order)
+        };
         self.has_valid_factor
+    }
+
+    /// Makes the rows those of the factored matrix.
+    fn reset_rows(&mut self) {
+        self.updates.clear();
+        self.rows.iter_mut().for_each(|row| row.scale = row.factored_scale);
+    }
+
+    /// Changes a few rows of the factored matrix to those of the present conditions, if a pressure is a curve.
+    ///
+    /// Returns `false` if the system has other unknowns, if the factors may be those of an earlier step, or if a
+    /// factorization serves better.
+    fn update_rows(&mut self, input: &ContactInput<'_>) -> bool {
+        if !(self.has_valid_factor && self.is_factor_of_step) {
+            return false;
+        }
+        if self.count_changed_rows().is_none_or(|count| count > MAX_CHANGED_ROWS) {
+            return false;
+        }
+        self.reset_rows();
+        let size = self.response.layout.len();
+        let Self { conditions, factored_conditions, rows, dofs, .. } = self;
+        for (k, row) in rows.iter_mut().enumerate() {
+            let condition = &conditions[row.element][row.condition];
+            let factored_condition = &factored_conditions[row.element][row.condition];
+            if have_equal_coefficients(condition, factored_condition) {
+                continue;
+            }
+            self.changed_row.clear();
+            let Some(scale) =
+                row.append(condition, input.delassus, size, dofs, &mut self.changed_row)
+            else {
+                return false;
+            };
+            row.scale = scale;
+            let factored_row = &self.matrix[k * dofs.len()..];
+            for (value, factored) in self.changed_row.iter_mut().zip(factored_row) {
+                *value -= factored;
+            }
+            if !self.updates.change_row(&mut self.factor, k, &self.changed_row) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Number of rows whose coefficients differ from the factored ones; `None` if the unknowns differ.
+    fn count_changed_rows(&self) -> Option<usize> {
+        let mut count = 0;
+        let present = self.conditions.iter().flatten();
+        for (condition, factored) in present.zip(self.factored_conditions.iter().flatten()) {
+            if have_equal_coefficients(condition, factored) {
+                continue;
+            }
+            let fixed_component = condition.fixed_component();
+            if fixed_component != factored.fixed_component() {
+                return None;
+            }
+            count += usize::from(fixed_component.is_none());
+        }
+        Some(count)
     }
 
     /// Lists the rows of the reduced system, and its degrees of freedom.
@@ -156,9 +237,10 @@ impl ContactModeSolver {
                     self.dofs.push(self.response.layout.index_of(component, element));
                 }
             }
+            let places = self.response.layout.indices_of(element);
             for (condition, fixed_component) in fixed_components.iter().enumerate() {
                 if fixed_component.is_none() {
-                    self.rows.push(ReducedRow { element, condition, columns, scale: 1.0 });
+                    self.rows.push(ReducedRow::new(element, condition, places, columns));
                 }
             }
         }
@@ -168,41 +250,16 @@ impl ContactModeSolver {
     ///
     /// Returns `false` if a row is zero or not finite.
     fn fill_matrix(&mut self, input: &ContactInput<'_>) -> bool {
-        let Self { response, conditions, rows, dofs, matrix, .. } = self;
-        let layout = response.layout;
-        let size = layout.len();
+        let size = self.response.layout.len();
+        let Self { conditions, rows, dofs, matrix, .. } = self;
         matrix.clear();
         for row in rows {
             let condition = &conditions[row.element][row.condition];
-            let [gaps, slips] =
-                layout.indices_of(row.element).map(|place| &input.delassus[place * size..][..size]);
-            let row_start = matrix.len();
-            // Most conditions contain a gap or a slip alone.
-            let gap = condition.gap;
-            let slip = condition.slip;
-            if slip == 0.0 {
-                matrix.extend(dofs.iter().map(|&j| gap * gaps[j]));
-            } else if gap == 0.0 {
-                matrix.extend(dofs.iter().map(|&j| -(slip * slips[j])));
-            } else {
-                matrix.extend(dofs.iter().map(|&j| gap * gaps[j] - slip * slips[j]));
-            }
-            let values = &mut matrix[row_start..];
-            for (column, coefficient) in
-                row.columns.into_iter().zip([condition.pressure, condition.shear])
-            {
-                if let Some(column) = column {
-                    values[column] += coefficient;
-                }
-            }
-            let max_entry = largest(values);
-            if !(max_entry > 0.0 && max_entry.is_finite()) {
+            let Some(scale) = row.append(condition, input.delassus, size, dofs, matrix) else {
                 return false;
-            }
-            row.scale = 1.0 / max_entry;
-            for value in values {
-                *value *= row.scale;
-            }
+            };
+            row.scale = scale;
+            row.factored_scale = scale;
         }
         true
     }
@@ -235,6 +292,7 @@ impl ContactModeSolver {
             self.rhs.push(row.scale * (condition.value - fixed_traction_term));
         }
         self.factor.solve_small(&mut self.rhs);
+        self.updates.correct(&mut self.rhs);
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
             traction[i] = *value;
         }
@@ -259,6 +317,7 @@ impl ContactModeSolver {
             self.rhs.push(row.scale * change);
         }
         self.factor.solve_small(&mut self.rhs);
+        self.updates.correct(&mut self.rhs);
         for (&i, change) in self.dofs.iter().zip(&self.rhs) {
             self.response.traction[i] += change;
         }

@@ -12,6 +12,8 @@ mod linearisation;
 mod on_bed;
 mod path;
 mod problem;
+mod reduced_row;
+mod row_updates;
 mod search;
 mod solver;
 mod trial_line;

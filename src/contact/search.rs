@@ -93,6 +93,7 @@ impl ModeSearch {
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
         self.trials = 0;
+        self.solver.begin_step();
         // Laws with a single mode need no search: one solve, with the factors of the first step.
         let has_single_modes =
             modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);

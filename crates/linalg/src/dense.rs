@@ -6,7 +6,9 @@
 )]
 
 use super::matrix_scalar::{LuFactors, MatrixScalar};
-use super::product::{ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, add_rows, vectorized};
+use super::product::{
+    ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, add_row, add_rows, vectorized,
+};
 use faer::MatMut;
 use faer::dyn_stack::MemBuffer;
 
@@ -128,6 +130,29 @@ impl<T: MatrixScalar> DenseFactor<T> {
 }
 
 impl DenseFactor {
+    /// Factors the row-major `matrix` of `order` as [`DenseFactor::factor`], faster for small matrices.
+    ///
+    /// Rounding errors differ from those of [`DenseFactor::factor`].
+    pub fn factor_small(&mut self, matrix: &[f64], order: usize) -> bool {
+        self.order = order;
+        self.values.clear();
+        for column in 0..order {
+            self.values.extend(matrix[column..].iter().step_by(order));
+        }
+        self.row_permutation.clear();
+        self.row_permutation.extend(0..order);
+        self.exchange_count = vectorized(SmallElimination {
+            columns: &mut self.values,
+            row_permutation: &mut self.row_permutation,
+        });
+        self.inverse_permutation.clear();
+        self.inverse_permutation.resize(order, 0);
+        for (place, row) in self.row_permutation.iter().enumerate() {
+            self.inverse_permutation[*row] = place;
+        }
+        self.pivots().all(|pivot| pivot.is_finite() && pivot != 0.0)
+    }
+
     /// Overwrites `rhs` with A⁻¹ rhs, faster than [`DenseFactor::solve`] for small matrices.
     ///
     /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes
@@ -137,6 +162,68 @@ impl DenseFactor {
         self.permuted_rhs.extend(self.row_permutation.iter().map(|&row| rhs[row]));
         vectorized(Substitution { lu_columns: &self.values, x: &mut self.permuted_rhs });
         rhs.copy_from_slice(&self.permuted_rhs);
+    }
+}
+
+/// LU factors of a matrix in place, one column after the other, with partial pivoting.
+///
+/// Returns the number of row exchanges.
+struct SmallElimination<'a> {
+    columns: &'a mut [f64],
+    row_permutation: &'a mut [usize],
+}
+
+impl WithSimd for SmallElimination<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> usize {
+        let Self { columns, row_permutation } = self;
+        let order = row_permutation.len();
+        let mut exchange_count = 0;
+        for k in 0..order {
+            let (factored, rest) = columns.split_at_mut(k * order);
+            let present = &mut rest[..order];
+            eliminate_column(simd, factored, present);
+            let mut pivot_row = k;
+            for row in k + 1..order {
+                if present[row].abs() > present[pivot_row].abs() {
+                    pivot_row = row;
+                }
+            }
+            let inverse_pivot = present[pivot_row].recip();
+            if pivot_row != k {
+                exchange_count += 1;
+                row_permutation.swap(k, pivot_row);
+                columns.chunks_exact_mut(order).for_each(|column| column.swap(k, pivot_row));
+            }
+            for value in &mut columns[k * order + k + 1..(k + 1) * order] {
+                *value *= inverse_pivot;
+            }
+        }
+        exchange_count
+    }
+}
+
+/// Overwrites a column of a matrix with its column of U, and below with L times the pivot, from the columns before.
+#[inline(always)]
+fn eliminate_column<S: Simd>(simd: S, factored: &[f64], present: &mut [f64]) {
+    let order = present.len();
+    let count = factored.len() / order;
+    let complete_blocks_end = count - count % COLUMNS_AT_ONCE;
+    for k in (0..complete_blocks_end).step_by(COLUMNS_AT_ONCE) {
+        let (block, rows_below) = present[k..].split_at_mut(COLUMNS_AT_ONCE);
+        let columns: [&[f64]; COLUMNS_AT_ONCE] =
+            std::array::from_fn(|j| &factored[(k + j) * order..][k..order]);
+        solve_lower(|j| columns[j], block);
+        let multipliers = std::array::from_fn(|j| -block[j]);
+        let below = columns.map(|column| &column[COLUMNS_AT_ONCE..]);
+        add_rows(simd, multipliers, below, rows_below);
+    }
+    for k in complete_blocks_end..count {
+        let (entry, rows_below) = present[k..].split_at_mut(1);
+        let column = &factored[k * order + k + 1..(k + 1) * order];
+        add_row(simd, -entry[0], column, rows_below);
     }
 }
 
@@ -209,57 +296,6 @@ fn solve_upper<'a>(column: impl Fn(usize) -> &'a [f64], x: &mut [f64]) {
     }
 }
 
-/// Largest magnitude of a negative entry on the diagonal of V − L Lᵀ, relative to the tolerance.
-///
-/// For a semi-definite V, rounding errors make no entry more negative than this.
-const NEGATIVE_RESIDUAL_TOLERANCE_FACTOR: f64 = 10.0;
-
-/// Columns of L with V = L Lᵀ, for a positive semi-definite V of low rank.
-///
-/// Cholesky factorization with diagonal pivoting (Higham 2002, § 10.3), from the diagonal of V. `write_column(j, column)`
-/// overwrites `column` with column j of V. The diagonal of V − L Lᵀ is at most `tolerance`. `None` if L has more than
-/// `max_rank` columns, or V is empty or not positive semi-definite.
-pub fn pivoted_cholesky(
-    diagonal: Vec<f64>,
-    tolerance: f64,
-    max_rank: usize,
-    mut write_column: impl FnMut(usize, &mut [f64]),
-) -> Option<Vec<Vec<f64>>> {
-    let mut residual_diagonal = diagonal;
-    let mut columns: Vec<Vec<f64>> = vec![];
-    loop {
-        let pivot = (0..residual_diagonal.len())
-            .max_by(|a, b| residual_diagonal[*a].total_cmp(&residual_diagonal[*b]))?;
-        if residual_diagonal[pivot] <= tolerance {
-            let min_residual = -NEGATIVE_RESIDUAL_TOLERANCE_FACTOR * tolerance;
-            let is_semi_definite =
-                residual_diagonal.iter().all(|residual| *residual >= min_residual);
-            return is_semi_definite.then_some(columns);
-        }
-        if columns.len() == max_rank {
-            return None;
-        }
-        let root = residual_diagonal[pivot].sqrt();
-        let mut column = vec![0.0; residual_diagonal.len()];
-        write_column(pivot, &mut column);
-        let mut products = vec![0.0; column.len()];
-        for earlier_column in &columns {
-            let factor = earlier_column[pivot];
-            for (product, entry) in products.iter_mut().zip(earlier_column) {
-                *product += entry * factor;
-            }
-        }
-        for (value, product) in column.iter_mut().zip(&products) {
-            *value = (*value - product) / root;
-        }
-        for (residual, value) in residual_diagonal.iter_mut().zip(&column) {
-            *residual -= value * value;
-        }
-        residual_diagonal[pivot] = 0.0;
-        columns.push(column);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -294,6 +330,27 @@ mod tests {
             for (a, b) in rhs.iter().zip(&x) {
                 assert!((a - b).abs() < 1e-11, "order {order}: {a} for {b}");
             }
+        }
+    }
+
+    #[test]
+    fn small_factors_are_those_of_any_order() {
+        let mut random = basemat_testkit::random::Random(8);
+        let mut factor = DenseFactor::with_capacity(41);
+        let mut small_factor = DenseFactor::with_capacity(41);
+        for order in 0..=41 {
+            let matrix: Vec<f64> = (0..order * order).map(|_| random.within(-1.0, 1.0)).collect();
+            assert!(factor.factor(&matrix, order));
+            assert!(small_factor.factor_small(&matrix, order));
+            assert_eq!(small_factor.row_permutation, factor.row_permutation);
+            assert_eq!(small_factor.inverse_permutation, factor.inverse_permutation);
+            assert_eq!(small_factor.exchange_count, factor.exchange_count);
+            for (a, b) in small_factor.values.iter().zip(&factor.values) {
+                assert!((a - b).abs() < 1e-11, "order {order}: {a} for {b}");
+            }
+        }
+        for singular in [[1.0, 2.0, 2.0, 4.0], [0.0; 4], [1.0, f64::NAN, 0.0, 1.0]] {
+            assert!(!small_factor.factor_small(&singular, 2));
         }
     }
 }

@@ -27,6 +27,7 @@ mod dissection;
 mod eigen;
 mod elimination;
 pub mod gauss;
+mod gauss_seidel_gmres;
 mod hermitian;
 mod lanes;
 mod lattice_product;
@@ -41,6 +42,7 @@ mod matrix_scalar;
 mod matrix_values;
 pub mod orthonormal;
 mod partition;
+mod pivoted_cholesky;
 mod product;
 mod sparse;
 mod symmetry;
@@ -51,9 +53,10 @@ pub use complex::Complex;
 pub use complex_arithmetic::ComplexArithmetic;
 pub use compressed_matrix::CompressedMatrix;
 pub use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
-pub use dense::{DenseFactor, pivoted_cholesky};
+pub use dense::DenseFactor;
 pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
 pub use elimination::Elimination;
+pub use gauss_seidel_gmres::GaussSeidelGmres;
 pub use hermitian::hermitian_range;
 pub use lanes::Lanes;
 pub use lattice_product::{LatticeProduct, LatticeScratch, next_smooth_even};
@@ -61,6 +64,7 @@ pub use lowest_modes::{ModeLimit, lowest_modes};
 pub use matrix::SparseMatrix;
 pub use matrix_scalar::MatrixScalar;
 pub use partition::Partition;
+pub use pivoted_cholesky::{PivotedCholesky, pivoted_cholesky};
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
     dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products, symmetric_products,

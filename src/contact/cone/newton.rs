@@ -20,6 +20,14 @@ const MAX_SLOW_ITERATIONS: usize = 2;
 ///
 /// Below it, factors from an earlier iteration of the same time step are accurate enough.
 const FACTOR_REUSE_RESIDUAL: f64 = 1e-4;
+/// The same on soil that hardens, where a new matrix takes little time, since iterations need no factors.
+const MATRIX_REUSE_RESIDUAL: f64 = 1e-5;
+/// Smallest residual that the iterations of a linear system leave, relative to the present one.
+///
+/// Newton's method then needs hardly more iterations than with factors.
+const MIN_LINEAR_TOLERANCE: f64 = 1e-4;
+/// Residual of a linear system's solution, relative to the tolerance of Newton's method.
+const RESIDUAL_SAFETY_FACTOR: f64 = 0.1;
 /// Largest number of iterations of a restart with partial steps.
 const MAX_RESTART_ITERATIONS: usize = 60;
 /// Smallest random fraction of a Newton step.
@@ -114,15 +122,17 @@ impl Newton {
     pub(super) fn solve_again(&mut self, problem: &mut ConeProblem) -> SolveOutcome {
         let mut previous_residual = f64::INFINITY;
         for iteration in 0..MAX_NEWTON_ITERATIONS {
-            let residual = problem.residual();
+            // The displacements of the solution are known.
+            let residual = if iteration == 0 { problem.max_residual() } else { problem.residual() };
             if residual <= problem.tolerance() {
                 return SolveOutcome::new(iteration, true);
             }
             self.classify(problem, false);
             let is_reduced = residual <= MAX_RESIDUAL_RATIO * previous_residual;
             let reuses_factors =
-                is_reduced && residual <= FACTOR_REUSE_RESIDUAL * problem.largest_force();
-            if !self.solve_system(problem, reuses_factors) {
+                is_reduced && residual <= MATRIX_REUSE_RESIDUAL * problem.largest_force();
+            let tolerance = linear_tolerance(problem, residual);
+            if !self.solve_system(problem, reuses_factors, tolerance) {
                 return SolveOutcome::new(iteration + 1, false);
             }
             previous_residual = residual;
@@ -164,7 +174,8 @@ impl Newton {
             self.classify(problem, uses_trial_pressure);
             let reuses_factors =
                 slow_iterations == 0 && residual <= FACTOR_REUSE_RESIDUAL * problem.largest_force();
-            if !self.solve_system(problem, reuses_factors) {
+            let tolerance = linear_tolerance(problem, residual);
+            if !self.solve_system(problem, reuses_factors, tolerance) {
                 problem.force_change.copy_from_slice(&self.stored_change);
                 return SolveOutcome::new(iteration + 1, false);
             }
@@ -259,18 +270,31 @@ impl Newton {
 
     /// Solves the system of the statuses; `false` if it is singular.
     pub(super) fn solve_for_statuses(&mut self, problem: &mut ConeProblem) -> bool {
-        self.solve_system(problem, false)
+        self.solve_system(problem, false, 0.0)
     }
 
-    /// Solves the system of the statuses, with `accepts_recent_factors` as in [`System::solve`].
-    fn solve_system(&mut self, problem: &mut ConeProblem, accepts_recent_factors: bool) -> bool {
+    /// Solves the system of the statuses, with the last two arguments of [`System::solve`].
+    fn solve_system(
+        &mut self,
+        problem: &mut ConeProblem,
+        accepts_recent_factors: bool,
+        linear_tolerance: f64,
+    ) -> bool {
         match &mut self.system {
             StatusSystem::Dense(system) => {
-                system.solve(problem, &self.statuses, accepts_recent_factors)
+                system.solve(problem, &self.statuses, accepts_recent_factors, linear_tolerance)
             }
             StatusSystem::LowRank(system) => system.solve(problem, &self.statuses),
         }
     }
+}
+
+/// Residual that the iterations of a linear system may leave, relative to the present `residual`.
+///
+/// It does not limit the convergence of Newton's method by much, nor is it below what the accepted solution needs
+/// (Kelley 1995, § 6.3).
+fn linear_tolerance(problem: &ConeProblem, residual: f64) -> f64 {
+    (RESIDUAL_SAFETY_FACTOR * problem.tolerance() / residual).max(MIN_LINEAR_TOLERANCE)
 }
 
 /// Status of an element with infinite friction by its trial force.

@@ -267,6 +267,11 @@ impl ConeProblem {
         differences.iter().map(|difference| difference.abs()).sum()
     }
 
+    /// Whether a largest p grows with the settlement.
+    pub(super) fn has_hardening(&self) -> bool {
+        self.bounds.iter().any(|bounds| bounds.hardening > 0.0)
+    }
+
     /// Largest residual of all elements, N; NaN if one is NaN.
     pub(super) fn residual(&mut self) -> f64 {
         self.update_displacements();
@@ -274,7 +279,7 @@ impl ConeProblem {
     }
 
     /// Largest residual of all elements for the present y, N; NaN if one is NaN.
-    fn max_residual(&self) -> f64 {
+    pub(super) fn max_residual(&self) -> f64 {
         (0..self.element_count).map(|e| self.element_residual(e)).fold(0.0, max_or_nan)
     }
 

@@ -14,6 +14,8 @@ const MAX_ROUNDS: usize = 12;
 ///
 /// One for each round, relative to the largest force.
 const CHANGES_BEFORE_NEWTON: [f64; 4] = [3e-3, 1e-5, 1e-8, 0.0];
+/// The first of these changes on soil that hardens, where a Newton iteration takes little more time than a sweep.
+const HARDENING_CHANGE_BEFORE_NEWTON: f64 = 3e-2;
 /// Largest friction for which all methods are tried.
 ///
 /// A search for higher friction begins with lower friction.
@@ -223,7 +225,12 @@ fn alternate_accelerated_sweeps_and_newton(
 ) -> SearchOutcome {
     let mut iterations = 0;
     for (round, relative_change) in CHANGES_BEFORE_NEWTON.into_iter().enumerate() {
-        let outcome = problem.sweep_accelerated(relative_change);
+        let sufficient_change = if round == 0 && problem.has_hardening() {
+            HARDENING_CHANGE_BEFORE_NEWTON
+        } else {
+            relative_change
+        };
+        let outcome = problem.sweep_accelerated(sufficient_change);
         iterations += outcome.iterations;
         if outcome.is_solved {
             return SearchOutcome::with_method(sweep_method(round), outcome, iterations);

@@ -22,10 +22,12 @@
 use super::problem::ConeProblem;
 use super::status::{Status, Tangential};
 use super::unknowns::{ComponentSum, Unknown, Unknowns};
-use crate::linalg::{DenseFactor, dense_multiply_add, dot};
+use crate::linalg::{DenseFactor, GaussSeidelGmres, dense_multiply_add, dot};
 
 /// Number of columns of W⁻¹ that are solved together.
 const INVERSE_BLOCK_COLUMNS: usize = 32;
+/// Smallest order at which iterations take less time than factors.
+const MIN_ITERATIVE_ORDER: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE_COST_FACTOR: f64 = 4.0;
 
@@ -39,6 +41,12 @@ pub(super) struct System {
     mixed_rows: Vec<ComponentSum>,
     rhs: Vec<f64>,
     factor: DenseFactor,
+    /// Iterations in place of factors, if soil hardens.
+    iterations: GaussSeidelGmres,
+    /// Whether the last matrix is that of the iterations, and has no factors.
+    is_iterative: bool,
+    /// Whether the unknowns of the last matrix are displacements.
+    has_displacement_factors: bool,
     /// Factors of W, if `has_w_factor`.
     w_factor: DenseFactor,
     has_w_factor: bool,
@@ -75,6 +83,9 @@ impl System {
             mixed_rows: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
             factor: DenseFactor::with_capacity(size),
+            iterations: GaussSeidelGmres::with_capacity(size),
+            is_iterative: false,
+            has_displacement_factors: false,
             w_factor: DenseFactor::with_columns(size, INVERSE_BLOCK_COLUMNS),
             has_w_factor: false,
             inverse: Vec::with_capacity(size * size),
@@ -105,7 +116,7 @@ impl System {
     pub(super) fn begin_step(&mut self) {
         self.is_recent = false;
         if !self.is_constant {
-            self.is_reusable &= !self.unknowns.are_displacements;
+            self.is_reusable &= !self.has_displacement_factors;
             self.inverse.clear();
             self.saved_cost = 0.0;
         }
@@ -116,11 +127,13 @@ impl System {
     /// `false` if the system is singular.
     ///
     /// `accepts_recent_factors`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
+    /// `linear_tolerance`: residual that iterations may leave, relative to the present one; zero for factors.
     pub(super) fn solve(
         &mut self,
         problem: &mut ConeProblem,
         statuses: &[Status],
         accepts_recent_factors: bool,
+        linear_tolerance: f64,
     ) -> bool {
         if statuses.iter().all(|status| *status == Status::CLOSED_STICKING) {
             return self.solve_sticking(problem);
@@ -128,26 +141,33 @@ impl System {
         let has_no_slip =
             !statuses.iter().any(|status| matches!(status.tangential, Tangential::Slip { .. }));
         let are_displacements = self.prefers_displacements(problem, statuses);
-        let is_factored = self.unknowns.are_displacements == are_displacements
-            && (has_no_slip && self.is_reusable && self.factored_statuses == statuses
-                || accepts_recent_factors
-                    && self.is_recent
-                    && self.has_factors_of_same_kinds(statuses));
+        self.unknowns.are_displacements = are_displacements;
+        self.unknowns.gather(problem, statuses);
+        let is_iterative = linear_tolerance > 0.0
+            && self.unknowns.list.len() >= MIN_ITERATIVE_ORDER
+            && problem.has_hardening();
+        // Iterations have other rounding errors than factors of an earlier step.
+        let is_reusable = has_no_slip
+            && self.is_reusable
+            && (self.is_recent || !is_iterative)
+            && self.factored_statuses == statuses;
+        let accepts_recent = accepts_recent_factors && self.is_recent;
+        let is_factored = self.has_displacement_factors == are_displacements
+            && (is_reusable || accepts_recent && self.has_factors_of_same_kinds(statuses));
         if !is_factored {
             self.is_reusable = false;
             self.is_recent = false;
-            self.unknowns.are_displacements = are_displacements;
-        }
-        self.unknowns.gather(problem, statuses);
-        if !is_factored {
-            if !self.assemble(problem) {
+            if !self.assemble(problem, is_iterative) {
                 return false;
             }
-            self.is_reusable = has_no_slip;
+            self.has_displacement_factors = are_displacements;
+            self.is_reusable = has_no_slip && !is_iterative;
             self.is_recent = true;
             self.factored_statuses.copy_from_slice(statuses);
         }
-        self.correct(problem);
+        if !self.correct(problem, linear_tolerance) {
+            return false;
+        }
         problem.set_prescribed_forces(statuses);
         problem.force_change.iter().all(|change| change.is_finite())
     }
@@ -216,10 +236,12 @@ impl System {
         !self.inverse.is_empty()
     }
 
-    /// Factors the matrix of the unknowns; `false` if it is singular.
-    fn assemble(&mut self, problem: &ConeProblem) -> bool {
+    /// Factors the matrix of the unknowns, or stores it for iterations; `false` if it is singular.
+    fn assemble(&mut self, problem: &ConeProblem, is_iterative: bool) -> bool {
         let size = problem.component_count();
-        let Self { unknowns, factor, inverse, products, single_rows, mixed_rows, .. } = self;
+        let Self {
+            unknowns, factor, iterations, inverse, products, single_rows, mixed_rows, ..
+        } = self;
         let matrix = if unknowns.are_displacements { inverse } else { &problem.w };
         let unknowns = &unknowns.list;
         let single_count = unknowns.partition_point(|unknown| unknown.row.is_single());
@@ -228,7 +250,7 @@ impl System {
         single_rows.extend(unknowns[..single_count].iter().map(|unknown| unknown.row.indices[0]));
         mixed_rows.clear();
         mixed_rows.extend(unknowns[single_count..].iter().map(|unknown| unknown.row));
-        factor.factor_columns(unknowns.len(), |j, values| {
+        let mut append_column = |j: usize, values: &mut Vec<f64>| {
             let ComponentSum { indices, weights } = &unknowns[j].column;
             // The matrix is symmetric: its rows are its columns.
             let [first, second, third] = indices.map(|i| &matrix[i * size..][..size]);
@@ -246,14 +268,54 @@ impl System {
             values.extend(single_rows.iter().map(|i| column[*i]));
             values.extend(mixed_rows.iter().map(|row| row.sum(column)));
             values[begin + j] += unknowns[j].diagonal();
+        };
+        self.is_iterative = is_iterative;
+        if !is_iterative {
+            return factor.factor_columns(unknowns.len(), append_column);
+        }
+        iterations.set_columns(unknowns.len(), &mut append_column) || self.factor_iterated_matrix()
+    }
+
+    /// Factors the matrix of iterations that do not converge; `false` if it is singular.
+    fn factor_iterated_matrix(&mut self) -> bool {
+        let Self { unknowns, factor, iterations, .. } = self;
+        self.is_iterative = false;
+        factor.factor_columns(unknowns.list.len(), |j, values| {
+            values.extend_from_slice(iterations.column(j));
         })
     }
 
     /// Solves, and adds the corrections to r.
     ///
     /// Unknown displacements determine the forces; the next product with W updates the displacements themselves.
-    fn correct(&mut self, problem: &mut ConeProblem) {
-        let Self { unknowns, rhs, factor, inverse, products, .. } = self;
+    ///
+    /// `false` if iterations do not converge, and the matrix is singular.
+    fn correct(&mut self, problem: &mut ConeProblem, linear_tolerance: f64) -> bool {
+        self.prescribe(problem);
+        let is_converged =
+            self.is_iterative && self.iterations.solve(&mut self.rhs, linear_tolerance).is_some();
+        if !is_converged {
+            if self.is_iterative && !self.factor_iterated_matrix() {
+                return false;
+            }
+            self.factor.solve(&mut self.rhs);
+        }
+        let Self { unknowns, rhs, inverse, .. } = self;
+        let Unknowns { list, are_displacements, prescribed } = unknowns;
+        let ConeProblem { force_change, y, .. } = problem;
+        let (solved, other) =
+            if *are_displacements { (y, force_change) } else { (force_change, y) };
+        let corrected = if *are_displacements { &mut *prescribed } else { solved };
+        list.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(corrected, *x));
+        if *are_displacements {
+            dense_multiply_add(inverse, 1.0, prescribed, other);
+        }
+        true
+    }
+
+    /// Adds the prescribed corrections to r or y, and computes the right-hand side.
+    fn prescribe(&mut self, problem: &mut ConeProblem) {
+        let Self { unknowns, rhs, inverse, products, .. } = self;
         let Unknowns { list, are_displacements, prescribed } = unknowns;
         let ConeProblem { w, force_change, y, .. } = problem;
         let matrix = if *are_displacements { inverse } else { w };
@@ -278,11 +340,5 @@ impl System {
             let Unknown { row, coefficient, weighted_sum, goal, .. } = unknown;
             goal - row.sum(products) - coefficient * weighted_sum.sum(solved)
         }));
-        factor.solve(rhs);
-        let corrected = if *are_displacements { &mut *prescribed } else { solved };
-        list.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(corrected, *x));
-        if *are_displacements {
-            dense_multiply_add(matrix, 1.0, prescribed, other);
-        }
     }
 }

@@ -84,11 +84,11 @@ fn unknown_forces_or_displacements_meet_the_conditions_of_statuses() {
             for _ in 0..trial * usize::from(trial % 20 > 0) {
                 problem.reset_forces();
                 let earlier_statuses = [&other_statuses, &statuses][trial % 2];
-                system.solve(&mut problem, earlier_statuses, trial % 3 == 0);
+                system.solve(&mut problem, earlier_statuses, trial % 3 == 0, 0.0);
             }
             system.begin_step();
             problem.reset_forces();
-            assert!(system.solve(&mut problem, &statuses, false), "case {case}");
+            assert!(system.solve(&mut problem, &statuses, false, 0.0), "case {case}");
             problem.update_displacements();
             if trial % 20 == 0 {
                 let has_other_bits = is_constant && first_change != problem.force_change;
@@ -106,4 +106,60 @@ fn unknown_forces_or_displacements_meet_the_conditions_of_statuses() {
     }
     // Both systems were solved.
     assert!(other_bits_count > 80, "{other_bits_count}");
+}
+
+/// Iterations reach their tolerance, are the same whatever was solved before, and end in factors where they do not converge.
+#[test]
+fn iterations_on_hardening_soil_meet_the_conditions_to_their_tolerance() {
+    let mut random = Random(4);
+    let count = 24;
+    let mut problem = random_problem(&mut random, count, 0.5);
+    let size = problem.component_count();
+    for case in 0..40 {
+        // Elements that move each other little, as on soil, or much.
+        let coupling = [1e-3, 1e-2, 0.3][case % 3];
+        for (k, entry) in problem.w.iter_mut().enumerate() {
+            let [row, column] = [k / size, k % size];
+            let phase = (1 + row.min(column)) as f64 * (1 + row.max(column)) as f64;
+            *entry = if row == column { 1.0 } else { coupling * phase.sin() };
+        }
+        problem.update_scales();
+        problem.q.iter_mut().for_each(|value| *value = random.within(-1.0, 1.0));
+        for bounds in &mut problem.bounds {
+            bounds.interval = [-0.2, 0.7];
+            bounds.hardening = 0.7;
+        }
+        let angle: f64 = random.within(0.0, 6.0);
+        let statuses: Vec<Status> = (0..count)
+            .map(|e| Status {
+                normal: [Normal::Closed, Normal::Hardening(0.7), Normal::Open][e % 3],
+                tangential: [
+                    Tangential::Stick,
+                    Tangential::Slip {
+                        direction: [angle.cos(), angle.sin()],
+                        radius_ratio: 0.6,
+                        radius_slope: 0.5,
+                    },
+                ][e / 3 % 2],
+            })
+            .collect();
+        let mut system = System::new(count);
+        let mut changes = Vec::new();
+        for linear_tolerance in [1e-3, 1e-3, 1e-13, 0.0] {
+            problem.reset_forces();
+            let largest_before = problem.q.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+            system.begin_step();
+            assert!(system.solve(&mut problem, &statuses, false, linear_tolerance));
+            problem.update_displacements();
+            let tolerance = 30.0 * linear_tolerance.max(1e-13) * largest_before;
+            for (e, status) in statuses.iter().enumerate() {
+                for residual in condition_residuals(&problem, e, status) {
+                    assert!(residual.abs() < tolerance, "{case}, {e}: {residual:e}, {tolerance:e}");
+                }
+            }
+            changes.push(problem.force_change.clone());
+        }
+        assert_eq!(changes[0], changes[1]);
+        assert_ne!(changes[1], changes[2], "iterations end at their tolerance");
+    }
 }
