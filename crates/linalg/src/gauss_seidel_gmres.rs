@@ -178,7 +178,8 @@ impl LeastSquares {
                 [c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]];
         }
         let length = column[k].hypot(column[k + 1]);
-        let [c, s] = [column[k] / length, column[k + 1] / length];
+        let c = column[k] / length;
+        let s = column[k + 1] / length;
         self.rotations[k] = [c, s];
         column[k] = length;
         self.triangle[k] = column;
