@@ -77,14 +77,19 @@ impl OnBed {
         let zeros = vec![0.0; soil.len()];
         let numbered_areas = areas.iter().enumerate();
         let traction = numbered_areas.map(|(i, area)| (1.0 + i as f64).sin() / area).collect();
-        let [expected, product, forces] = std::array::from_fn(|_| zeros.clone());
         let mut operator = Self {
             soil: soil.to_vec(),
             areas,
             modes: Vec::new(),
             mode_count: 0,
             factor: PivotedCholesky::default(),
-            check: SymmetryCheck { traction, expected, product, forces, amplitudes: Vec::new() },
+            check: SymmetryCheck {
+                traction,
+                expected: zeros.clone(),
+                product: zeros.clone(),
+                forces: zeros,
+                amplitudes: Vec::new(),
+            },
         };
         operator.refill(max_mode_count, structure).then_some(operator)
     }
