@@ -134,9 +134,12 @@ impl ContactModeSolver {
         let has_curve = (0..modes.len()).any(|e| self.yields_with_hardening(e, modes[e]));
         if is_factored {
             self.reset_rows();
-        } else if !(has_curve && self.update_rows(input)) && !self.assemble(input, has_curve) {
-            self.has_valid_factor = false;
-            return Ok(false);
+        } else {
+            let is_updated = has_curve && self.update_rows(input);
+            if !is_updated && !self.assemble(input, has_curve) {
+                self.has_valid_factor = false;
+                return Ok(false);
+            }
         }
         self.is_factor_of_step = true;
         self.solve(input);

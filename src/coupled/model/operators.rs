@@ -346,6 +346,7 @@ fn operator_on_bed(
 /// Part of the Delassus operator of a structure with the responses K⁻¹BᵀA.
 ///
 /// `displacement`: a buffer with an entry for each degree of freedom.
+#[allow(clippy::type_complexity, reason = "the part consists of three closures")]
 fn structure_part<'a>(
     traction_responses: &'a [f64],
     base: &'a PlacedBase,
