@@ -134,9 +134,12 @@ impl ContactModeSolver {
         let has_curve = (0..modes.len()).any(|e| self.yields_with_hardening(e, modes[e]));
         if is_factored {
             self.reset_rows();
-        } else if !(has_curve && self.update_rows(input)) && !self.assemble(input, has_curve) {
-            self.has_valid_factor = false;
-            return Ok(false);
+        } else {
+            let is_updated = has_curve && self.update_rows(input);
+            if !is_updated && !self.assemble(input, has_curve) {
+                self.has_valid_factor = false;
+                return Ok(false);
+            }
         }
         self.is_factor_of_step = true;
         self.solve(input);
@@ -145,6 +148,8 @@ impl ContactModeSolver {
     }
 
     /// Factors the reduced system: of the conditions that do not fix a component alone.
+    ///
+    /// `has_curve`: whether the pressure of an element is a curve over its settlement.
     ///
     /// Returns `false` if the system is singular.
     fn assemble(&mut self, input: &ContactInput<'_>, has_curve: bool) -> bool {
@@ -155,6 +160,7 @@ impl ContactModeSolver {
         }
         self.factored_conditions.copy_from_slice(&self.conditions);
         self.updates.begin_matrix();
+        // Laws without a curve keep their rounding errors.
         self.has_valid_factor = if has_curve && order <= MAX_SMALL_ORDER {
             self.factor.factor_small(&self.matrix, order)
         } else {
