@@ -153,6 +153,7 @@ pub(crate) fn in_python_words(mut text: String) -> String {
         ("FiberSection::with_torsional_stiffness", "FiberSection.with_torsional_stiffness"),
         ("QuadFormulation::MeanDilatation", "\"mean_dilatation\""),
         ("site::SoilColumn", "SoilColumn"),
+        ("`Mesh::merge_nodes`", "`Mesh.merge_nodes`"),
         ("`Ground::elements`", "`ground.elements`"),
         ("`Record::padded`", "`Record.padded`"),
         ("`Incoherence::clipped`", "`Incoherence(clipped=True)`"),

@@ -97,7 +97,8 @@ mod _core {
         refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity, refine, sensitivity},
         results::{
             PyDeformedShape, PyEnergyBalance, PyExtremes, PyInteraction, PyJointResults, PyPeak,
-            PyRun, PyServiceCheck, PySummary, PySystemMode, equivalent_damping, joint_results,
+            PyPushOver, PyRun, PyServiceCheck, PySummary, PySystemMode, equivalent_damping,
+            joint_results,
         },
         row::{PyDofCombination, PySectionRows},
         simulation::{

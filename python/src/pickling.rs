@@ -13,8 +13,8 @@ use crate::ground::{PyImpedances, PyKinematicMotions};
 use crate::motion::PySpectrum;
 use crate::refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity};
 use crate::results::{
-    PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun, PyServiceCheck, PySummary,
-    PySystemMode,
+    PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyPushOver, PyRun, PyServiceCheck,
+    PySummary, PySystemMode,
 };
 use crate::row::PyDofCombination;
 use crate::simulation::{PyFaceForces, PyFoundation};
@@ -68,5 +68,5 @@ pickled_classes! {
     PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
     PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode PyFaceForces PyKinematicMotions
     PySoil PyBaseNode PyBaseFaces PyDofCombination PyCondition PyLimits PyTolerance PySolidPoints PyBeamSections
-    PyHingeState
+    PyHingeState PyPushOver
 }

@@ -218,6 +218,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_Change": lambda word: simulation().resume(simulation().checkpoint(), [word]),  # type: ignore[list-item]
     "_GravityStage": lambda word: simulation(initial=bm.InitialConditions(gravity_stage=word)),
     "_Coordinates": lambda word: simulation(solver=bm.SolverOptions(coordinates=word)),
+    "_AbrahamsonModel": lambda word: bm.AbrahamsonCoherence(word),  # type: ignore[arg-type]
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),
     "_Face": lambda word: simulation().state.face(word),  # type: ignore[arg-type]
     "_PlanDirection": lambda word: bm.StoreyBuilding(

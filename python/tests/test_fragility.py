@@ -187,7 +187,7 @@ def test_stripes_scale_each_record_to_each_intensity() -> None:
     [
         ({}, [1.0], "peak_acceleration", "records must be a mapping"),
         ([RECORDS["record 0"]], [1.0], "peak_acceleration", "records must be a mapping"),
-        ({"a": 3.0}, [1.0], "peak_acceleration", "record 'a' is float, but must be a Record"),
+        ({"a": 3.0}, [1.0], "peak_acceleration", "record 'a' is float, but must be a Record or a dict"),
         ({"a": bm.Record(0.01, [0.0, 0.0])}, [1.0], "peak_acceleration", "record 'a' has the intensity 0"),
         (RECORDS, [2.0, 1.0], "peak_acceleration", "intensities are .*, but must be rising"),
         (RECORDS, [0.0, 1.0], "peak_acceleration", "positive and finite"),
@@ -315,3 +315,42 @@ def test_pictures_have_the_data() -> None:
         drawn = np.array(lines["median"].get_ydata())
         np.testing.assert_allclose(lines["median"].get_xdata(), 1e3 * 0.5 * drawn**2)
         assert list(lines["limit"].get_xdata()) == [1e3, 1e3]
+
+
+COMPONENTS = {
+    name: {"x": record, "y": bm.Record(0.01, [0.0, 0.6, 0.1, -0.3, 0.0]), "up": record.scaled(3.0)} for name, record in RECORDS.items()
+}
+
+
+def demands_of_components(record: dict[str, bm.Record]) -> dict[str, float]:
+    bm.triaxial(**record)
+    return {f"demand {name}": component.peak_acceleration for name, component in record.items()}
+
+
+def test_components_of_a_record_have_one_factor() -> None:
+    table = bm.multiple_stripes(demands_of_components, COMPONENTS, LEVELS)
+    # The intensity is the geometric mean of both horizontal components.
+    means = np.sqrt(table["demand x"] * table["demand y"])
+    np.testing.assert_allclose(means, table["intensity"], rtol=1e-13)
+    np.testing.assert_allclose(table["demand up"], 3.0 * table["demand x"], rtol=1e-13)
+    ratios = table["demand y"] / table["demand x"]
+    unscaled = [0.6 / COMPONENTS[name]["x"].peak_acceleration for name in table["record"]]
+    np.testing.assert_allclose(ratios, unscaled, rtol=1e-13)
+    spectral = bm.multiple_stripes(demands_of_components, COMPONENTS, [2.0], measure=0.3)
+    for name, demand in zip(spectral["record"], spectral["demand x"]):
+        ordinates = [COMPONENTS[name][axis].response_spectrum([0.3], 0.05).pseudo_acceleration[0] for axis in "xy"]
+        peak = COMPONENTS[name]["x"].peak_acceleration
+        assert demand == pytest.approx(2.0 * peak / math.sqrt(ordinates[0] * ordinates[1]), rel=1e-12)
+    largest = bm.multiple_stripes(
+        demands_of_components, COMPONENTS, [2.0], measure=lambda record: max(own.peak_acceleration for own in record.values())
+    )
+    np.testing.assert_allclose(largest["demand up"], 2.0, rtol=1e-13)
+    analysis = bm.incremental_dynamic_analysis(demands_of_components, COMPONENTS, LEVELS, "demand x", 1.2)
+    assert len(analysis) < len(table) and (analysis.groupby("record")["demand x"].max() > 1.2).any()
+    for records, text in (
+        ({"a": {"up": RECORDS["record 0"]}}, "record 'a' has no horizontal component"),
+        ({"a": {}}, "record 'a' has no horizontal component"),
+        ({"a": {"x": 3.0}}, "component 'x' of record 'a' is float, but must be a Record"),
+    ):
+        with pytest.raises(bm.InputError, match=text):
+            bm.multiple_stripes(demands_of_components, records, [1.0])  # type: ignore[type-var]

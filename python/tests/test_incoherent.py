@@ -92,7 +92,7 @@ def test_no_incoherence_is_the_coherent_run() -> None:
         motion = bm.Incoherence(bm.LucoWong(0.0, 300.0)).motion(ground, x=RECORD)
         runs = []
         for field in (motion, coherent):
-            simulation = bm.Simulation(0.01, structure, ground, bm.Coulomb(0.5), motion=field)  # type: ignore[arg-type]
+            simulation = bm.Simulation(0.01, structure, ground, bm.Coulomb(0.5), motion=field)
             runs.append(simulation.run(700, warn=False)["base_shear"])
         assert np.abs(runs[0] - runs[1]).max() < 1e-12 * np.abs(runs[1]).max()
 
@@ -161,7 +161,8 @@ def test_water_lifts_a_base() -> None:
     other = run(bm.InitialConditions(gravity=gravity))
     difference = np.abs(found["normal_force"] - other["normal_force"]).max()
     assert difference < 1e-12 * np.abs(other["normal_force"]).max()
-    assert other.buoyancy == 0.0 and copied(found).buoyancy == found.buoyancy
+    copy = copied(found)
+    assert isinstance(copy, bm.Run) and other.buoyancy == 0.0 and copy.buoyancy == found.buoyancy
     with pytest.raises(bm.InputError, match=r"floats: the water lifts it"):
         run(bm.InitialConditions(water_table=bm.WaterTable(-16.0)))
     with pytest.raises(TypeError, match=r"InitialConditions\(water_table="):

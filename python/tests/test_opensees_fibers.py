@@ -171,6 +171,7 @@ def expected() -> tuple[np.ndarray, np.ndarray]:
         ("forceBeamColumn", "Legendre", 0.1, 1e-6),
     ],
 )
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.filterwarnings("error")
 def test_fibres_yield_as_in_opensees(element: str, integration: str, offset: float, tolerance: float, steel: str) -> None:
     column(element, steel, offset=offset, integration=integration)

@@ -74,7 +74,7 @@ def test_the_guides_parts_work(ran: dict[str, tuple[dict[str, Any], Path]]) -> N
 
 def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[str, Any], Path]]) -> None:
     gallery = sorted(own.stem for own in (pages.DOCS / "gallery").glob("*.md"))
-    assert len(gallery) == 16
+    assert len(gallery) == 17
     listed = (pages.DOCS / "gallery.md").read_text("utf-8")
     for page in gallery:
         assert f"(gallery/{page}.md)" in listed
@@ -96,11 +96,17 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
     # The weak column yields, the strong one lifts its footing.
     weak, strong = ran["fiber_column"][0]["results"].values()
     assert np.abs(weak[0]).max() > 3.0 * np.abs(strong[0]).max() and np.abs(strong[1]).max() > 1.8 * np.abs(weak[1]).max()
+    # Wide footings let the hinges yield, narrow ones lift off.
+    (wide, narrow), rotations = ran["push_over"][0]["curves"].values(), list(ran["push_over"][0]["rotations"].values())
+    assert wide.load_factor.max() == pytest.approx(400e3, rel=0.02) and narrow.load_factor.max() < 0.9 * wide.load_factor.max()
+    assert wide.cause is None and narrow.cause is None and rotations[0] > 0.01 > 100.0 * rotations[1]
     incoherent = ran["incoherent"][0]
     assert incoherent["twists"][0] < 1e-6 < 0.5 < min(incoherent["twists"][1:])
     assert incoherent["run"].buoyancy == pytest.approx(1000.0 * bm.STANDARD_GRAVITY * 4.0 * 900.0, rel=1e-6)
     near_field = ran["near_field"][0]
     assert near_field["moments"]["yielding"] < 1.1 * near_field["capacity"] < 1.5 * near_field["moments"]["linear"]
+    film = ran["law"][0]["film"]
+    assert film.energy_error < 1e-9 and film.energy_balance.contact > 0.5 * film.energy_balance.input
     assert ran["hysteresis"][0]["columns"].path > 0.05 and ran["cask"][0]["run"].uplifted_fraction.value > 0.3
 
 

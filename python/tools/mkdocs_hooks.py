@@ -20,7 +20,7 @@ SUBJECTS = {
     "Laws of the interface": ("InterfaceLaw", "Limits", "Joint", "ShallowFooting"),
     "Springs and materials": ("Hysteresis", "Material", "BeamSection", "Iwan", "DruckerPrager"),
     "Motions": ("FreeField", "Spectrum", "PlaneWave", "SoilColumn", "InclinedWave", "EquivalentLinear"),
-    "Simulations and results": ("Simulation", "Summary", "State", "Probe", "Load", "JointResults", "Interaction", "Fragility"),
+    "Simulations and results": ("Simulation", "Summary", "State", "Probe", "Load", "JointResults", "Interaction", "PushOver", "Fragility"),
 }
 """Classes of each subject; classes that extend them belong to it."""
 STYLE = """/* Lines of code as wide as the window allows; longer ones break instead of scrolling. */

@@ -36,7 +36,6 @@ mod runs;
 mod scheme_accuracy;
 mod shear_column;
 mod soil_at_rest;
-mod soil_box;
 mod soil_column;
 mod space_fibre_frames;
 mod standing_scenes;

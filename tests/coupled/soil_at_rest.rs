@@ -15,9 +15,8 @@ use basemat::soil::SoilProfile;
 use basemat::structure::{CraigBampton, FemModel, RayleighDamping, Structure};
 use basemat::{Simulation, Soil, unobserved};
 
+use basemat_problems::soil_box::SoilBox;
 use basemat_problems::yielding_blocks::grid_lines;
-
-use super::soil_box::SoilBox;
 
 /// Half width and depth of the box, m.
 const HALF_WIDTH: f64 = 4.0;

@@ -27,6 +27,7 @@ mod key;
 mod layered_accuracy;
 mod layered_cost;
 mod mats;
+mod near_field;
 mod opensees;
 mod paper_readings;
 mod paper_scheme;
@@ -73,6 +74,7 @@ enum Study {
     Mats(mats::MatsOptions),
     Elements(elements::ElementsOptions),
     Embedded(embedded::EmbeddedOptions),
+    NearField(near_field::NearFieldOptions),
     RockingFooting(rocking_footing::RockingFootingOptions),
     SettlingCost(settling_cost::SettlingCostOptions),
     TrenchCost(trench_cost::TrenchCostOptions),
@@ -107,6 +109,7 @@ fn main() -> ExitCode {
         Study::Mats(options) => mats::run(&options),
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
+        Study::NearField(options) => near_field::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
         Study::SettlingCost(options) => settling_cost::run(&options),
         Study::TrenchCost(options) => trench_cost::run(&options),

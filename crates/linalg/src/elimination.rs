@@ -40,6 +40,8 @@ struct EliminationOrder {
     positions: Vec<usize>,
     /// Number of entries of the factor for which the order was chosen.
     entry_count: usize,
+    /// Number of rows that stay last, whatever parts of the matrix they belong to.
+    last_count: usize,
 }
 
 impl Elimination {
@@ -124,6 +126,7 @@ impl EliminationOrder {
             rows: permutation.0.to_vec(),
             positions: permutation.1.to_vec(),
             entry_count: factor.len_val(),
+            last_count: 0,
         })
     }
 
@@ -135,7 +138,8 @@ impl EliminationOrder {
         }
         let first_rows = self.rows.iter().filter(|row| !is_last[**row]);
         let rows = first_rows.chain(last_rows).copied().collect();
-        Elimination(Arc::new(OnceLock::from(Self::new(rows, self.entry_count))))
+        let order = Self { last_count: last_rows.len(), ..Self::new(rows, self.entry_count) };
+        Elimination(Arc::new(OnceLock::from(order)))
     }
 
     /// Order of nested dissection.
@@ -152,13 +156,13 @@ impl EliminationOrder {
     fn new(rows: Vec<usize>, entry_count: usize) -> Self {
         let mut positions = vec![0; rows.len()];
         rows.iter().enumerate().for_each(|(position, &row)| positions[row] = position);
-        Self { rows, positions, entry_count }
+        Self { rows, positions, entry_count, last_count: 0 }
     }
 
     /// This order, with the uncoupled parts of the matrix one after the other.
     ///
     /// The mass matrix of bricks does not couple directions: if columns of different directions alternate, its factor
-    /// has no dense blocks.
+    /// has no dense blocks. The last rows stay last, because a condensed matrix has rows of all parts.
     fn sorted_by_parts(&self, pattern: Pattern<'_>) -> Self {
         let mut parts = Partition::new(self.rows.len());
         for column in 0..self.rows.len() {
@@ -166,8 +170,9 @@ impl EliminationOrder {
             rows.for_each(|row| parts.join(column, *row));
         }
         let mut rows = self.rows.clone();
-        rows.sort_by_key(|row| parts.root(*row));
-        Self::new(rows, self.entry_count)
+        let first_count = rows.len() - self.last_count;
+        rows[..first_count].sort_by_key(|row| parts.root(*row));
+        Self { last_count: self.last_count, ..Self::new(rows, self.entry_count) }
     }
 
     /// The order in the form of the matrix library.

@@ -7,7 +7,7 @@ soil. ``python -m basemat`` says what there is; the README of the package has a 
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from . import _animation, _exchange, _frames, _meshes, _pickling as _pickling, _plots, _report, _shapes, _shell_moments, _walls
+from . import _animation, _exchange, _frames, _meshes, _pickling as _pickling, _plots, _push_over, _report, _shapes, _shell_moments, _walls
 from ._beds import SpringDashpots as SpringDashpots
 from ._core import *
 from ._core import __version__ as __version__
@@ -54,6 +54,8 @@ for _class, _name, _method in (
     (Impedances, "to_frame", _frames.impedance_frame),
     (Impedances, "plot", _plots.plot_impedances),
     (KinematicMotions, "to_frame", _frames.kinematic_frame),
+    (PushOver, "plot", _push_over.plot_push_over),
+    (PushOver, "to_frame", _push_over.push_over_frame),
     (DeformedShape, "plot", _shapes.plot_shape),
     (FemModel, "plot_shell_moments", _shell_moments.plot_shell_moments),
     (Mesh, "plot_shells", _shapes.plot_shells),

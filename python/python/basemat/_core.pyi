@@ -1803,6 +1803,65 @@ class Extremes:
         """Magnitude of `largest`, in the quantity's unit."""
     def __eq__(self, value: object, /) -> bool: ...
 
+@final
+class PushOver:
+    """Load against displacement of a static push-over: what `Simulation.push_over_by_displacement` returns.
+
+    Arrays have one value for each state of the path. The first is the state under weight and loads, without the load pattern.
+    """
+
+    @property
+    def load_factor(self) -> NDArray[np.float64]:
+        """Factors of the load pattern: array of shape (states,), the force N/m (in plan N) of a pattern of weight 1."""
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Displacements of the control, relative to the first state: array of shape (states,), m or rad."""
+    @property
+    def base_rotation(self) -> NDArray[np.float64]:
+        """Rotations of the base, relative to the first state, counter-clockwise, in plan about the axis along y by the right-hand
+        rule: array of shape (states,), rad. With several foundations the largest rotation.
+        """
+    @property
+    def rotation_across(self) -> NDArray[np.float64]:
+        """In plan rotations of the base about the axis along x by the right-hand rule, zero in the plane: array of shape
+        (states,), rad.
+        """
+    @property
+    def uplifted_fraction(self) -> NDArray[np.float64]:
+        """Areas of open elements over the area of the base: array of shape (states,), each a ratio."""
+    @property
+    def sliding_fraction(self) -> NDArray[np.float64]:
+        """Areas of elements that slide against friction over the area of the base: array of shape (states,), each a ratio."""
+    @property
+    def base_shear(self) -> NDArray[np.float64]:
+        """Horizontal forces on the soil along x: array of shape (states,), N/m, in plan N."""
+    @property
+    def base_moment(self) -> NDArray[np.float64]:
+        """Moments on the soil, with the signs of `State.base_moment`: array of shape (states,), N·m/m, in plan N·m."""
+    @property
+    def cause(self) -> str | None:
+        """Text of the error that ended the curve before the last displacement; None if it has all of them."""
+    @property
+    def in_plan(self) -> bool:
+        """Whether the ground is in plan: forces and moments are then those of the whole base."""
+    def __len__(self) -> int: ...
+    def plot(
+        self,
+        axes: Axes | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws the load over the displacement, with a mark where the foundation begins to lift off; returns the axes.
+
+        The load factor is in thousands: kN/m, or in plan kN, for a pattern of weight 1. ``axes``: those of matplotlib to draw into;
+        unless given, axes of a new figure. For several curves in the same axes: ``label``, a name of the curve, and its
+        ``color``. ``title`` stands above the picture; None for none.
+        """
+    def to_frame(self) -> DataFrame:
+        """The states as a pandas frame: a row per state, with the arrays of `PushOver` as columns."""
+
 @disjoint_base
 class Summary:
     """The whole base or one foundation over a run: largest values with their times, uplift and sliding.
@@ -1965,14 +2024,6 @@ class Run(Summary):
     def largest_pressure(self) -> Peak | None:
         """Largest pressure of any element, Pa, a `Peak`; None without elements."""
     @property
-    def buoyancy(self) -> float:
-        """Upward force of the water on the structure, N/m (in plan N): `WaterTable`. The weight is the effective
-        ``static_normal_force`` plus this force.
-        """
-    @property
-    def shear_coefficient(self) -> float | None:
-        """Ratio of the largest base shear to the weight; None if the structure has no weight."""
-    @property
     def foundations(self) -> list[Summary]:
         """Each foundation separately: list of `Summary`, from left to right."""
     @property
@@ -2087,6 +2138,14 @@ class Run(Summary):
         each snapshot of the motion; none unless given. ``height`` (m): height of the box that represents a rigid block
         or body, as for `DeformedShape`; None for structures with a shape.
         """
+    @property
+    def buoyancy(self) -> float:
+        """Upward force of the water on the structure, N/m (in plan N): `WaterTable`. The weight is the effective
+        ``static_normal_force`` plus this force.
+        """
+    @property
+    def shear_coefficient(self) -> float | None:
+        """Ratio of the largest base shear to the weight; None if the structure has no weight."""
     def animate(
         self,
         scale: float | None = None,
@@ -2641,6 +2700,27 @@ class Simulation:
     @property
     def joints(self) -> list[Joint]:
         """The argument ``joints``: list of `Joint`."""
+    def push_over_by_displacement(
+        self,
+        pattern: _RowLike,
+        control: _RowLike,
+        displacements: ArrayLike,
+    ) -> PushOver:
+        """The `PushOver` of this scene from its start: static states with growing displacements, through the largest load.
+
+        Weight and the loads at t = 0 act first and stay constant; the motion has no effect. Forces ``pattern`` times a load
+        factor follow, which the displacement of ``control`` determines. Uplift, slip, yielding and P–Δ are those of the scene.
+        The states are a path, so that unloading and cycles are right. An increment without equilibrium is halved up to eight
+        times; then the curve ends, and `PushOver.cause` says why. The state of this simulation is unchanged.
+
+        Args:
+            pattern: forces at a load factor of 1, a `DofCombination` or its ``terms``: a degree of freedom, or for a pattern
+                over the height the sum of the floors' rows times their weights.
+            control: the displacement that is prescribed, a `DofCombination` or its ``terms``. A half-plane has no datum for
+                displacements: control a drift or a rotation there. In plan it must be the pattern.
+            displacements: values of the control relative to the state under weight and loads, array of shape (n,), m or rad.
+                They may grow, fall and change their sign.
+        """
     def solid_points(self, element: int, *, member: int | None = None) -> SolidPoints:
         """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains,
         stresses, plastic strains and mobilised strengths at its integration points. The structure is a `FemModel` or
@@ -4080,7 +4160,19 @@ class FiberSection:
     ) -> FiberSection:
         """Adds an I-section of a ``material`` about the middle of its height, bent about its strong axis: ``sizes`` are its depth
         over all and its flange width, ``thicknesses`` those of web and flanges (two numbers each, m). Each flange has
-        ``counts[0]`` layers of fibres along y, the web ``counts[1]``.
+        ``counts[0]`` layers of fibres along y, the web ``counts[1]``. Beams in space need `with_i_section_in_space`.
+        """
+    def with_i_section_in_space(
+        self,
+        sizes: Sequence[float],
+        thicknesses: Sequence[float],
+        counts: Sequence[Sequence[int]],
+        material: _FiberLaw,
+    ) -> FiberSection:
+        """Adds an I-section of a ``material``, cut along y and along z, for beams in space; ``sizes`` and ``thicknesses`` are as for
+        `with_i_section`.
+
+        ``counts``: fibres along y and along z of each flange, then of the web (array of shape (2, 2)).
         """
     def with_torsional_stiffness(self, stiffness: float) -> FiberSection:
         """Replaces the elastic torsional ``stiffness`` G J (N m²), which beams in space need."""
@@ -4095,8 +4187,8 @@ class FiberSection:
 class GmshSpaceMesh:
     """A mesh in space from a file of Gmsh.
 
-    It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
-    or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
+    It has points, lines, triangles, quadrilaterals and hexahedra; z points up. ``path``: a file of format 4.1 or 2.2,
+    text or binary. Nodes closer than ``merge_within`` (m) are merged, no nodes unless given.
     """
 
     def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...

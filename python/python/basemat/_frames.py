@@ -49,7 +49,7 @@ _UNITS = {
 _UNIT = {**_ELEMENT_UNITS, **{name: unit for unit, names in _UNITS.items() for name in names.split()}}
 
 
-def _with_units(frame: DataFrame, units: dict[str, str], run: Run | None = None) -> DataFrame:
+def with_units(frame: DataFrame, units: dict[str, str], run: Run | None = None) -> DataFrame:
     """The frame, with the units of its columns and its index in ``attrs``, and with the ground motion of a run."""
     names = [name for name in (frame.index.name, *frame.columns) if name is not None]
     frame.attrs["units"] = {name: units.get(name, "") for name in names}
@@ -64,7 +64,7 @@ def to_frame(self: Run) -> DataFrame:
     Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
     motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
     """
-    return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units, self)
+    return with_units(pandas().DataFrame(self.series).set_index("time"), self.units, self)
 
 
 def contact_frame(self: Run) -> DataFrame:
@@ -77,7 +77,7 @@ def contact_frame(self: Run) -> DataFrame:
     places = {name: 0.5 * (self.envelope[low] + self.envelope[high]) for name, (low, high) in sides.items()}
     if self.heights.any():
         places["z"] = self.heights.mean(axis=1)
-    return _with_units(_contact_table(self.contact, places), _UNIT, self)
+    return with_units(_contact_table(self.contact, places), _UNIT, self)
 
 
 def _contact_table(contact: Mapping[str, Any], places: Mapping[str, Any]) -> DataFrame:
@@ -94,7 +94,7 @@ def _contact_table(contact: Mapping[str, Any], places: Mapping[str, Any]) -> Dat
 
 def joint_frame(self: JointResults) -> DataFrame:
     """All time series of the joint as a pandas frame, indexed by the time (s)."""
-    return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units)
+    return with_units(pandas().DataFrame(self.series).set_index("time"), self.units)
 
 
 def joint_contact_frame(self: JointResults) -> DataFrame:
@@ -105,12 +105,12 @@ def joint_contact_frame(self: JointResults) -> DataFrame:
     """
     left, right, bottom, top = self.elements.T
     places = {"x": 0.5 * (left + right), "z": 0.5 * (bottom + top)}
-    return _with_units(_contact_table(self.contact, places), _UNIT)
+    return with_units(_contact_table(self.contact, places), _UNIT)
 
 
 def joint_envelope_frame(self: JointResults) -> DataFrame:
     """`JointResults.envelope` as a pandas frame: a row per element."""
-    return _with_units(pandas().DataFrame(self.envelope).rename_axis("element"), _UNIT)
+    return with_units(pandas().DataFrame(self.envelope).rename_axis("element"), _UNIT)
 
 
 def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
@@ -125,13 +125,13 @@ def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "dis
         raise InputError(f"quantity is '{quantity}', but must be 'displacement' or 'velocity'")
     index = pandas().Index(motion["time"], name="time")
     frame = pandas().DataFrame(motion[quantity], index=index, columns=self.dof_names)
-    return _with_units(frame, _UNIT, self)
+    return with_units(frame, _UNIT, self)
 
 
 def envelope_frame(self: Run) -> DataFrame:
     """`Run.envelope` as a pandas frame: a row per element."""
     frame = pandas().DataFrame(self.envelope)
-    return _with_units(frame.rename_axis("element"), _UNIT, self)
+    return with_units(frame.rename_axis("element"), _UNIT, self)
 
 
 def foundation_frame(self: Run) -> DataFrame:
@@ -152,13 +152,13 @@ def foundation_frame(self: Run) -> DataFrame:
                 row[name] = getattr(foundation, name)
         rows.append(row)
     units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}
-    return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units, self)
+    return with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units, self)
 
 
 def energy_frame(self: Run) -> DataFrame:
     """`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     frame = pandas().DataFrame(self.energy_balances).set_index("time")
-    return _with_units(frame, self.units, self)
+    return with_units(frame, self.units, self)
 
 
 def floor_spectra(
@@ -180,21 +180,21 @@ def floor_spectra(
     columns = {name: self.floor_spectrum(name, periods, damping).acceleration for name in names}
     index = pandas().Index(np.asarray(periods, dtype=float), name="period")
     frame = pandas().DataFrame(columns, index=index)
-    return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")}, self)
+    return with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")}, self)
 
 
 def _of(result: Any, index: str, columns: str) -> DataFrame:
     """A frame of arrays of an object, the first of which is its index."""
     values = {name: getattr(result, name) for name in columns.split()}
     frame = pandas().DataFrame(values, index=pandas().Index(getattr(result, index), name=index))
-    return _with_units(frame, _UNIT)
+    return with_units(frame, _UNIT)
 
 
 def equivalent_linear_frame(self: EquivalentLinear) -> DataFrame:
     """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
     frame = _of(self, "depth", "shear_modulus modulus_ratio damping largest_strain effective_strain")
     frame["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
-    return _with_units(frame, _UNIT)
+    return with_units(frame, _UNIT)
 
 
 def spectrum_frame(self: Spectrum) -> DataFrame:
@@ -210,7 +210,7 @@ def impedance_frame(self: Impedances) -> DataFrame:
 def kinematic_frame(self: KinematicMotions) -> DataFrame:
     """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
     frame = _of(self, "frequency", "horizontal rotation vertical")
-    return _with_units(frame, {"frequency": "Hz", "rotation": "1/m"})
+    return with_units(frame, {"frequency": "Hz", "rotation": "1/m"})
 
 
 _BEAM_UNITS = {
@@ -239,7 +239,7 @@ def beam_sections_frame(self: BeamSections) -> DataFrame:
         names += ["curvature_about_y", "moment_about_y", "shear_along_z", "twist_rate", "torque"]
     columns = {name: getattr(self, name) for name in names}
     table = {**dict(zip("xyz", self.position.T)), **columns}
-    return _with_units(pandas().DataFrame(table).rename_axis("section"), _BEAM_UNITS)
+    return with_units(pandas().DataFrame(table).rename_axis("section"), _BEAM_UNITS)
 
 
 def fiber_frame(self: BeamSections) -> DataFrame:
@@ -253,4 +253,4 @@ def fiber_frame(self: BeamSections) -> DataFrame:
         table[f"fiber_{axis}"] = np.tile(coordinates, sections)
     table["area"] = np.tile(self.fiber_area, sections)
     table["strain"], table["stress"] = self.fiber_strain.ravel(), self.fiber_stress.ravel()
-    return _with_units(pandas().DataFrame(table), _BEAM_UNITS)
+    return with_units(pandas().DataFrame(table), _BEAM_UNITS)

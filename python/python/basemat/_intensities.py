@@ -7,7 +7,9 @@ import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Dict, Literal, TypeVar, Union
+
+import numpy as np
 
 from ._core import Record, Run
 from ._errors import BasematWarning, InputError
@@ -17,8 +19,12 @@ from ._sweep import raise_if_all_failed, sweep, swept, teller
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Measure = Union[Literal["peak_acceleration", "peak_velocity"], float, Callable[[Record], float]]
+Motion = TypeVar("Motion", Record, Dict[str, Record])
+"""A record, or a dict of the components of one by their names."""
+Measure = Union[Literal["peak_acceleration", "peak_velocity"], float, Callable[[Motion], float]]
 """Intensity measure of a record: a peak by its name, the period of a spectral acceleration, or a function."""
+_UPWARDS = ("up", "vertical")
+"""Names of components that do not count for the intensity, as `triaxial` and `vertical_incidence` call them."""
 _DAMPING = 0.05
 """Damping ratio of spectral accelerations, as hazard maps have them."""
 _COLUMNS = ("record", "intensity", "warnings", "error")
@@ -28,35 +34,52 @@ _COLUMNS = ("record", "intensity", "warnings", "error")
 class ScaledRecords:
     """Function of a record's name and an intensity that makes the simulation of a case; it pickles."""
 
-    def __init__(self, make: Callable[[Record], Any], records: Mapping[str, Record], measure: Measure) -> None:
+    def __init__(self, make: Callable[[Any], Any], records: Mapping[str, Any], measure: Measure[Any]) -> None:
         self.make, self.records = make, dict(records)
         self.record_intensities = {name: intensity_of(record, measure, name) for name, record in self.records.items()}
 
     def __call__(self, record: str, intensity: float) -> Any:
-        """What ``make`` returns for the scaled record."""
-        return self.make(self.records[record].scaled(intensity / self.record_intensities[record]))
+        """What ``make`` returns for the scaled record, whose components have one factor."""
+        motion, factor = self.records[record], intensity / self.record_intensities[record]
+        if isinstance(motion, Record):
+            return self.make(motion.scaled(factor))
+        return self.make({name: component.scaled(factor) for name, component in motion.items()})
 
 
-def intensity_of(record: Record, measure: Measure, name: str) -> float:
+def intensity_of(record: Any, measure: Measure[Any], name: str) -> float:
     """Intensity of a record as it is, which must be positive."""
-    if not isinstance(record, Record):
-        raise InputError(f"record '{name}' is {type(record).__name__}, but must be a Record")
+    components = record if isinstance(record, Mapping) else {None: record}
+    for key, component in components.items():
+        if not isinstance(component, Record):
+            place = f"record '{name}'" if key is None else f"component '{key}' of record '{name}'"
+            needed = "a Record or a dict of Records" if key is None else "a Record"
+            raise InputError(f"{place} is {type(component).__name__}, but must be {needed}")
     if callable(measure):
         intensity = float(measure(record))
-    elif measure == "peak_acceleration":
-        intensity = record.peak_acceleration
-    elif measure == "peak_velocity":
-        intensity = record.peak_velocity
-    elif isinstance(measure, str):
-        raise InputError(f"measure is '{measure}', but must be peak_acceleration, peak_velocity, a period (s) or a function")
     else:
-        intensity = float(record.response_spectrum([float(measure)], _DAMPING).pseudo_acceleration[0])
+        horizontal = [component for key, component in components.items() if key not in _UPWARDS]
+        if not horizontal:
+            raise InputError(f"record '{name}' has no horizontal component: its intensity needs a function as the measure")
+        intensities = [component_intensity(component, measure) for component in horizontal]
+        # The geometric mean, which grows with the factor of all components.
+        intensity = float(np.prod(intensities)) ** (1.0 / len(intensities))
     if not (math.isfinite(intensity) and intensity > 0.0):
         raise InputError(f"record '{name}' has the intensity {intensity:g}, but must have a positive one to be scaled")
     return intensity
 
 
-def checked_levels(records: Mapping[str, Record], intensities: Sequence[float]) -> list[float]:
+def component_intensity(record: Record, measure: Union[str, float]) -> float:
+    """Peak or spectral acceleration of one component."""
+    if measure == "peak_acceleration":
+        return record.peak_acceleration
+    if measure == "peak_velocity":
+        return record.peak_velocity
+    if isinstance(measure, str):
+        raise InputError(f"measure is '{measure}', but must be peak_acceleration, peak_velocity, a period (s) or a function")
+    return float(record.response_spectrum([float(measure)], _DAMPING).pseudo_acceleration[0])
+
+
+def checked_levels(records: Mapping[str, Any], intensities: Sequence[float]) -> list[float]:
     """Intensities in rising order; errors for what is no set of records or levels."""
     if not isinstance(records, Mapping) or not records:
         raise InputError("records must be a mapping of names to records, with one record at least")
@@ -72,11 +95,11 @@ def checked_levels(records: Mapping[str, Record], intensities: Sequence[float]) 
 
 
 def multiple_stripes(
-    make: Callable[[Record], Any],
-    records: Mapping[str, Record],
+    make: Callable[[Motion], Any],
+    records: Mapping[str, Motion],
     intensities: Sequence[float],
     *,
-    measure: Measure = "peak_acceleration",
+    measure: Measure[Motion] = "peak_acceleration",
     duration: float | None = None,
     results: Callable[[Run], Mapping[str, Any]] | None = None,
     jobs: int | None = None,
@@ -88,11 +111,13 @@ def multiple_stripes(
 
     Args:
         make: ``make(record)`` returns a `Simulation` under the scaled record, or what else `sweep` takes.
-        records: names and their `Record`.
+        records: names and their `Record`, or of each the components: a dict of `Record`, such as ``{"x": …, "y": …, "up": …}``,
+            which are scaled with one factor and come to ``make`` as such a dict, for ``triaxial(**record)``.
         intensities: levels of the intensity measure, rising, in its unit.
         measure: intensity measure of a record, which grows with the record's factor: "peak_acceleration" (m/s²; by
             default), "peak_velocity" (m/s), a number for the pseudo-acceleration at this period (s) at 5 % of damping
-            (m/s²), or a function of a `Record`.
+            (m/s²), or a function of a `Record` or of a dict of components. Without a function it is the geometric mean of the
+            components but those called "up" or "vertical".
         duration: how long to run (s); the record's length unless given.
         results: columns of a row, from its run; `Run.summary` unless given.
         jobs: threads; one unless given, all processors for 0.
@@ -113,13 +138,13 @@ def multiple_stripes(
 
 
 def incremental_dynamic_analysis(
-    make: Callable[[Record], Any],
-    records: Mapping[str, Record],
+    make: Callable[[Motion], Any],
+    records: Mapping[str, Motion],
     intensities: Sequence[float],
     demand: str,
     limit: float,
     *,
-    measure: Measure = "peak_acceleration",
+    measure: Measure[Motion] = "peak_acceleration",
     duration: float | None = None,
     results: Callable[[Run], Mapping[str, Any]] | None = None,
     jobs: int | None = None,
@@ -133,7 +158,7 @@ def incremental_dynamic_analysis(
 
     Args:
         make: ``make(record)`` returns a `Simulation` under the scaled record, or what else `sweep` takes.
-        records: names and their `Record`.
+        records: names and their `Record`, or a dict of the components of each, as for `multiple_stripes`.
         intensities: levels of the intensity measure, rising, in its unit.
         demand: name of the result that is compared with the limit, such as "slip" of ``results``.
         limit: positive limit of the demand, in its unit. A record is not scaled further once its demand is above.

@@ -37,7 +37,7 @@ _RETURNING = (
     (_core.SoilProfile, "stress_at_rest"),
     (_core.Mesh, "with_stress_at_rest"),
     (_core.NearField, "mesh"),
-    *((_core.FiberSection, f"with_{shape}") for shape in ("fiber", "fibers", "rectangle", "ring", "bars", "i_section", "torsional_stiffness")),
+    *((_core.FiberSection, f"with_{shape}") for shape in ("fiber", "fibers", "rectangle", "ring", "bars", "i_section", "i_section_in_space", "torsional_stiffness")),
     (_core.GmshMesh, "mesh"),
     (_core.GmshSpaceMesh, "mesh"),
 )

@@ -8,6 +8,7 @@ mod joint;
 mod load;
 mod options;
 mod parts;
+mod push_over;
 mod run_reporter;
 mod scheme;
 mod solids;

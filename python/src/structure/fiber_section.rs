@@ -105,7 +105,7 @@ impl PyFiberSection {
 
     /// Adds an I-section of a ``material`` about the middle of its height, bent about its strong axis: ``sizes`` are its depth
     /// over all and its flange width, ``thicknesses`` those of web and flanges (two numbers each, m). Each flange has
-    /// ``counts[0]`` layers of fibres along y, the web ``counts[1]``.
+    /// ``counts[0]`` layers of fibres along y, the web ``counts[1]``. Beams in space need `with_i_section_in_space`.
     fn with_i_section(
         &self,
         sizes: [f64; 2],
@@ -115,6 +115,23 @@ impl PyFiberSection {
     ) -> PyResult<Self> {
         let counts = self::counts(counts);
         let section = self.0.clone().with_i_section(sizes, thicknesses, counts, material.0);
+        section.or_raise().map(Self)
+    }
+
+    /// Adds an I-section of a ``material``, cut along y and along z, for beams in space; ``sizes`` and ``thicknesses`` are as for
+    /// `with_i_section`.
+    ///
+    /// ``counts``: fibres along y and along z of each flange, then of the web (array of shape (2, 2)).
+    fn with_i_section_in_space(
+        &self,
+        sizes: [f64; 2],
+        thicknesses: [f64; 2],
+        counts: [[Count; 2]; 2],
+        material: FiberLaw,
+    ) -> PyResult<Self> {
+        let counts = counts.map(self::counts);
+        let section = self.0.clone();
+        let section = section.with_i_section_in_space(sizes, thicknesses, counts, material.0);
         section.or_raise().map(Self)
     }
 

@@ -17,7 +17,7 @@ use crate::list_arguments::type_error;
 /// A mesh in space from a file of Gmsh.
 ///
 /// It has points, lines, triangles, quadrilaterals and hexahedra; z points up. ``path``: a file of format 4.1 or 2.2,
-/// text or binary. Nodes closer than ``merge_within`` (m) are merged; without it no nodes are merged.
+/// text or binary. Nodes closer than ``merge_within`` (m) are merged, no nodes unless given.
 #[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
 

@@ -12,6 +12,7 @@ use super::mesh::{ColumnMesh, MeshKey, MeshPlans};
 use super::stack::{Stack, StackElement};
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
+use crate::soil::Soil;
 
 /// Largest number of doublings.
 ///
@@ -23,12 +24,19 @@ const MAX_COLUMN_DOUBLINGS: usize = 45;
 const CROSS_STIFFNESS_TOLERANCE: f64 = 1e-13;
 /// Angle of the complex height of stretched elements, relative to the argument of s.
 const STRETCH_ANGLE_RATIO: f64 = 0.6;
-/// Longest stretched element, in c/|s|; c is the speed of shear waves in the half-plane.
-const MAX_STRETCHED_LENGTH: f64 = 8.0;
+/// Longest stretched element, in c/|s|; c is the speed of the waves that are left at its depth.
+const MAX_STRETCHED_LENGTH: f64 = 12.0;
+/// Depth in c/|s| below which shear waves of this speed c have decayed, so that only pressure waves are left.
+const SHEAR_WAVE_DEPTH: f64 = 24.0;
+/// Height of the first stretched element over that of the element above.
+const FIRST_STRETCHED_RATIO: f64 = 0.5;
+/// Height of each other stretched element over that of the element above.
+const STRETCHED_GROWTH: f64 = 4.0;
 /// Smallest degree of stretched elements.
 ///
-/// With a high degree fewer elements suffice, which take less time.
-const MIN_STRETCHED_DEGREE: usize = 8;
+/// With a high degree fewer elements suffice, which take less time. Heights depend on s, so that the compliance is analytic
+/// only up to the error of these elements: below 1e-9, mostly 1e-11.
+const MIN_STRETCHED_DEGREE: usize = 12;
 
 /// Compliances of the right half of a trench, for symmetric and antisymmetric fields.
 ///
@@ -286,24 +294,27 @@ pub(super) struct Bottom {
 impl Bottom {
     /// Elements for Laplace variables near `s`, below an interval of `upper_length` metres.
     ///
-    /// `speed`: of shear waves in the half-plane, m/s. `depth`: of all elements, in c/|s|.
+    /// `soil`: of the half-plane. `depth`: of all elements, in c/|s| of shear waves.
     pub(super) fn new(
         s: Complex64,
         upper_length: f64,
-        speed: f64,
+        soil: Soil,
         depth: f64,
         degree: usize,
     ) -> Self {
-        let length_unit = speed / s.norm();
+        let shear_length = soil.shear_wave_speed() / s.norm();
+        let pressure_length = soil.pressure_wave_speed() / s.norm();
         let rotation = Complex64::from_polar(1.0, -STRETCH_ANGLE_RATIO * s.arg());
         let mut heights = vec![];
         let mut total_height = 0.0;
-        let mut next_height = 2.0 * upper_length;
-        while total_height < depth * length_unit {
+        let mut next_height = FIRST_STRETCHED_RATIO * upper_length;
+        while total_height < depth * shear_length {
+            let has_shear_waves = total_height < SHEAR_WAVE_DEPTH * shear_length;
+            let length_unit = if has_shear_waves { shear_length } else { pressure_length };
             let height = next_height.min(MAX_STRETCHED_LENGTH * length_unit);
             heights.push(rotation * height);
             total_height += height;
-            next_height = 2.0 * height;
+            next_height = STRETCHED_GROWTH * height;
         }
         Self { heights, degree: degree.max(MIN_STRETCHED_DEGREE) }
     }

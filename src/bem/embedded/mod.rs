@@ -9,6 +9,7 @@
 //! | mesh, cliques | degrees of freedom of the mesh; their elimination, matrix by matrix |
 //! | compliance | compliances F(s) of the faces; stretched elements below the near field |
 //! | soil, free_field | the soil; vertical waves at the faces |
+//! | rational, sampling | compliances between samples; choice of the samples |
 //! | pairs, source | classes and compliances of pairs of elements; convolution weights |
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance | a rigid body in the trench |
@@ -29,6 +30,8 @@ mod mesh;
 mod near_field;
 mod pairs;
 mod polynomials;
+mod rational;
+mod sampling;
 mod soil;
 mod source;
 mod stack;

@@ -1,9 +1,13 @@
 //! Pairs of elements around a trench: their classes, and the compliances of each class.
 
+use std::sync::OnceLock;
+
 use super::compliance::HalfCompliances;
+use super::rational::RationalCompliances;
+use super::sampling::{QuadratureDomain, sample};
 use super::soil::TrenchSoil;
-use crate::bem::layered::{Compliances, LayeredCompliance, SurrogateLengths};
-use crate::error::Result;
+use crate::bem::layered::{Compliances, LayeredCompliance, SurrogateLengths, self_pair_classes};
+use crate::error::{Error, ProgressReporter, Result};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::history::{Pair, PairClasses};
 use crate::linalg::Complex;
@@ -73,6 +77,10 @@ pub(super) struct TrenchPairs {
     degree: usize,
     /// Lengths of the shortest element and of the outline.
     lengths: SurrogateLengths,
+    /// Laplace variables for which rational functions are sought; `None` to compute all compliances by finite elements.
+    domain: Option<QuadratureDomain>,
+    /// Rational functions in the domain, once sought; `None` if the compliances are too rough for them.
+    rational: OnceLock<Option<RationalCompliances<TRENCH_KINDS>>>,
 }
 
 /// Row of a displacement component in the compliances of a half.
@@ -89,7 +97,29 @@ impl TrenchPairs {
         let lengths = elements.iter().map(ContactElement::length);
         let min_element_length = lengths.clone().fold(f64::INFINITY, f64::min);
         let lengths = SurrogateLengths { min_element_length, span: lengths.sum() };
-        Self { soil, degree, lengths }
+        Self { soil, degree, lengths, domain: None, rational: OnceLock::new() }
+    }
+
+    /// The same pairs, with rational functions of the Laplace variable in a `domain`.
+    pub(super) fn interpolated_in(self, domain: QuadratureDomain) -> Self {
+        Self { domain: Some(domain), ..self }
+    }
+
+    /// Number of nodes of the rational functions, if there are any.
+    #[cfg(test)]
+    pub(super) fn node_count(&self) -> Option<usize> {
+        self.rational.get().and_then(Option::as_ref).map(RationalCompliances::node_count)
+    }
+
+    /// Overwrites `values`, one per class, with the compliances at `s` by finite elements.
+    fn by_finite_elements(&self, s: Complex, values: &mut [[Complex; TRENCH_KINDS]]) -> Result<()> {
+        let chosen = self.soil.mesh_of_degree(s, self.degree)?;
+        let compliances = match chosen.compliances {
+            Some(compliances) => compliances,
+            None => self.soil.compliances(s, &chosen.mesh)?,
+        };
+        self.fill_classes(&compliances, values);
+        Ok(())
     }
 
     /// Rows of an element in the compliances of a half: normal, tangential.
@@ -149,6 +179,23 @@ impl Compliances<TRENCH_KINDS> for TrenchPairs {
 
     const PASSIVITY_POINTS: usize = 12;
 
+    fn make_ready(&self, progress: &mut ProgressReporter) -> Result<()> {
+        let Some(domain) = self.domain.filter(|_| self.rational.get().is_none()) else {
+            return Ok(());
+        };
+        let classes = trench_classes(self.soil.elements().elements())?;
+        let self_pairs = self_pair_classes(&classes);
+        let compute = |s, values: &mut [_]| self.by_finite_elements(s, values);
+        // Samples are nearer to the axis than the points of short histories. A point that fails itself reports its error.
+        let rational = match sample(domain, &self_pairs, compute, progress) {
+            Err(error @ Error::Stopped(_)) => return Err(error),
+            outcome => outcome.ok().flatten(),
+        };
+        // Two calls at the same time have the same result.
+        self.rational.get_or_init(|| rational);
+        Ok(())
+    }
+
     fn compliance(
         &self,
         _profile: &SoilProfile,
@@ -156,12 +203,11 @@ impl Compliances<TRENCH_KINDS> for TrenchPairs {
         _work: &mut Self::Workspace,
         values: &mut [[Complex; TRENCH_KINDS]],
     ) -> Result<()> {
-        let chosen = self.soil.mesh_of_degree(s, self.degree)?;
-        let compliances = match chosen.compliances {
-            Some(compliances) => compliances,
-            None => self.soil.compliances(s, &chosen.mesh)?,
-        };
-        self.fill_classes(&compliances, values);
+        let rational = self.rational.get().and_then(Option::as_ref);
+        match rational.filter(|_| self.domain.is_some_and(|domain| domain.contains(s))) {
+            Some(rational) => rational.evaluate(s, values),
+            None => self.by_finite_elements(s, values)?,
+        }
         Ok(())
     }
 

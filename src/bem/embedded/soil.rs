@@ -43,12 +43,14 @@ const LENGTH_PER_DEGREE: f64 = 0.75;
 const MAX_CONTACT_PHASE: f64 = 0.25 * std::f64::consts::TAU;
 /// Longest interval of the near field in the slowest soil, in half widths.
 const MAX_NEAR_INTERVAL_RATIO: f64 = 0.5;
-/// First depth of the stretched elements, in c/|s|.
-const FIRST_BOTTOM_DEPTH: f64 = 24.0;
+/// Smallest depth of the stretched elements, in c/|s| of shear waves.
+const MIN_BOTTOM_DEPTH: f64 = 24.0;
+/// Smallest depth of the stretched elements, in c/|s| of pressure waves.
+const MIN_PRESSURE_WAVE_DEPTH: f64 = 15.0;
 /// Ratio of two depths that are compared.
 const BOTTOM_DEPTH_GROWTH: f64 = 1.3;
-/// Largest depth of the stretched elements, in c/|s|.
-const MAX_BOTTOM_DEPTH: f64 = 100.0;
+/// Largest depth of the stretched elements, relative to the first one.
+const MAX_BOTTOM_DEPTH_RATIO: f64 = 4.0;
 /// Largest relative difference between the compliances of two depths.
 const DEPTH_CHANGE_TOLERANCE: f64 = 1e-6;
 /// Largest Re s b/c for which depths are compared under undamped layers.
@@ -203,15 +205,16 @@ impl TrenchSoil {
     /// # Errors
     /// [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
     pub(super) fn mesh_of_degree(&self, s: Complex, degree: usize) -> Result<ChosenMesh> {
-        let mut mesh = self.mesh_of_depth(s, FIRST_BOTTOM_DEPTH, degree);
+        let first_depth = self.first_bottom_depth();
+        let mut mesh = self.mesh_of_depth(s, first_depth, degree);
         if !self.needs_comparison(s)? {
             return Ok(ChosenMesh { mesh, compliances: None });
         }
-        let mut depth = FIRST_BOTTOM_DEPTH;
+        let mut depth = first_depth;
         let mut compliances = self.compliances(s, &mesh)?;
         loop {
             depth *= BOTTOM_DEPTH_GROWTH;
-            if depth > MAX_BOTTOM_DEPTH {
+            if depth > MAX_BOTTOM_DEPTH_RATIO * first_depth {
                 return Err(GroundError::GuidedWave { re: s.re, im: s.im }.into());
             }
             let deeper_mesh = self.mesh_of_depth(s, depth, degree);
@@ -224,9 +227,18 @@ impl TrenchSoil {
         }
     }
 
+    /// First depth of the stretched elements, in c/|s| of shear waves.
+    fn first_bottom_depth(&self) -> f64 {
+        let Bedrock::HalfPlane { soil, .. } = self.profile.bedrock() else {
+            return MIN_BOTTOM_DEPTH;
+        };
+        let speed_ratio = soil.pressure_wave_speed() / soil.shear_wave_speed();
+        MIN_BOTTOM_DEPTH.max(MIN_PRESSURE_WAVE_DEPTH * speed_ratio)
+    }
+
     /// Mesh for Laplace variables near `s`, with stretched elements down to a `depth`.
     ///
-    /// `depth`: in c/|s|. `degree`: of the near field; stretched elements may have a higher degree.
+    /// `depth`: in c/|s| of shear waves. `degree`: of the near field; stretched elements may have a higher degree.
     pub(super) fn mesh_of_depth(&self, s: Complex, depth: f64, degree: usize) -> TrenchMesh {
         let Bedrock::HalfPlane { soil, .. } = self.profile.bedrock() else {
             return TrenchMesh { degree, bottom: Bottom::rigid(degree) };
@@ -234,8 +246,7 @@ impl TrenchSoil {
         let half_width = self.elements.trench().half_width();
         let lowest = self.grid.lower_intervals.last();
         let upper_length = lowest.map_or(half_width, |interval| interval.length);
-        let bottom =
-            Bottom::new(s.to_complex64(), upper_length, soil.shear_wave_speed(), depth, degree);
+        let bottom = Bottom::new(s.to_complex64(), upper_length, *soil, depth, degree);
         TrenchMesh { degree, bottom }
     }
 
@@ -245,13 +256,19 @@ impl TrenchSoil {
         let max_speed = self.soils().map(|soil| soil.shear_wave_speed()).fold(0.0, f64::max);
         let has_half_plane = matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
         let is_near_axis = s.re * half_width < MAX_COMPARED_DECAY * max_speed;
+        Ok(has_half_plane && is_near_axis && self.has_undamped_layers(s)?)
+    }
+
+    /// Whether waves in layers have no damping but Re `s`.
+    pub(super) fn has_undamped_layers(&self, s: Complex) -> Result<bool> {
+        let has_half_plane = matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
         let imaginary_s = Complex::new(0.0, s.im);
         let moduli = self.moduli(imaginary_s, imaginary_s)?;
         let layer_count = self.profile.layers().len();
         let is_undamped = moduli[..layer_count + usize::from(has_half_plane)]
             .iter()
             .any(|moduli| moduli.shear.im.abs() < MIN_LOSS_RATIO * moduli.shear.re);
-        Ok(has_half_plane && is_near_axis && layer_count > 0 && is_undamped)
+        Ok(layer_count > 0 && is_undamped)
     }
 
     /// Compliances of the faces at `s`.
@@ -276,7 +293,7 @@ impl TrenchSoil {
             Bedrock::Rigid => 0.0,
         };
         let s = Complex::real(s);
-        let mesh = self.mesh_of_depth(s, FIRST_BOTTOM_DEPTH, MIN_NEAR_FIELD_DEGREE);
+        let mesh = self.mesh_of_depth(s, self.first_bottom_depth(), MIN_NEAR_FIELD_DEGREE);
         self.compliances_with(s, &mesh, &self.moduli(Complex::default(), s)?)
     }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::pairs::{TRENCH_KINDS, TrenchPairs, trench_classes};
+use super::sampling::QuadratureDomain;
 use super::soil::TrenchSoil;
 use crate::bem::WeightsSource;
 use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, self_pair_classes};
@@ -53,9 +54,13 @@ impl TrenchSource {
         let max_short_travel = MAX_SHORT_STEP_RATIO * elements.trench().half_width();
         let is_short_step = min_speed * time_step <= max_short_travel;
         let degree = if is_short_step { SHORT_STEP_DEGREE } else { ELEMENT_DEGREE };
-        let pairs = TrenchPairs::new(self.soil.clone(), degree);
-        let profile = self.soil.profile().clone();
         let stages = self.stages(time_step);
+        let mut pairs = TrenchPairs::new(self.soil.clone(), degree);
+        // Without damping, layers have resonances on the axis, which too many samples would have to resolve.
+        if !self.soil.has_undamped_layers(Complex::new(0.0, 1.0 / time_step))? {
+            pairs = pairs.interpolated_in(QuadratureDomain { stages, time_step });
+        }
+        let profile = self.soil.profile().clone();
         let self_pairs = self_pair_classes(&classes);
         let tolerance = WEIGHT_TOLERANCE;
         let quadrature = Quadrature::over(profile, pairs, self_pairs, stages, time_step, tolerance);

@@ -85,6 +85,13 @@ impl Stages {
         }
     }
 
+    /// The point z with the eigenvalue `lambda`: Q/P.
+    #[cfg(feature = "embedded")]
+    pub(crate) fn circle_point(self, lambda: Complex) -> Complex {
+        let [p, q] = self.stability_polynomials();
+        polynomial(q, lambda) / polynomial(p, lambda)
+    }
+
     /// Eigenvalues of Δ(z) with their weights; `one_less_z` is 1 − z without cancellation.
     ///
     /// The first eigenvalue is near −ln z, the second near −ln z + 2πi. Each is analytic near |z| = 1.

@@ -69,7 +69,7 @@ impl StaticPush {
         }
         // Contact in plan needs a symmetric compliance.
         let is_symmetric = !parts.elements.is_plan() || pattern == control;
-        let needed = "in plan the load pattern itself, so that the load does work on it";
+        let needed = "must be the load pattern in plan, so that the load does work on it";
         require_part("controlled degree of freedom of the push-over", is_symmetric, needed)?;
         let structure = parts.structure.as_ref();
         let (assembled, mut fixed_factor) =

@@ -89,7 +89,9 @@ fn a_seam_that_is_not_merged_is_named() {
             detached_part(FemModel::on_base(stack(rows, false)).unwrap());
         assert_eq!(dofs, (12..6 * (rows + 2)).collect::<Vec<_>>());
         assert!(place.starts_with("node 6 at (-1, 1), node 7 at (0, 1), "), "{place}");
-        assert!(place.ends_with("; node 6 lies where node 3 is, but is not merged with it"));
+        let not_merged =
+            "; node 6 lies where node 3 is, but is not merged with it by `Mesh::merge_nodes`";
+        assert!(place.ends_with(not_merged), "{place}");
         assert!(rows == 2 || place.contains(&format!(" and {} more;", 3 * rows - 8)), "{place}");
     }
 }

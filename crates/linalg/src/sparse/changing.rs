@@ -2,9 +2,13 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::prelude::ReborrowMut;
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, factorize_symbolic_lu};
-use faer::{Par, Side, Spec};
+use faer::{MatMut, MatRef, Par, Side, Spec};
 
 use super::{Factors, LastEntry, SparseFactor, last_entries};
 use crate::SparseMatrix;
@@ -263,11 +267,12 @@ impl ChangingFactor {
     ///
     /// `rhs`: the values on the last rows, one right-hand side after the other. On other rows they are zero.
     pub fn solve_on_last_rows(&mut self, rhs: &mut [f64]) {
-        let count = self.last_rows.len().max(1);
+        let count = self.last_rows.len();
+        if count == 0 {
+            return;
+        }
         if self.method == Method::Cholesky && self.last_entries.is_some() {
-            for column in rhs.chunks_exact_mut(count) {
-                solve_by_lower(&self.last_lower, column);
-            }
+            solve_by_lower(&self.last_lower, count, rhs);
             return;
         }
         if self.method == Method::BlockLu
@@ -305,18 +310,14 @@ impl ChangingFactor {
     }
 }
 
-/// Overwrites `rhs` with (L Lᵀ)⁻¹ rhs, for a row-major lower triangle L.
-fn solve_by_lower(lower_triangle: &[f64], rhs: &mut [f64]) {
-    let count = rhs.len();
-    for (i, row) in lower_triangle.chunks_exact(count).enumerate() {
-        let sum: f64 = row[..i].iter().zip(&*rhs).map(|(l, x)| l * x).sum();
-        rhs[i] = (rhs[i] - sum) / row[i];
-    }
-    for (i, row) in lower_triangle.chunks_exact(count).enumerate().rev() {
-        rhs[i] /= row[i];
-        let x = rhs[i];
-        rhs[..i].iter_mut().zip(row).for_each(|(value, l)| *value -= l * x);
-    }
+/// Overwrites right-hand sides, one after the other, with (L Lᵀ)⁻¹ rhs.
+///
+/// `lower_triangle`: L, row-major, of this order.
+fn solve_by_lower(lower_triangle: &[f64], order: usize, rhs: &mut [f64]) {
+    let lower = MatRef::from_row_major_slice(lower_triangle, order, order);
+    let mut right_sides = MatMut::from_column_major_slice_mut(rhs, order, rhs.len() / order);
+    solve_lower_triangular_in_place(lower, right_sides.rb_mut(), Par::Seq);
+    solve_upper_triangular_in_place(lower.transpose(), right_sides, Par::Seq);
 }
 
 impl ReusedFactor {

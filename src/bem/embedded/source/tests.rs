@@ -2,6 +2,7 @@ use super::*;
 use crate::bem::embedded::Trench;
 use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
+use crate::error::ProgressReporter;
 use crate::history::PairClasses;
 use crate::soil::{GeneralizedMaxwell, KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
@@ -84,11 +85,12 @@ fn grounds_of_table() -> [SoilProfile; 3] {
     [clay.into(), with_layer(on_rock), with_layer(SoilProfile::on_rigid_bedrock())]
 }
 
-/// REFERENCE: a table by elimination of whole vertical lines, with dense matrices.
+/// REFERENCE: a table by compliances at all points of the quadrature.
 ///
-/// Errors are relative to the largest weight of a lag.
+/// On half-planes they have finer stretched elements, on rigid bedrock whole vertical lines were eliminated as dense
+/// matrices. Errors are relative to the largest weight of a lag.
 #[test]
-fn weights_are_those_of_an_elimination_line_by_line() {
+fn weights_are_those_of_compliances_at_all_points() {
     let table = basemat_testkit::table("embedded/weights.csv");
     let rows = table.rows(["ground", "class", "kind", "lag_1", "lag_2", "lag_10", "lag_100"]);
     for (ground, profile) in grounds_of_table().into_iter().enumerate() {
@@ -276,5 +278,36 @@ fn rigid_body_has_the_static_impedance() {
         (stiffness[2][0], expected[3]),
     ] {
         assert!((computed - expected).abs() < 1e-9 * stiffness[2][2], "{computed} {expected}");
+    }
+}
+
+/// Rational functions through samples have the weights of finite elements at each point of the quadrature.
+///
+/// Errors are relative to the largest weight.
+#[test]
+fn rational_functions_give_the_weights_of_all_points() {
+    for (ground, profile) in grounds_of_table().into_iter().enumerate() {
+        let elements = Trench::new(-12.0..12.0, 6.0).unwrap().elements(4, 2).unwrap();
+        let soil = TrenchSoil::new(profile, elements).unwrap();
+        let source = TrenchSource { soil, stages: None, file: None };
+        let rational = source.weights(0.01).unwrap();
+        let mut direct = source.weights(0.01).unwrap();
+        direct.quadrature.integrals = TrenchPairs::new(source.soil.clone(), ELEMENT_DEGREE);
+        rational.check_passivity(&mut ProgressReporter::unobserved()).unwrap();
+        let node_count = rational.quadrature.integrals.node_count();
+        assert!(node_count.is_some_and(|count| count < 120), "{ground}: {node_count:?}");
+        let mut largest = 0.0_f64;
+        let mut difference = 0.0_f64;
+        for class in 0..rational.classes.count() {
+            let computed = lags(&rational, class);
+            let expected = lags(&direct, class);
+            for (a, b) in computed.iter().flatten().zip(expected.iter().flatten()) {
+                largest = largest.max(b.abs());
+                difference = difference.max((a - b).abs());
+            }
+        }
+        let error = difference / largest;
+        assert!(error < 2e-9, "{ground}: {error:e}");
+        println!("{ground}: {node_count:?} nodes, {error:e}");
     }
 }

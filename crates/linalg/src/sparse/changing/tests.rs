@@ -94,3 +94,42 @@ fn changing_factors_are_new_factors() {
         changing_factor.refactor(&first_matrix).unwrap();
     }
 }
+
+/// REFERENCE: whole solutions in another order, for two right-hand sides at once.
+#[test]
+fn last_rows_of_uncoupled_parts_have_a_dense_block() {
+    let side = 40;
+    let first_part = grid(side, 0.0, 0.5, 0.0);
+    let first_order = side * side;
+    let order = first_order + 3;
+    let mut triplets = Triplets::new(order);
+    for (row, column, value) in first_part.entries() {
+        triplets.add(row, column, value);
+    }
+    for row in first_order..order {
+        for column in first_order..order {
+            triplets.add(row, column, if row == column { 2.0 } else { 0.5 });
+        }
+    }
+    let matrix = SparseMatrix::new("parts", &triplets).unwrap();
+    let last_rows: Vec<usize> = (0..side).map(|k| k * side + k).chain(first_order..order).collect();
+    let elimination = Elimination::default();
+    let mut factor =
+        ChangingFactor::ending_with("parts", &matrix, &elimination, &last_rows).unwrap();
+    assert!(factor.last_entries.is_some());
+    let count = last_rows.len();
+    let forces: Vec<f64> = (0..2 * count).map(|i| (i as f64).cos()).collect();
+    let mut computed = forces.clone();
+    factor.solve_on_last_rows(&mut computed);
+    let other_factor = SparseFactor::with_elimination("parts", &matrix, &elimination).unwrap();
+    let mut expected = vec![0.0; 2 * order];
+    for (solution, forces) in expected.chunks_exact_mut(order).zip(forces.chunks_exact(count)) {
+        last_rows.iter().zip(forces).for_each(|(row, force)| solution[*row] = *force);
+    }
+    other_factor.solve_many(&mut expected);
+    let expected: Vec<f64> = expected
+        .chunks_exact(order)
+        .flat_map(|solution| last_rows.iter().map(|row| solution[*row]))
+        .collect();
+    assert_near(&computed, &expected);
+}

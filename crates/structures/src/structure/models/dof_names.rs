@@ -58,10 +58,8 @@ pub(super) fn describe(
         Some((node, other_node))
     });
     if let Some((node, other_node)) = coincident_pair {
-        let _ = write!(
-            text,
-            "; node {node} lies where node {other_node} is, but is not merged with it"
-        );
+        let place = format!("; node {node} lies where node {other_node} is");
+        let _ = write!(text, "{place}, but is not merged with it by `Mesh::merge_nodes`");
     }
     Some(text)
 }

@@ -5,13 +5,13 @@ use basemat::fem::{Mesh, SharedMaterial, StressAtRest};
 use basemat::structure::FemModel;
 
 /// Mesh of soil at rest in a trench, to which structures can be added.
-pub(crate) struct SoilBox {
-    pub(crate) mesh: Mesh,
+pub struct SoilBox {
+    pub mesh: Mesh,
 }
 
 impl SoilBox {
     /// Eight-node quadrilaterals between lines.
-    pub(crate) fn new(
+    pub fn new(
         x: &[f64],
         y: &[f64],
         material: &SharedMaterial,
@@ -21,17 +21,12 @@ impl SoilBox {
         Ok(Self { mesh })
     }
 
-    pub(crate) fn model(&self) -> FemModel {
+    pub fn model(&self) -> FemModel {
         FemModel::on_soil_at_rest(self.mesh.clone()).unwrap()
     }
 
     /// Adds a block of quadrilaterals on the surface, welded to the soil.
-    pub(crate) fn with_block(
-        self,
-        x: &[f64],
-        y: &[f64],
-        material: &SharedMaterial,
-    ) -> Result<Self> {
+    pub fn with_block(self, x: &[f64], y: &[f64], material: &SharedMaterial) -> Result<Self> {
         let block = Mesh::quad8_block(x, y, |_, _| material.clone())?;
         let mut mesh = self.mesh;
         let mut nodes = Vec::new();
