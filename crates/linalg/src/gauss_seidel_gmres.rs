@@ -179,11 +179,13 @@ impl LeastSquares {
                 [c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]];
         }
         let length = column[k].hypot(column[k + 1]);
-        let [c, s] = [column[k] / length, column[k + 1] / length];
-        self.rotations[k] = [c, s];
+        let cosine = column[k] / length;
+        let sine = column[k + 1] / length;
+        self.rotations[k] = [cosine, sine];
         column[k] = length;
         self.triangle[k] = column;
-        [self.rhs[k], self.rhs[k + 1]] = [c * self.rhs[k], -s * self.rhs[k]];
+        self.rhs[k + 1] = -sine * self.rhs[k];
+        self.rhs[k] *= cosine;
         self.rhs[k + 1].abs()
     }
 

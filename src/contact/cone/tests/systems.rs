@@ -119,7 +119,8 @@ fn iterations_on_hardening_soil_meet_the_conditions_to_their_tolerance() {
         // Elements that move each other little, as on soil, or much.
         let coupling = [1e-3, 1e-2, 0.3][case % 3];
         for (k, entry) in problem.w.iter_mut().enumerate() {
-            let [row, column] = [k / size, k % size];
+            let row = k / size;
+            let column = k % size;
             let phase = (1 + row.min(column)) as f64 * (1 + row.max(column)) as f64;
             *entry = if row == column { 1.0 } else { coupling * phase.sin() };
         }
