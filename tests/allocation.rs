@@ -9,10 +9,12 @@ use std::cell::Cell;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Joint, Load, Probe, SimulationBuilder, Theta};
-use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial};
+use basemat::fem::{
+    BeamFormulation, DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial,
+};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
-use basemat::motion::{Triaxial, el_centro_1940};
+use basemat::motion::{Record, Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::structure::{
     FemModel, NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, StructureGroup,
@@ -20,6 +22,7 @@ use basemat::structure::{
 };
 use basemat::{Simulation, unobserved};
 
+use basemat_problems::fiber_tables::FiberTable;
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, tower};
 use basemat_problems::yielding_blocks::grid_lines;
@@ -145,6 +148,27 @@ fn on_a_bed(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     builder.interface(law).motion(diagonal_motion(2.0))
 }
 
+/// Samples of El Centro before its strong part.
+const WEAK_SAMPLES: usize = 70;
+
+/// A table on columns of fibres that yields, lifts off and slides.
+fn table(formulation: BeamFormulation) -> SimulationBuilder {
+    let table = FiberTable::of_steel(formulation).unwrap();
+    let model = table.model().unwrap().model.with_p_delta(9.81).unwrap();
+    let ground = SpringGround::under(&model, 8, 6e7, 5e7).unwrap();
+    let builder = Simulation::builder(5e-3).ground(ground).structure(model);
+    builder.interface(friction(0.6)).motion(strong_motion())
+}
+
+/// El Centro along both axes from its strong part on: what yields does so before allocations are counted.
+fn strong_motion() -> Triaxial {
+    let record = el_centro_1940();
+    let accelerations = record.accelerations().iter().skip(WEAK_SAMPLES).copied().collect();
+    let strong_part = Record::new(record.time_step(), accelerations).unwrap();
+    let [x, y] = [4.0, 2.4].map(|factor| Some(strong_part.scaled(factor).unwrap()));
+    Triaxial { x, y, up: None }
+}
+
 /// The shaken strip without structure and law.
 fn base() -> SimulationBuilder {
     scene(SI_UNITS, 0.6)
@@ -259,6 +283,8 @@ fn plan_scenes() -> Vec<(&'static str, SimulationBuilder)> {
         ("plan, cyclic yielding", in_plan(cyclic_yielding())),
         ("plan, bed, cyclic yielding", on_a_bed(cyclic_yielding())),
         ("plan, many cells, cyclic yielding", on_many_cells(cyclic_yielding())),
+        ("plan, fibres by displacements", table(BeamFormulation::DisplacementBased)),
+        ("plan, fibres by forces", table(BeamFormulation::ForceBased)),
         ("plan, bonds", in_plan(Cohesive::new(5e4, 5e4, 0.3).unwrap())),
     ]
 }

@@ -114,6 +114,11 @@ impl Delassus {
         }
     }
 
+    /// The operator on a bed of many springs, to be computed again.
+    pub(crate) fn on_bed_mut(&mut self) -> Option<&mut OnBed> {
+        self.on_bed.as_mut()
+    }
+
     /// Replaces all entries, without allocating.
     pub(crate) fn set(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);

@@ -9,7 +9,7 @@
 //! W = D + L Lᵀ A. Its storage grows in proportion to the number of elements.
 
 use crate::linalg::{
-    DenseFactor, condition_by_products, dense_multiply_add, dot, largest, pivoted_cholesky,
+    DenseFactor, PivotedCholesky, condition_by_products, dense_multiply_add, dot, largest,
     scale_by, transposed_multiply_add,
 };
 
@@ -32,12 +32,28 @@ pub(crate) struct OnBed {
     /// L, row by row.
     modes: Vec<f64>,
     mode_count: usize,
+    /// L, column by column.
+    factor: PivotedCholesky,
+    check: SymmetryCheck,
+}
+
+/// Buffers for the check that the structure's compliance is symmetric.
+#[derive(Debug, Clone)]
+struct SymmetryCheck {
+    /// Any traction in which all components differ, Pa.
+    traction: Vec<f64>,
+    /// Product with the structure's compliance.
+    expected: Vec<f64>,
+    /// Product with L Lᵀ A.
+    product: Vec<f64>,
+    forces: Vec<f64>,
+    amplitudes: Vec<f64>,
 }
 
 /// The structure's part B K⁻¹ Bᵀ A of W.
-pub(crate) struct StructurePart<C, P> {
-    /// Diagonal, m/Pa.
-    pub(crate) diagonal: Vec<f64>,
+pub(crate) struct StructurePart<D, C, P> {
+    /// Returns the entry on the diagonal in a row, m/Pa.
+    pub(crate) diagonal: D,
     /// Overwrites a vector with the column of this index.
     pub(crate) column: C,
     /// Overwrites the second vector with the product with the first.
@@ -47,42 +63,89 @@ pub(crate) struct StructurePart<C, P> {
 impl OnBed {
     /// W of a soil and a structure on elements with these areas.
     ///
-    /// All lists have a number for each contact component. `None` if the structure has more than `max_mode_count` modes, or
-    /// its compliance per force is not symmetric or not positive semi-definite.
+    /// Both lists have a number for each contact component. `None` as for a false [`refill`](OnBed::refill).
     pub(crate) fn new(
         soil: &[f64],
         areas: Vec<f64>,
         max_mode_count: usize,
-        mut structure: StructurePart<
+        structure: StructurePart<
+            impl Fn(usize) -> f64,
             impl FnMut(usize, &mut [f64]),
             impl FnOnce(&[f64], &mut [f64]),
         >,
     ) -> Option<Self> {
+        let zeros = vec![0.0; soil.len()];
+        let numbered_areas = areas.iter().enumerate();
+        let traction = numbered_areas.map(|(i, area)| (1.0 + i as f64).sin() / area).collect();
+        let mut operator = Self {
+            soil: soil.to_vec(),
+            areas,
+            modes: Vec::new(),
+            mode_count: 0,
+            factor: PivotedCholesky::default(),
+            check: SymmetryCheck {
+                traction,
+                expected: zeros.clone(),
+                product: zeros.clone(),
+                forces: zeros,
+                amplitudes: Vec::new(),
+            },
+        };
+        operator.refill(max_mode_count, structure).then_some(operator)
+    }
+
+    /// Computes W again for another structure; allocates only if the number of modes grows.
+    ///
+    /// False if the structure has more than `max_mode_count` modes, or its compliance per force is not symmetric or not
+    /// positive semi-definite. The operator then has no meaning.
+    pub(crate) fn refill(
+        &mut self,
+        max_mode_count: usize,
+        mut structure: StructurePart<
+            impl Fn(usize) -> f64,
+            impl FnMut(usize, &mut [f64]),
+            impl FnOnce(&[f64], &mut [f64]),
+        >,
+    ) -> bool {
+        let Self { soil, areas, modes, mode_count, factor, .. } = self;
+        let diagonal = |i: usize| (structure.diagonal)(i) / areas[i];
         let size = soil.len();
-        let diagonal: Vec<f64> =
-            structure.diagonal.iter().zip(&areas).map(|(entry, area)| entry / area).collect();
-        let max_diagonal = (0..size).map(|i| soil[i] / areas[i] + diagonal[i]).fold(0.0, f64::max);
+        let max_diagonal = (0..size).map(|i| soil[i] / areas[i] + diagonal(i)).fold(0.0, f64::max);
         let tolerance = MODE_TOLERANCE * max_diagonal;
-        let factors = pivoted_cholesky(diagonal, tolerance, max_mode_count, |pivot, column| {
+        let write_column = |pivot: usize, column: &mut [f64]| {
             (structure.column)(pivot, column);
             for value in column {
                 *value /= areas[pivot];
             }
-        })?;
-        let mode_count = factors.len();
-        let modes = (0..size).flat_map(|i| factors.iter().map(move |factor| factor[i])).collect();
-        let operator = Self { soil: soil.to_vec(), areas, modes, mode_count };
-        let mut expected = vec![0.0; size];
-        let mut product = vec![0.0; size];
-        // Any traction in which all components differ.
-        let areas = operator.areas.iter().enumerate();
-        let traction: Vec<f64> = areas.map(|(i, area)| (1.0 + i as f64).sin() / area).collect();
-        (structure.product)(&traction, &mut expected);
-        operator.add_modes(&traction, &mut product);
-        let tolerance = PRODUCT_TOLERANCE * largest(&expected);
-        let mut pairs = expected.iter().zip(&product);
-        let is_symmetric = pairs.all(|(expected, value)| (expected - value).abs() <= tolerance);
-        is_symmetric.then_some(operator)
+        };
+        let diagonals = (0..size).map(diagonal);
+        if !factor.factor(diagonals, tolerance, max_mode_count, write_column) {
+            return false;
+        }
+        *mode_count = factor.rank();
+        modes.clear();
+        modes.resize(size * factor.rank(), 0.0);
+        for (k, column) in factor.columns().enumerate() {
+            let rows = modes.chunks_exact_mut(*mode_count);
+            rows.zip(column).for_each(|(row, entry)| row[k] = *entry);
+        }
+        self.is_symmetric(structure.product)
+    }
+
+    /// Whether products with L Lᵀ are those with the structure's compliance.
+    fn is_symmetric(&mut self, structure_product: impl FnOnce(&[f64], &mut [f64])) -> bool {
+        let Self { areas, modes, mode_count, check, .. } = self;
+        let SymmetryCheck { traction, expected, product, forces, amplitudes } = check;
+        structure_product(traction, expected);
+        product.fill(0.0);
+        amplitudes.clear();
+        amplitudes.resize(*mode_count, 0.0);
+        forces.clear();
+        forces.extend(areas.iter().zip(&*traction).map(|(a, t)| a * t));
+        add_modal_product(modes, forces, amplitudes, product);
+        let tolerance = PRODUCT_TOLERANCE * largest(expected);
+        let mut pairs = expected.iter().zip(&*product);
+        pairs.all(|(expected, value)| (expected - value).abs() <= tolerance)
     }
 
     /// Soil's step compliance of a contact component, m/Pa.
@@ -122,8 +185,7 @@ impl OnBed {
         }
         let forces: Vec<f64> = self.areas.iter().zip(traction).map(|(a, t)| a * t).collect();
         let mut amplitudes = vec![0.0; self.mode_count];
-        transposed_multiply_add(&self.modes, 1.0, &forces, &mut amplitudes);
-        dense_multiply_add(&self.modes, 1.0, &amplitudes, jump);
+        add_modal_product(&self.modes, &forces, &mut amplitudes, jump);
     }
 
     /// Condition number of W, scaled by its diagonal; infinite if W is singular.
@@ -183,6 +245,12 @@ impl OnBed {
     }
 }
 
+/// jump ← jump + L Lᵀ r for L row by row; `amplitudes`: zeros, which become Lᵀ r.
+fn add_modal_product(modes: &[f64], forces: &[f64], amplitudes: &mut [f64], jump: &mut [f64]) {
+    transposed_multiply_add(modes, 1.0, forces, amplitudes);
+    dense_multiply_add(modes, 1.0, amplitudes, jump);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,7 +277,7 @@ mod tests {
     ) -> Option<OnBed> {
         let size = soil.len();
         let structure = StructurePart {
-            diagonal: (0..size).map(|i| entries[i * (size + 1)]).collect(),
+            diagonal: |i: usize| entries[i * (size + 1)],
             column: |j, column: &mut [f64]| {
                 (0..size).for_each(|i| column[i] = entries[i * size + j]);
             },

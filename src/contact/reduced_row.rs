@@ -44,7 +44,8 @@ impl ReducedRow {
         dofs: &[usize],
         matrix: &mut Vec<f64>,
     ) -> Option<f64> {
-        let [gaps, slips] = self.places.map(|place| &delassus[place * size..][..size]);
+        let gaps = &delassus[self.places[0] * size..][..size];
+        let slips = &delassus[self.places[1] * size..][..size];
         let row_start = matrix.len();
         // Most conditions contain a gap or a slip alone.
         let gap = condition.gap;

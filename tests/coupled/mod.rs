@@ -15,6 +15,7 @@ mod embedded_rest;
 mod embedded_scenes;
 mod embedded_waves;
 mod energy_balance;
+mod falling_branches;
 mod fibre_frames;
 mod fixed_base;
 mod forms;

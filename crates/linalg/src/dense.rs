@@ -291,57 +291,6 @@ fn solve_upper<'a>(column: impl Fn(usize) -> &'a [f64], x: &mut [f64]) {
     }
 }
 
-/// Largest magnitude of a negative entry on the diagonal of V − L Lᵀ, relative to the tolerance.
-///
-/// For a semi-definite V, rounding errors make no entry more negative than this.
-const NEGATIVE_RESIDUAL_TOLERANCE_FACTOR: f64 = 10.0;
-
-/// Columns of L with V = L Lᵀ, for a positive semi-definite V of low rank.
-///
-/// Cholesky factorization with diagonal pivoting (Higham 2002, § 10.3), from the diagonal of V. `write_column(j, column)`
-/// overwrites `column` with column j of V. The diagonal of V − L Lᵀ is at most `tolerance`. `None` if L has more than
-/// `max_rank` columns, or V is empty or not positive semi-definite.
-pub fn pivoted_cholesky(
-    diagonal: Vec<f64>,
-    tolerance: f64,
-    max_rank: usize,
-    mut write_column: impl FnMut(usize, &mut [f64]),
-) -> Option<Vec<Vec<f64>>> {
-    let mut residual_diagonal = diagonal;
-    let mut columns: Vec<Vec<f64>> = vec![];
-    loop {
-        let pivot = (0..residual_diagonal.len())
-            .max_by(|a, b| residual_diagonal[*a].total_cmp(&residual_diagonal[*b]))?;
-        if residual_diagonal[pivot] <= tolerance {
-            let min_residual = -NEGATIVE_RESIDUAL_TOLERANCE_FACTOR * tolerance;
-            let is_semi_definite =
-                residual_diagonal.iter().all(|residual| *residual >= min_residual);
-            return is_semi_definite.then_some(columns);
-        }
-        if columns.len() == max_rank {
-            return None;
-        }
-        let root = residual_diagonal[pivot].sqrt();
-        let mut column = vec![0.0; residual_diagonal.len()];
-        write_column(pivot, &mut column);
-        let mut products = vec![0.0; column.len()];
-        for earlier_column in &columns {
-            let factor = earlier_column[pivot];
-            for (product, entry) in products.iter_mut().zip(earlier_column) {
-                *product += entry * factor;
-            }
-        }
-        for (value, product) in column.iter_mut().zip(&products) {
-            *value = (*value - product) / root;
-        }
-        for (residual, value) in residual_diagonal.iter_mut().zip(&column) {
-            *residual -= value * value;
-        }
-        residual_diagonal[pivot] = 0.0;
-        columns.push(column);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

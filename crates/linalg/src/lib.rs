@@ -42,6 +42,7 @@ mod matrix_scalar;
 mod matrix_values;
 pub mod orthonormal;
 mod partition;
+mod pivoted_cholesky;
 mod product;
 mod sparse;
 mod symmetry;
@@ -52,7 +53,7 @@ pub use complex::Complex;
 pub use complex_arithmetic::ComplexArithmetic;
 pub use compressed_matrix::CompressedMatrix;
 pub use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
-pub use dense::{DenseFactor, pivoted_cholesky};
+pub use dense::DenseFactor;
 pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
 pub use elimination::Elimination;
 pub use gauss_seidel_gmres::GaussSeidelGmres;
@@ -63,6 +64,7 @@ pub use lowest_modes::{ModeLimit, lowest_modes};
 pub use matrix::SparseMatrix;
 pub use matrix_scalar::MatrixScalar;
 pub use partition::Partition;
+pub use pivoted_cholesky::{PivotedCholesky, pivoted_cholesky};
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
     dense_multiply_add, dot, largest, magnitude_sum, mixing_sum, row_products, symmetric_products,

@@ -104,8 +104,8 @@ pub(super) fn sample<const KINDS: usize>(
         let new_variables = chosen.iter().map(|candidate| candidates[*candidate]);
         let new_samples = computed_samples(new_variables, self_pairs, &compliances, progress)?;
         let is_accurate = |functions: &RationalCompliances<KINDS>| {
-            let mut new = new_samples.iter();
-            new.all(|new| check_error(functions, new) <= domain.max_error(new.s))
+            let mut samples = new_samples.iter();
+            samples.all(|sample| check_error(functions, sample) <= domain.max_error(sample.s))
         };
         let are_accurate = functions.as_ref().is_some_and(is_accurate);
         samples.extend(chosen.iter().copied().zip(new_samples));

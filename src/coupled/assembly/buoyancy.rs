@@ -67,7 +67,8 @@ fn check_floating(nodes: &[&BaseNode], is_plan: bool, [weight, buoyancy]: [f64; 
     if weight > buoyancy {
         return Ok(());
     }
-    let [ends, y_ends] = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
+    let ends = span(nodes.iter().map(|node| node.place()[0]));
+    let y_ends = span(nodes.iter().map(|node| node.place()[1]));
     let across = is_plan.then_some(y_ends);
     let cause = StabilityError::Uplift { ends, across, upward: buoyancy - weight, buoyancy };
     Err(Error::Stability(Box::new(cause)))

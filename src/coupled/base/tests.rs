@@ -109,7 +109,9 @@ fn bad_bases_are_errors() {
 /// The water table lies inside an element, and between two nodes.
 #[test]
 fn water_presses_as_a_triangle_on_walls() {
-    let (width, depth, water_depth) = (8.0, 5.0, 1.37);
+    let width = 8.0;
+    let depth = 5.0;
+    let water_depth = 1.37;
     let wall_heights = [0.0, -0.9, -2.2, -3.1, -depth];
     let mut places: Vec<[f64; 2]> = wall_heights.iter().map(|z| [-0.5 * width, *z]).collect();
     places.extend([-1.0, 2.5].map(|x| [x, -depth]));

@@ -50,7 +50,8 @@ fn resultant(water: &WaterTable, element: &ContactElement, ends: [f64; 2]) -> (f
     // Coordinate at which the element crosses the water table.
     let crossing = ends[0] + (ends[1] - ends[0]) * heads[0] / (heads[0] - heads[1]);
     let [start, end] = [0, 1].map(|k| if heads[k] < 0.0 { crossing } else { ends[k] });
-    let [mass_at_start, mass_at_end] = depths.map(|depth| water.mass_above(depth));
+    let mass_at_start = water.mass_above(depths[0]);
+    let mass_at_end = water.mass_above(depths[1]);
     let sum = mass_at_start + mass_at_end;
     if sum == 0.0 {
         return (0.0, middle);

@@ -30,7 +30,7 @@ pub(crate) struct Operators {
     ///
     /// Empty before the first change of the tangent.
     unit_traction: Vec<f64>,
-    /// Buffer for the mean displacements of the elements.
+    /// Buffer for the mean displacements of the elements; on a bed of springs, for the displacement of the structure.
     ///
     /// Empty before the first change of the tangent.
     means: Vec<f64>,
@@ -82,8 +82,7 @@ impl Operators {
 
     /// Computes the operators for another tangent.
     ///
-    /// After the first change nothing is allocated while the pattern of the tangent stays, except for a base of many
-    /// elements on a bed of springs.
+    /// After the first change nothing is allocated while the pattern of the tangent stays.
     pub(crate) fn change_tangent(
         &mut self,
         model: &Model,
@@ -111,30 +110,48 @@ impl Operators {
         } else {
             self.tangent.clone_from(tangent);
         }
-        let factorization = &mut self.factorization;
+        let dofs = model.coordinate_count;
         if self.delassus.on_bed().is_some() {
-            let solve = |rhs: &mut [f64]| factorization.solve_many(rhs);
-            (self.traction_responses, self.delassus) =
-                condense(solve, base, step_compliance, model.coordinate_count)?;
+            if !self.refill_on_bed(base, dofs) {
+                let solve = |rhs: &mut [f64]| self.factorization.solve_many(rhs);
+                (self.traction_responses, self.delassus) =
+                    condense(solve, base, step_compliance, dofs)?;
+            }
             return Ok(());
         }
-        if let StiffnessFactorization::Changing(stiffness) = factorization
+        if let StiffnessFactorization::Changing(stiffness) = &mut self.factorization
             && let Some(responses) = &mut stiffness.base_responses
         {
             let factor = &mut stiffness.factor;
             self.delassus.refill(step_compliance, &[], |values| responses.add_to(factor, values));
             return Ok(());
         }
-        let Self { traction_responses, delassus, unit_traction, means, .. } = self;
-        let order = base.layout().len();
-        unit_traction.resize(order, 0.0);
-        means.resize(order, 0.0);
-        set_unit_forces(base, unit_traction, model.coordinate_count, traction_responses);
-        factorization.solve_many(traction_responses);
+        self.update_traction_responses(base, dofs);
+        let Self { traction_responses, delassus, means, .. } = self;
+        means.resize(base.layout().len(), 0.0);
         delassus.refill(step_compliance, traction_responses, |values| {
-            add_means(base, traction_responses, model.coordinate_count, means, values);
+            add_means(base, traction_responses, dofs, means, values);
         });
         Ok(())
+    }
+
+    /// Computes K_eff⁻¹BᵀA with the present factor.
+    fn update_traction_responses(&mut self, base: &PlacedBase, dofs: usize) {
+        let Self { traction_responses, unit_traction, factorization, .. } = self;
+        unit_traction.resize(base.layout().len(), 0.0);
+        set_unit_forces(base, unit_traction, dofs, traction_responses);
+        factorization.solve_many(traction_responses);
+    }
+
+    /// Computes the operator on a bed of springs again; false if the structure's part is not of small rank.
+    fn refill_on_bed(&mut self, base: &PlacedBase, dofs: usize) -> bool {
+        self.update_traction_responses(base, dofs);
+        let Self { traction_responses, delassus, means, .. } = self;
+        means.resize(dofs, 0.0);
+        let structure = structure_part(traction_responses, base, means);
+        delassus
+            .on_bed_mut()
+            .is_some_and(|on_bed| on_bed.refill(MAX_STRUCTURE_RANK, structure))
     }
 
     /// Inverse of the diagonal K_eff in modal coordinates; empty if K_eff is factored.
@@ -320,16 +337,33 @@ fn operator_on_bed(
     bed_diagonal: &[f64],
     dofs: usize,
 ) -> Option<OnBed> {
-    let response = |i: usize| &traction_responses[i * dofs..][..dofs];
-    let structure = StructurePart {
-        diagonal: (0..bed_diagonal.len()).map(|i| base.component_mean(i, response(i))).collect(),
-        column: |i: usize, out: &mut [f64]| base.means(response(i), out),
-        product: |traction: &[f64], out: &mut [f64]| {
-            let mut displacement = vec![0.0; dofs];
-            transposed_multiply_add(traction_responses, 1.0, traction, &mut displacement);
-            base.means(&displacement, out);
-        },
-    };
+    let mut displacement = vec![0.0; dofs];
+    let structure = structure_part(traction_responses, base, &mut displacement);
     let areas = (0..bed_diagonal.len()).map(|i| base.area(i)).collect();
     OnBed::new(bed_diagonal, areas, MAX_STRUCTURE_RANK, structure)
+}
+
+/// Part of the Delassus operator of a structure with the responses K⁻¹BᵀA.
+///
+/// `displacement`: a buffer with an entry for each degree of freedom.
+fn structure_part<'a>(
+    traction_responses: &'a [f64],
+    base: &'a PlacedBase,
+    displacement: &'a mut [f64],
+) -> StructurePart<
+    impl Fn(usize) -> f64 + 'a,
+    impl FnMut(usize, &mut [f64]) + 'a,
+    impl FnOnce(&[f64], &mut [f64]) + 'a,
+> {
+    let dofs = displacement.len();
+    let response = move |i: usize| &traction_responses[i * dofs..][..dofs];
+    StructurePart {
+        diagonal: move |i: usize| base.component_mean(i, response(i)),
+        column: move |i: usize, out: &mut [f64]| base.means(response(i), out),
+        product: move |traction: &[f64], out: &mut [f64]| {
+            displacement.fill(0.0);
+            transposed_multiply_add(traction_responses, 1.0, traction, displacement);
+            base.means(displacement, out);
+        },
+    }
 }

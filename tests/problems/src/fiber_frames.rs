@@ -2,8 +2,8 @@
 
 use basemat::bem::{ElasticGround, SpringGround};
 use basemat::fem::{
-    Beam, BeamFormulation, BeamQuadrature, BilinearSteel, Concrete, Direction, FiberBeam,
-    FiberSection, LumpedMass, MenegottoPinto, Mesh,
+    Beam, BeamFormulation, BeamQuadrature, BilinearMoment, BilinearSteel, Concrete, Direction,
+    FiberBeam, FiberSection, Hinge, LumpedMass, MenegottoPinto, Mesh,
 };
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{Record, el_centro_1940};
@@ -11,6 +11,11 @@ use basemat::structure::{DofCombination, FemModel, RayleighDamping};
 use basemat::{Result, Simulation, Soil};
 
 use crate::random::Random;
+
+/// Rotational stiffness of a hinge over its plastic moment, 1/rad.
+const FOOT_STIFFNESS_RATIO: f64 = 300.0;
+/// Stiffness of a hinge between the displacements of its nodes, N/m per metre.
+const HINGE_STIFFNESS: f64 = 1.0e10;
 
 /// A plane frame of equal storeys and bays. All is per metre of thickness.
 #[derive(Debug, Clone)]
@@ -32,6 +37,8 @@ pub struct FiberFrame {
     pub footing_width: f64,
     /// Gravity of P–Δ; `None` without.
     pub p_delta_gravity: Option<f64>,
+    /// Plastic moment of a hinge at the foot of each column, N m; `None` without hinges.
+    pub foot_moment: Option<f64>,
 }
 
 /// The model of a frame.
@@ -62,7 +69,16 @@ impl FiberFrame {
             mesh.add(Beam::new([left, foot], 30.0e9, 0.8, 0.05, 2500.0)?)?;
             mesh.add(Beam::new([foot, right], 30.0e9, 0.8, 0.05, 2500.0)?)?;
             lines.push(vec![left, foot, right]);
-            last_floor.push(foot);
+            let column_foot = match self.foot_moment {
+                Some(moment) => {
+                    let column_foot = mesh.add_node(x, 0.0)?;
+                    let law = BilinearMoment::new(moment, FOOT_STIFFNESS_RATIO * moment, 0.01)?;
+                    mesh.add(Hinge::new([foot, column_foot], HINGE_STIFFNESS, law)?)?;
+                    column_foot
+                }
+                None => foot,
+            };
+            last_floor.push(column_foot);
         }
         let mut floor_nodes = Vec::new();
         for storey in 1..=self.storey_count {
@@ -179,6 +195,7 @@ pub fn ten_storey_frame(law: FrameLaw, formulation: BeamFormulation) -> Result<F
         joint_mass: 12.0e3,
         footing_width: 3.0,
         p_delta_gravity: None,
+        foot_moment: None,
     })
 }
 
@@ -245,10 +262,11 @@ pub fn random_frame(seed: u64) -> RandomFrame {
     let is_on_springs = random.chance(0.5);
     let is_bonded = random.chance(0.2);
     let friction = random.within(0.3, 0.9);
+    let foot_moment = random.chance(0.3).then(|| random.log_within(3.0e4, 1.0e6));
     let text = format!(
         "seed {seed}: {storey_count} storeys of {storey_height:.1} m, {bay_count} bays of {bay_width:.1} m, {law:?}, \
          {formulation:?}, {quadrature:?}, {division_count} elements a member, depths {depths:.2?}, joint mass \
-         {joint_mass:.1e}, P–Δ {}, springs {is_on_springs}, bonded {is_bonded}, record {has_record}, \
+         {joint_mass:.1e}, hinges of {foot_moment:.0?} N m, P–Δ {}, springs {is_on_springs}, bonded {is_bonded}, record {has_record}, \
          {amplitude:.1} m/s² at {frequency:.1} Hz, Δt {time_step:.4}",
         p_delta_gravity.is_some()
     );
@@ -266,6 +284,7 @@ pub fn random_frame(seed: u64) -> RandomFrame {
             joint_mass,
             footing_width,
             p_delta_gravity,
+            foot_moment,
         };
         let model = frame.model()?.model;
         let motion = if has_record {

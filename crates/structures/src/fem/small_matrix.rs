@@ -1,10 +1,60 @@
 //! Inverse and products of small matrices.
 
+use super::vector::cross;
+
 /// Pivot, relative to the largest entry of the matrix, below which a matrix counts as singular.
 const MIN_RELATIVE_PIVOT: f64 = 1e-14;
 
+/// Inverse of a matrix; `None` for a singular one.
+pub(super) fn inverse<const N: usize>(matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    match N {
+        2 => inverse_of_two(matrix),
+        3 => inverse_of_three(matrix),
+        _ => inverse_by_elimination(matrix),
+    }
+}
+
+/// Inverse of a matrix of order two by its determinant.
+fn inverse_of_two<const N: usize>(matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let [[a, b], [c, d]] = [0, 1].map(|i| [matrix[i][0], matrix[i][1]]);
+    let diagonal = a * d;
+    let off_diagonal = b * c;
+    let determinant = diagonal - off_diagonal;
+    let scale = diagonal.abs().max(off_diagonal.abs());
+    let is_regular = determinant.abs() > MIN_RELATIVE_PIVOT * scale && determinant.is_finite();
+    let mut inverse = [[0.0; N]; N];
+    inverse[0][0] = d / determinant;
+    inverse[0][1] = -b / determinant;
+    inverse[1][0] = -c / determinant;
+    inverse[1][1] = a / determinant;
+    is_regular.then_some(inverse)
+}
+
+/// Inverse of a matrix of order three by its cofactors, with scaled rows.
+fn inverse_of_three<const N: usize>(matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let mut rows = [0, 1, 2].map(|i| [matrix[i][0], matrix[i][1], matrix[i][2]]);
+    let mut factors = [0.0; 3];
+    for (row, factor) in rows.iter_mut().zip(&mut factors) {
+        *factor = 1.0 / row.iter().fold(0.0_f64, |max, entry| max.max(entry.abs()));
+        for entry in row {
+            *entry *= *factor;
+        }
+    }
+    let cofactors = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
+    let terms = [0, 1, 2].map(|k| rows[0][k] * cofactors[0][k]);
+    let determinant = terms[0] + terms[1] + terms[2];
+    let is_regular = determinant.abs() >= MIN_RELATIVE_PIVOT && determinant.is_finite();
+    let mut inverse = [[0.0; N]; N];
+    for i in 0..3 {
+        for j in 0..3 {
+            inverse[i][j] = cofactors[j][i] / determinant * factors[j];
+        }
+    }
+    is_regular.then_some(inverse)
+}
+
 /// Inverse of a matrix by elimination with row pivoting; `None` for a singular one.
-pub(super) fn inverse<const N: usize>(mut matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
+fn inverse_by_elimination<const N: usize>(mut matrix: [[f64; N]; N]) -> Option<[[f64; N]; N]> {
     // Scale of each row, so that rows of different units do not matter.
     let mut inverse = [[0.0; N]; N];
     for (i, (row, unit_row)) in matrix.iter_mut().zip(&mut inverse).enumerate() {
@@ -95,19 +145,33 @@ pub(super) fn add_outer<const N: usize>(factor: f64, row: &[f64; N], matrix: &mu
 mod tests {
     use super::*;
 
-    #[test]
-    fn inverses_of_matrices_of_mixed_units() {
-        let matrix = [[2.0e9, 3.0e6, 1.0e3], [1.0e3, 5.0, -2.0], [4.0e-6, 1.0e-9, 7.0e-9]];
+    fn assert_inverse<const N: usize>(matrix: [[f64; N]; N]) {
         let inverse = inverse(matrix).unwrap();
-        for i in 0..3 {
-            for j in 0..3 {
-                let sum: f64 = (0..3).map(|k| inverse[i][k] * matrix[k][j]).sum();
-                let scale: f64 = (0..3).map(|k| (inverse[i][k] * matrix[k][j]).abs()).sum();
+        for i in 0..N {
+            for j in 0..N {
+                let sum: f64 = (0..N).map(|k| inverse[i][k] * matrix[k][j]).sum();
+                let scale: f64 = (0..N).map(|k| (inverse[i][k] * matrix[k][j]).abs()).sum();
                 let unit = if i == j { 1.0 } else { 0.0 };
                 assert!((sum - unit).abs() < 1e-14 * scale.max(1.0), "{i} {j} {sum}");
             }
         }
+    }
+
+    #[test]
+    fn inverses_of_matrices_of_mixed_units() {
+        let matrix = [[2.0e9, 3.0e6, 1.0e3], [1.0e3, 5.0, -2.0], [4.0e-6, 1.0e-9, 7.0e-9]];
+        assert_inverse(matrix);
+        assert_inverse([[2.0e9, 3.0e6], [1.0e3, 5.0]]);
+        let rows = [[4.0, 1.0, 2.0, 0.5, 3.0], [1.0e3, 2.0, -1.0, 1.0, 0.0]];
+        let more_rows = [
+            [0.0, 1.0e-6, 2.0e-6, 0.0, 0.0],
+            [1.0, 1.0, 1.0, 7.0, 1.0],
+            [0.0, 0.0, 2.0, 3.0, -5.0],
+        ];
+        assert_inverse([rows[0], rows[1], more_rows[0], more_rows[1], more_rows[2]]);
         assert!(super::inverse([[1.0, 2.0], [2.0, 4.0]]).is_none());
+        assert!(super::inverse([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [0.0, 1.0, 1.0]]).is_none());
+        assert!(super::inverse([[0.0; 3], [1.0; 3], [2.0, 0.0, 1.0]]).is_none());
         assert!(super::inverse([[0.0, 0.0], [0.0, 1.0]]).is_none());
         assert!(super::inverse([[f64::NAN, 0.0], [0.0, 1.0]]).is_none());
     }

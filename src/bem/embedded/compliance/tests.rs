@@ -141,7 +141,8 @@ fn strips_on_damped_layers_match_the_tables() {
 /// Guided waves in an elastic layer on rock need a deep bottom.
 ///
 /// The wave speed of the rock is three times that of the layer; only Re s damps the waves. 48 frequencies around a
-/// cut-off; a shallow bottom is inaccurate at about a quarter of them.
+/// cut-off. Whole elements make the bottom deeper than required: 19 c/|s| for 16, inaccurate at two fifths of the
+/// frequencies, and 31 for 24, inaccurate at four of them.
 #[test]
 fn the_bottom_is_as_deep_as_guided_waves_need() {
     let profile = SoilProfile::on_half_plane(soil(3.0, 1.2))
@@ -153,7 +154,7 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
     let mut inaccurate_count = 0;
     for sample in 0..48 {
         let s = Complex::new(1e-3, 3.5 + 0.0125 * f64::from(sample));
-        let compliances_by_depth = [24.0, 48.0, 64.0]
+        let compliances_by_depth = [16.0, 48.0, 64.0]
             .map(|depth| ground.compliances(s, &ground.mesh_of_depth(s, depth, 4)).unwrap());
         let deepest = &compliances_by_depth[2];
         inaccurate_count += usize::from(compliances_by_depth[0].difference(deepest) > 1e-3);
@@ -164,5 +165,5 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
         assert!(change < 1e-6, "{sample}: {change:e}");
     }
     println!("{inaccurate_count} frequencies");
-    assert!((8..=16).contains(&inaccurate_count), "{inaccurate_count}");
+    assert!((16..=24).contains(&inaccurate_count), "{inaccurate_count}");
 }

@@ -29,7 +29,7 @@ fn problems(
         .map(|k| component_areas[k % size] * dot(row(k / size), row(k % size)))
         .collect();
     let structure = StructurePart {
-        diagonal: (0..size).map(|i| structure_entries[i * (size + 1)]).collect(),
+        diagonal: |i: usize| structure_entries[i * (size + 1)],
         column: |j, column: &mut [f64]| {
             (0..size).for_each(|i| column[i] = structure_entries[i * size + j]);
         },

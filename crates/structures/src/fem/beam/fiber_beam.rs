@@ -9,7 +9,7 @@ use crate::error::{Error, Result, finite, not_negative, same_length};
 use crate::fem::element::{Element, MassKind};
 use crate::fem::fiber::{
     BasicBeam, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, PLANE_BENDING,
-    SolutionMemo, plane_strains,
+    SolutionMemo,
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
@@ -101,7 +101,7 @@ impl FiberBeam {
 
     /// Bending part, for masses and geometric stiffness.
     fn bending(&self) -> Bending {
-        let [[axial, coupling], [_, bending]] = self.section.elastic_stiffness(plane_strains);
+        let [[axial, coupling], [_, bending]] = self.section.elastic_stiffness();
         Bending {
             flexural_rigidity: bending - coupling * coupling / axial,
             shear_stiffness: None,

@@ -11,7 +11,7 @@ use crate::fem::element::{Element, MassKind};
 use crate::fem::element_matrix::add_transformed;
 use crate::fem::fiber::{
     BasicBeam, BeamFormulation, BeamPoint, BeamQuadrature, FiberSection, SPACE_BENDING,
-    SolutionMemo, space_strains,
+    SolutionMemo,
 };
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
@@ -149,8 +149,7 @@ impl SpaceFiberBeam {
 
     /// Rotary inertia about the line of the nodes per length, kg m: of mass spread as the stiffness of the fibres.
     fn polar_inertia(&self) -> f64 {
-        let [[axial, ..], [_, bending_y, _], [.., bending_z]] =
-            self.section.elastic_stiffness(space_strains);
+        let [[axial, ..], [_, bending_y, _], [.., bending_z]] = self.section.elastic_stiffness();
         self.mass_per_length * (bending_y + bending_z) / axial
     }
 }

@@ -8,32 +8,21 @@
 //! | a(x), b(x) | e = a v of the displacement-based element; s = b q in equilibrium |
 //! | w | part of the length of a section |
 //!
-//! The **displacement-based** element interpolates e by a, and q = Σ w aᵀ s(e). The **force-based** element (Spacone,
-//! Filippou and Taucer 1996, Earthq. Eng. Struct. Dyn. 25, 711) is in equilibrium at every section, s(e) = b q, and compatible
-//! in the mean, v = Σ w bᵀ e. Newton's method solves both sets of equations together: with the flexibility f of each
-//! section, e ← e + f (b q − s), F = Σ w bᵀ f b, q ← q + F⁻¹ (v − Σ w bᵀ e). It starts at the state of the last
-//! step, whose q and e are internal variables. Where it does not converge, v approaches its value in parts.
+//! The **displacement-based** element interpolates e by a, and q = Σ w aᵀ s(e). The **force-based** element is in
+//! `force_based.rs`; q and e at the end of the last step are among its internal variables.
 
 use std::ops::Range;
 
 use super::basic_state::{BasicState, LastState, MAX_SECTIONS, SectionState};
 use super::interpolation::Interpolation;
 use super::quadrature::BeamPoint;
-use super::section::{FiberSection, SectionResponse};
-use super::solution_memo::{SolutionKey, SolutionMemo};
-use crate::error::{Error, Result};
+use super::section::FiberSection;
+use super::section_response::SectionResponse;
+use super::solution_memo::SolutionMemo;
+use crate::error::Result;
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
 use crate::linalg::dot;
-
-/// Largest number of Newton's iterations inside a force-based element.
-const MAX_ELEMENT_ITERATIONS: usize = 40;
-/// Energy of the last correction at which the iterations end, relative to that of the first or of the whole deformation.
-const ENERGY_TOLERANCE: f64 = 1e-24;
-/// Factor of the number of parts of a change of the deformations after a failure.
-const PART_FACTOR: usize = 4;
-/// Largest number of parts of a change of the deformations.
-const MAX_PARTS: usize = 256;
 
 /// How section deformations follow from those of the element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -85,7 +74,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     }
 
     /// Internal variables e, q and v of a force-based element at the end of the last step.
-    fn last_state(&self, variables: &[f64]) -> LastState<N, B> {
+    pub(super) fn last_state(&self, variables: &[f64]) -> LastState<N, B> {
         let first = self.points.len() * self.section.variable_count();
         let mut values = variables[first..].iter().copied();
         let mut next = || values.next().unwrap_or(0.0);
@@ -100,7 +89,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
 
     /// Stiffness of small strains.
     pub(in crate::fem) fn elastic_stiffness(&self) -> Option<[[f64; B]; B]> {
-        let section_stiffness = self.section.elastic_stiffness(self.interpolation.strains);
+        let section_stiffness = self.section.elastic_stiffness();
         match self.formulation {
             BeamFormulation::DisplacementBased => {
                 let mut stiffness = [[0.0; B]; B];
@@ -190,98 +179,14 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     }
 
     /// Response of a section.
-    fn response(
+    pub(super) fn response(
         &self,
         index: usize,
         deformations: &[f64; N],
         variables: &[f64],
     ) -> Result<SectionResponse<N>> {
         let section_variables = &variables[self.section_range(index)];
-        self.section.response(deformations, section_variables, self.interpolation.strains)
-    }
-
-    fn force_based_state(&self, v: &[f64; B], variables: &[f64]) -> Result<BasicState<N, B>> {
-        let last = self.last_state(variables);
-        let key = SolutionKey { length: self.length, v: *v };
-        if let Some(state) = self.memo.find(&key, variables) {
-            return Ok(state);
-        }
-        let mut part_count = 1;
-        while part_count <= MAX_PARTS {
-            let mut state = BasicState { forces: last.forces, ..BasicState::zero() };
-            state.deformations = last.deformations;
-            let mut is_found = true;
-            for part in 1..=part_count {
-                let share = part as f64 / part_count as f64;
-                let target: [f64; B] = std::array::from_fn(|i| {
-                    last.basic_deformations[i] + share * (v[i] - last.basic_deformations[i])
-                });
-                is_found = self.iterate(&target, variables, &mut state)?;
-                if !is_found {
-                    break;
-                }
-            }
-            if is_found {
-                self.memo.store(key, variables, state);
-                return Ok(state);
-            }
-            part_count *= PART_FACTOR;
-        }
-        let quantity = "state of a force-based beam";
-        let needed = "sections whose tangents are regular: less softening, or shorter steps";
-        Err(Error::Scene { quantity, needed })
-    }
-
-    /// Newton's iterations for q and e at v; returns whether they have converged.
-    fn iterate(
-        &self,
-        v: &[f64; B],
-        variables: &[f64],
-        state: &mut BasicState<N, B>,
-    ) -> Result<bool> {
-        let mut largest_energy = 0.0_f64;
-        for _ in 0..MAX_ELEMENT_ITERATIONS {
-            let mut flexibility = [[0.0; B]; B];
-            // v less the deformations of the sections after their own corrections.
-            let mut residual = *v;
-            // Energy of the corrections of sections and element.
-            let mut energy = 0.0;
-            let mut section_flexibilities = [[[0.0; N]; N]; MAX_SECTIONS];
-            for (index, point) in self.points.iter().enumerate() {
-                let b = (self.interpolation.forces)(point.position);
-                let response = self.response(index, &state.deformations[index], variables)?;
-                let Some(section_flexibility) = inverse(response.tangent) else {
-                    return Ok(false);
-                };
-                let needed_forces = product(&b, &state.forces);
-                let imbalance = std::array::from_fn(|i| needed_forces[i] - response.forces[i]);
-                let correction = product(&section_flexibility, &imbalance);
-                add_to(&mut state.deformations[index], &correction);
-                let length = point.weight * self.length;
-                add_transposed(-length, &b, &state.deformations[index], &mut residual);
-                add_congruent(length, &b, &section_flexibility, &mut flexibility);
-                section_flexibilities[index] = section_flexibility;
-                energy += length * dot(&imbalance, &correction).abs();
-            }
-            let Some(stiffness) = inverse(flexibility) else { return Ok(false) };
-            let increment = product(&stiffness, &residual);
-            for (index, point) in self.points.iter().enumerate() {
-                let b = (self.interpolation.forces)(point.position);
-                let change = product(&section_flexibilities[index], &product(&b, &increment));
-                add_to(&mut state.deformations[index], &change);
-            }
-            add_to(&mut state.forces, &increment);
-            state.stiffness = stiffness;
-            energy += dot(&increment, &residual).abs();
-            if !energy.is_finite() {
-                return Ok(false);
-            }
-            largest_energy = largest_energy.max(energy).max(dot(&state.forces, v).abs());
-            if energy <= ENERGY_TOLERANCE * largest_energy {
-                return Ok(true);
-            }
-        }
-        Ok(false)
+        self.section.response(deformations, section_variables)
     }
 
     /// Energy of a state, J.
@@ -297,8 +202,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         for (index, point) in self.points.iter().enumerate() {
             let section_variables = &variables[self.section_range(index)];
             let deformations = &state.deformations[index];
-            let strains = self.interpolation.strains;
-            let energy = self.section.energy(deformations, section_variables, strains)?;
+            let energy = self.section.energy(deformations, section_variables)?;
             let length = point.weight * self.length;
             sum.stored += length * energy.stored;
             sum.dissipated += length * energy.dissipated;
@@ -329,8 +233,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         for (index, point) in self.points.iter().enumerate() {
             let path = states.map(|state| &state.deformations[index]);
             let section_variables = &variables[self.section_range(index)];
-            let strains = self.interpolation.strains;
-            let remainder = self.section.remainder(path, section_variables, strains)?;
+            let remainder = self.section.remainder(path, section_variables)?;
             sum += point.weight * self.length * remainder;
         }
         Ok(sum)
@@ -349,12 +252,11 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         for (index, point) in self.points.iter().enumerate() {
             let deformations = state.deformations[index];
             let section_variables = &variables[self.section_range(index)];
-            let strains = self.interpolation.strains;
             states.push(SectionState {
                 point: *point,
                 deformations,
                 forces: self.response(index, &deformations, variables)?.forces,
-                fibers: self.section.fiber_states(&deformations, section_variables, strains)?,
+                fibers: self.section.fiber_states(&deformations, section_variables)?,
             });
         }
         Ok(states)
@@ -369,8 +271,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     ) {
         for index in 0..self.points.len() {
             let section_variables = &mut variables[self.section_range(index)];
-            let strains = self.interpolation.strains;
-            self.section.commit(&state.deformations[index], section_variables, strains);
+            self.section.commit(&state.deformations[index], section_variables);
         }
         if self.formulation == BeamFormulation::ForceBased {
             let first = self.points.len() * self.section.variable_count();
@@ -380,12 +281,5 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
                 *variable = *value;
             }
         }
-    }
-}
-
-/// Adds an increment to values.
-fn add_to<const N: usize>(values: &mut [f64; N], increment: &[f64; N]) {
-    for (value, change) in values.iter_mut().zip(increment) {
-        *value += change;
     }
 }

@@ -16,6 +16,27 @@ pub(in crate::fem) struct BasicState<const N: usize, const B: usize> {
     pub(super) deformations: [[f64; N]; MAX_SECTIONS],
 }
 
+/// Resultants and flexibilities of the sections of a beam by forces, and its stiffness.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BeamLinearisation<const N: usize, const B: usize> {
+    /// Resultants of each section, of which the first are in use.
+    pub(super) forces: [[f64; N]; MAX_SECTIONS],
+    /// Inverse tangent of each section.
+    pub(super) flexibilities: [[[f64; N]; N]; MAX_SECTIONS],
+    /// ∂q/∂v.
+    pub(super) stiffness: [[f64; B]; B],
+}
+
+impl<const N: usize, const B: usize> BeamLinearisation<N, B> {
+    pub(super) fn zero() -> Self {
+        Self {
+            forces: [[0.0; N]; MAX_SECTIONS],
+            flexibilities: [[[0.0; N]; N]; MAX_SECTIONS],
+            stiffness: [[0.0; B]; B],
+        }
+    }
+}
+
 /// State of a section along a beam.
 pub(in crate::fem) struct SectionState<const N: usize> {
     pub(in crate::fem) point: BeamPoint,

@@ -1,8 +1,11 @@
 //! Concrete without tension: a parabola, a line, and straight unloading.
 
-use super::{UniaxialMaterial, UniaxialResponse, check_variables};
-use crate::error::{Result, not_negative, positive, require};
+#![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
+
+use super::{MAX_BATCH_FIBERS, UniaxialMaterial, UniaxialResponse, check_variables, padded_count};
+use crate::error::{Error, Result, not_negative, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
+use crate::linalg::{Simd, WithSimd, vectorized};
 
 /// Concrete without tensile strength (Kent and Park 1971; unloading by Scott, Park and Priestley 1982).
 ///
@@ -75,21 +78,43 @@ impl Concrete {
     }
 
     /// Compressive stress of the envelope at a compressive strain, and its slope.
+    #[inline(always)]
     fn envelope(&self, compression: f64) -> UniaxialResponse {
-        if compression < self.strength_strain {
-            let eta = compression / self.strength_strain;
-            UniaxialResponse {
-                stress: self.strength * (2.0 * eta - eta * eta),
-                tangent: self.initial_modulus() * (1.0 - eta),
-            }
-        } else if compression < self.ultimate_strain {
-            let slope = self.softening_slope();
-            UniaxialResponse {
-                stress: self.strength - slope * (compression - self.strength_strain),
-                tangent: -slope,
-            }
-        } else {
-            UniaxialResponse { stress: self.ultimate_stress, tangent: 0.0 }
+        let eta = compression / self.strength_strain;
+        let slope = self.softening_slope();
+        // Without branches: compilers turn loops over fibres into vector instructions.
+        let is_rising = compression < self.strength_strain;
+        let is_softening = compression < self.ultimate_strain;
+        let line = self.strength - slope * (compression - self.strength_strain);
+        let behind_strength = if is_softening { line } else { self.ultimate_stress };
+        let slope_behind = if is_softening { -slope } else { 0.0 };
+        let parabola = self.strength * (2.0 * eta - eta * eta);
+        let slope_before = self.initial_modulus() * (1.0 - eta);
+        UniaxialResponse {
+            stress: if is_rising { parabola } else { behind_strength },
+            tangent: if is_rising { slope_before } else { slope_behind },
+        }
+    }
+
+    /// Stress and tangent at a strain, after this unloading from the largest compressive strain.
+    #[inline(always)]
+    fn response_after(
+        &self,
+        strain: f64,
+        max_compression: f64,
+        unloading: &Unloading,
+    ) -> UniaxialResponse {
+        let compression = -strain;
+        let envelope = self.envelope(compression);
+        let is_envelope = compression >= max_compression;
+        let envelope_stress = if compression > 0.0 { -envelope.stress } else { 0.0 };
+        let is_open = compression <= unloading.residual_strain;
+        let line = -unloading.slope * (compression - unloading.residual_strain);
+        let unloaded_stress = if is_open { 0.0 } else { line };
+        let unloaded_tangent = if is_open { 0.0 } else { unloading.slope };
+        UniaxialResponse {
+            stress: if is_envelope { envelope_stress } else { unloaded_stress },
+            tangent: if is_envelope { envelope.tangent } else { unloaded_tangent },
         }
     }
 
@@ -120,6 +145,19 @@ impl Concrete {
         }
     }
 
+    /// Energy at a strain, after the variables of the last step.
+    #[inline]
+    fn energy_after(&self, strain: f64, mut variables: [f64; VARIABLE_COUNT]) -> InternalEnergy {
+        if -strain > variables[0] {
+            self.write(-strain, &mut variables);
+        }
+        let [max_compression, residual_strain, slope, dissipated] = variables;
+        let unloading = Unloading { residual_strain, slope };
+        let stress = self.response_after(strain, max_compression, &unloading).stress;
+        let stored = if slope > 0.0 { 0.5 * stress * stress / slope } else { 0.0 };
+        InternalEnergy { stored, dissipated }
+    }
+
     /// Overwrites the variables by their values at a largest compressive strain.
     fn write(&self, max_compression: f64, variables: &mut [f64]) {
         let Unloading { residual_strain, slope } = self.unloading(max_compression);
@@ -139,6 +177,49 @@ impl Concrete {
     }
 }
 
+/// Number of internal variables.
+const VARIABLE_COUNT: usize = 4;
+
+/// Stresses and tangents of several fibres, whose variables follow each other.
+struct ConcreteLoops<'a> {
+    concrete: &'a Concrete,
+    strains: &'a [f64],
+    variables: &'a [f64],
+    responses: &'a mut [UniaxialResponse],
+}
+
+impl WithSimd for ConcreteLoops<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { concrete, strains: fiber_strains, variables, responses } = self;
+        // A list of each quantity, of which vectors are loaded at once.
+        let mut strains = [0.0; MAX_BATCH_FIBERS];
+        let mut max_compressions = [0.0; MAX_BATCH_FIBERS];
+        let mut residual_strains = [0.0; MAX_BATCH_FIBERS];
+        let mut slopes = [0.0; MAX_BATCH_FIBERS];
+        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
+        for (k, (strain, history)) in fiber_strains.iter().zip(histories).enumerate() {
+            strains[k] = *strain;
+            max_compressions[k] = history[0];
+            residual_strains[k] = history[1];
+            slopes[k] = history[2];
+        }
+        let mut stresses = [0.0; MAX_BATCH_FIBERS];
+        let mut tangents = [0.0; MAX_BATCH_FIBERS];
+        for k in 0..padded_count(responses.len()) {
+            let unloading = Unloading { residual_strain: residual_strains[k], slope: slopes[k] };
+            let response = concrete.response_after(strains[k], max_compressions[k], &unloading);
+            stresses[k] = response.stress;
+            tangents[k] = response.tangent;
+        }
+        for (k, response) in responses.iter_mut().enumerate() {
+            *response = UniaxialResponse { stress: stresses[k], tangent: tangents[k] };
+        }
+    }
+}
+
 /// Variables: largest compressive strain so far; residual strain and slope of unloading from it; energy dissipated (J/m³).
 impl UniaxialMaterial for Concrete {
     fn modulus(&self) -> f64 {
@@ -146,7 +227,7 @@ impl UniaxialMaterial for Concrete {
     }
 
     fn variable_count(&self) -> usize {
-        4
+        VARIABLE_COUNT
     }
 
     fn initialize(&self, variables: &mut [f64]) {
@@ -154,31 +235,45 @@ impl UniaxialMaterial for Concrete {
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
-        check_variables(variables, self.variable_count())?;
-        let compression = -strain;
-        if compression >= variables[0] {
-            let envelope = self.envelope(compression);
-            let stress = if compression > 0.0 { -envelope.stress } else { 0.0 };
-            return Ok(UniaxialResponse { stress, tangent: envelope.tangent });
-        }
-        let residual_strain = variables[1];
-        let slope = variables[2];
-        if compression <= residual_strain {
-            return Ok(UniaxialResponse::default());
-        }
-        Ok(UniaxialResponse { stress: -slope * (compression - residual_strain), tangent: slope })
+        check_variables(variables, VARIABLE_COUNT)?;
+        let unloading = Unloading { residual_strain: variables[1], slope: variables[2] };
+        Ok(self.response_after(strain, variables[0], &unloading))
+    }
+
+    fn responses(
+        &self,
+        strains: &[f64],
+        variables: &[f64],
+        responses: &mut [UniaxialResponse],
+    ) -> std::result::Result<(), (usize, Error)> {
+        vectorized(ConcreteLoops { concrete: self, strains, variables, responses });
+        Ok(())
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
-        let stress = self.response(strain, variables)?.stress;
-        let mut largest = [variables[0], variables[1], variables[2], variables[3]];
-        if -strain > largest[0] {
-            self.write(-strain, &mut largest);
+        check_variables(variables, VARIABLE_COUNT)?;
+        Ok(self.energy_after(strain, std::array::from_fn(|i| variables[i])))
+    }
+
+    fn remainders(
+        &self,
+        [start, midstep, end]: [&[f64]; 3],
+        variables: &[f64],
+        remainders: &mut [f64],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        let responses = &mut responses[..remainders.len()];
+        self.responses(midstep, variables, responses)?;
+        let histories = variables.as_chunks().0;
+        for (k, (remainder, history)) in remainders.iter_mut().zip(histories).enumerate() {
+            let work = responses[k].stress * (end[k] - start[k]);
+            let start_energy = self.energy_after(start[k], *history);
+            let end_energy = self.energy_after(end[k], *history);
+            let stored_change = end_energy.stored - start_energy.stored;
+            let dissipated_change = end_energy.dissipated - start_energy.dissipated;
+            *remainder = work - stored_change - dissipated_change;
         }
-        let slope = largest[2];
-        let dissipated = largest[3];
-        let stored = if slope > 0.0 { 0.5 * stress * stress / slope } else { 0.0 };
-        Ok(InternalEnergy { stored, dissipated })
+        Ok(())
     }
 
     /// Changes nothing for a wrong number of variables.

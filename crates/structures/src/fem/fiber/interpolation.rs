@@ -1,7 +1,5 @@
 //! Deformations and forces of sections along a beam.
 
-use super::section::{plane_strains, space_strains};
-
 /// Interpolations along a beam with N deformations of a section and B basic deformations.
 #[derive(Debug)]
 pub(in crate::fem) struct Interpolation<const N: usize, const B: usize> {
@@ -9,15 +7,12 @@ pub(in crate::fem) struct Interpolation<const N: usize, const B: usize> {
     pub(in crate::fem) deformations: fn(f64) -> [[f64; B]; N],
     /// b(x) at x/L.
     pub(in crate::fem) forces: fn(f64) -> [[f64; B]; N],
-    /// Strain of a fibre at [y, z] due to unit deformations of the section.
-    pub(in crate::fem) strains: fn([f64; 2]) -> [f64; N],
 }
 
 /// Bending in one plane: axial strain and curvature.
 pub(in crate::fem) const PLANE_BENDING: Interpolation<2, 3> = Interpolation {
     deformations: |s| [[1.0, 0.0, 0.0], [0.0, 6.0 * s - 4.0, 6.0 * s - 2.0]],
     forces: |s| [[1.0, 0.0, 0.0], [0.0, s - 1.0, s]],
-    strains: plane_strains,
 };
 
 /// Bending in two planes: axial strain, curvatures about z and about y.
@@ -33,5 +28,4 @@ pub(in crate::fem) const SPACE_BENDING: Interpolation<3, 5> = Interpolation {
     forces: |s| {
         [[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, s - 1.0, s, 0.0, 0.0], [0.0, 0.0, 0.0, s - 1.0, s]]
     },
-    strains: space_strains,
 };

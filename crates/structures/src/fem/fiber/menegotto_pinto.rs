@@ -6,11 +6,16 @@
 //! | ε_0, σ_0 | intersection of the asymptotes: slope E through the reversal, slope b E of the hardening |
 //! | ε*, σ* | (ε − ε_r)/(ε_0 − ε_r) and (σ − σ_r)/(σ_0 − σ_r) |
 //! | R | exponent of the transition; it falls with the plastic excursion ξ of the last half cycle |
+//!
+//! `steel_branch.rs` has the curve.
 
 use super::bilinear_steel::check_steel;
-use super::{UniaxialMaterial, UniaxialResponse, check_variables};
-use crate::error::{Result, positive, require};
+use super::steel_branch::{BranchLoops, SteelBranch, SteelBranches};
+use super::steel_history::{LAST_STRAIN, LoadingDirection, SteelHistory, VARIABLE_COUNT};
+use super::{MAX_BATCH_FIBERS, UniaxialMaterial, UniaxialResponse, check_variables};
+use crate::error::{Error, Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
+use crate::linalg::vectorized;
 
 /// Exponent of the shift of asymptotes by isotropic hardening (Filippou, Popov and Bertero 1983).
 const SHIFT_EXPONENT: f64 = 0.8;
@@ -46,86 +51,6 @@ pub struct MenegottoPinto {
     transition: [f64; 3],
     /// a_1 to a_4: shifts of the asymptotes in compression (first two) and in tension.
     isotropic_hardening: [f64; 4],
-}
-
-/// Smallest logarithm of a power that changes its sum with one; smaller powers count as zero.
-const MIN_POWER_LOGARITHM: f64 = -40.0;
-
-/// Direction of loading since the last reversal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Branch {
-    /// No strain so far.
-    Virgin,
-    Tension,
-    Compression,
-}
-
-/// Internal variables of a fibre by name.
-#[derive(Debug, Clone, Copy)]
-struct History {
-    branch: Branch,
-    /// Extreme strains at reversals.
-    min_strain: f64,
-    max_strain: f64,
-    /// Strain at which the asymptote of the last half cycle began.
-    plastic_strain: f64,
-    /// ε_0 and σ_0.
-    intersection: [f64; 2],
-    /// ε_r and σ_r.
-    reversal: [f64; 2],
-    /// Strain and stress at the end of the last step.
-    last: [f64; 2],
-    /// Work of the stress so far, J/m³.
-    work: f64,
-}
-
-impl History {
-    /// Work of the stress up to a strain with this stress, J/m³.
-    fn work_to(&self, strain: f64, stress: f64) -> f64 {
-        self.work + 0.5 * (self.last[1] + stress) * (strain - self.last[0])
-    }
-
-    fn read(variables: &[f64]) -> Self {
-        let branch = match variables[0] {
-            value if value > 0.0 => Branch::Tension,
-            value if value < 0.0 => Branch::Compression,
-            _ => Branch::Virgin,
-        };
-        Self {
-            branch,
-            min_strain: variables[1],
-            max_strain: variables[2],
-            plastic_strain: variables[3],
-            intersection: [variables[4], variables[5]],
-            reversal: [variables[6], variables[7]],
-            last: [variables[8], variables[9]],
-            work: variables[10],
-        }
-    }
-
-    fn write(&self, variables: &mut [f64]) {
-        let branch = match self.branch {
-            Branch::Virgin => 0.0,
-            Branch::Tension => 1.0,
-            Branch::Compression => -1.0,
-        };
-        let values = [
-            branch,
-            self.min_strain,
-            self.max_strain,
-            self.plastic_strain,
-            self.intersection[0],
-            self.intersection[1],
-            self.reversal[0],
-            self.reversal[1],
-            self.last[0],
-            self.last[1],
-            self.work,
-        ];
-        for (variable, value) in variables.iter_mut().zip(values) {
-            *variable = value;
-        }
-    }
 }
 
 impl MenegottoPinto {
@@ -178,122 +103,238 @@ impl MenegottoPinto {
         self.yield_stress / self.modulus
     }
 
-    /// History with the branch of a strain, after a reversal if there is one.
-    fn history_at(&self, strain: f64, variables: &[f64]) -> History {
-        let mut history = History::read(variables);
+    /// Branch of a strain.
+    #[inline]
+    fn branch_at(&self, strain: f64, variables: &[f64; VARIABLE_COUNT]) -> SteelBranch {
+        let direction = variables[0];
+        // Most fibres follow their last branch.
+        if direction != 0.0 && direction * (strain - variables[LAST_STRAIN]) >= 0.0 {
+            return SteelHistory::curve_of(variables);
+        }
+        self.branch_of(&self.history_at(strain, variables))
+    }
+
+    /// SteelHistory with the branch of a strain, after a reversal if there is one.
+    fn history_at(&self, strain: f64, variables: &[f64]) -> SteelHistory {
+        let mut history = SteelHistory::read(variables);
         let increment = strain - history.last[0];
-        let next_branch = if increment > 0.0 {
-            Branch::Tension
+        let next_direction = if increment > 0.0 {
+            LoadingDirection::Tension
         } else if increment < 0.0 {
-            Branch::Compression
+            LoadingDirection::Compression
         } else {
-            history.branch
+            history.direction
         };
-        if next_branch == history.branch {
+        if next_direction == history.direction {
             return history;
         }
-        let sign = if next_branch == Branch::Tension { 1.0 } else { -1.0 };
-        if history.branch == Branch::Virgin {
+        let sign = if next_direction == LoadingDirection::Tension { 1.0 } else { -1.0 };
+        if history.direction == LoadingDirection::Virgin {
             history.max_strain = self.yield_strain();
             history.min_strain = -self.yield_strain();
-            history.plastic_strain = sign * self.yield_strain();
-            history.intersection = [sign * self.yield_strain(), sign * self.yield_stress];
+            history.curve = SteelBranch {
+                exponent: self.transition[0],
+                strain_range: sign * self.yield_strain(),
+                reversal: [0.0; 2],
+            };
         } else {
             self.reverse(sign, &mut history);
         }
-        history.branch = next_branch;
+        history.direction = next_direction;
         history
     }
 
     /// Begins a half cycle towards tension (`sign` 1) or compression (−1) at the last strain.
-    fn reverse(&self, sign: f64, history: &mut History) {
-        history.reversal = history.last;
-        history.min_strain = history.min_strain.min(history.last[0]);
-        history.max_strain = history.max_strain.max(history.last[0]);
-        // a_1 and a_2 in compression, a_3 and a_4 in tension.
-        let first = if sign > 0.0 { 2 } else { 0 };
-        let factor = self.isotropic_hardening[first];
-        let strain_ratio = self.isotropic_hardening[first + 1];
-        let range = history.max_strain - history.min_strain;
-        let relative_range = range / (2.0 * strain_ratio * self.yield_strain());
-        let shift = 1.0 + factor * relative_range.powf(SHIFT_EXPONENT);
+    fn reverse(&self, sign: f64, history: &mut SteelHistory) {
+        let last_strain = history.last[0];
+        history.min_strain = history.min_strain.min(last_strain);
+        history.max_strain = history.max_strain.max(last_strain);
+        let shift = self.isotropic_shift(sign, history.max_strain - history.min_strain);
         let hardening_modulus = self.hardening_ratio * self.modulus;
         let yield_stress = sign * shift * self.yield_stress;
         let yield_strain = sign * shift * self.yield_strain();
-        let strain = (yield_stress - hardening_modulus * yield_strain - history.reversal[1]
-            + self.modulus * history.reversal[0])
+        let intersection = (yield_stress - hardening_modulus * yield_strain - history.last[1]
+            + self.modulus * last_strain)
             / (self.modulus - hardening_modulus);
-        let stress = yield_stress + hardening_modulus * (strain - yield_strain);
-        history.intersection = [strain, stress];
-        history.plastic_strain = if sign > 0.0 { history.max_strain } else { history.min_strain };
+        let plastic_strain = if sign > 0.0 { history.max_strain } else { history.min_strain };
+        let excursion = ((plastic_strain - intersection) / self.yield_strain()).abs();
+        let [exponent, c1, c2] = self.transition;
+        history.curve = SteelBranch {
+            exponent: exponent * (1.0 - c1 * excursion / (c2 + excursion)),
+            strain_range: intersection - last_strain,
+            reversal: history.last,
+        };
+        if history.curve.strain_range == 0.0 {
+            // A reversal on the asymptote of the new half cycle, but for rounding: along the asymptote.
+            history.curve = SteelBranch::line(history.last, self.yield_strain());
+        }
+    }
+
+    /// Factor of the yield stress after strains of this range, in tension (`sign` 1) or compression (−1).
+    fn isotropic_shift(&self, sign: f64, range: f64) -> f64 {
+        // a_1 and a_2 in compression, a_3 and a_4 in tension.
+        let first = if sign > 0.0 { 2 } else { 0 };
+        let factor = self.isotropic_hardening[first];
+        if factor == 0.0 {
+            return 1.0;
+        }
+        let strain_ratio = self.isotropic_hardening[first + 1];
+        let relative_range = range / (2.0 * strain_ratio * self.yield_strain());
+        1.0 + factor * relative_range.powf(SHIFT_EXPONENT)
+    }
+
+    /// The branch of a history; an elastic one before the first strain.
+    fn branch_of(&self, history: &SteelHistory) -> SteelBranch {
+        match history.direction {
+            LoadingDirection::Virgin => SteelBranch {
+                exponent: self.transition[0],
+                strain_range: self.yield_strain(),
+                reversal: [0.0; 2],
+            },
+            LoadingDirection::Tension | LoadingDirection::Compression => history.curve,
+        }
     }
 
     /// Stress and tangent on the branch of a history.
-    fn on_branch(&self, strain: f64, history: &History) -> UniaxialResponse {
-        if history.branch == Branch::Virgin {
-            return UniaxialResponse { stress: 0.0, tangent: self.modulus };
-        }
-        let [exponent, c1, c2] = self.transition;
-        let excursion =
-            ((history.plastic_strain - history.intersection[0]) / self.yield_strain()).abs();
-        let r = exponent * (1.0 - c1 * excursion / (c2 + excursion));
-        let strain_range = history.intersection[0] - history.reversal[0];
-        let stress_range = history.intersection[1] - history.reversal[1];
-        let b = self.hardening_ratio;
-        if strain_range == 0.0 {
-            // A reversal on the asymptote of the new half cycle, but for rounding: along the asymptote.
-            let tangent = b * self.modulus;
-            let stress = history.reversal[1] + tangent * (strain - history.reversal[0]);
-            return UniaxialResponse { stress, tangent };
-        }
-        let ratio = (strain - history.reversal[0]) / strain_range;
-        // Powers by logarithms, which take half the time of `powf`.
-        let power_logarithm = r * ratio.abs().ln();
-        let power = if power_logarithm < MIN_POWER_LOGARITHM { 0.0 } else { power_logarithm.exp() };
-        let sum = 1.0 + power;
-        let root = if power == 0.0 { 1.0 } else { (sum.ln() / r).exp() };
-        UniaxialResponse {
-            stress: (b * ratio + (1.0 - b) * ratio / root) * stress_range + history.reversal[1],
-            tangent: (b + (1.0 - b) / (sum * root)) * stress_range / strain_range,
-        }
+    fn on_branch(&self, strain: f64, history: &SteelHistory) -> UniaxialResponse {
+        self.branch_of(history).response(self.modulus, self.hardening_ratio, strain)
+    }
+
+    /// Stress at a strain, with the history of its branch.
+    fn stress_at(&self, strain: f64, history: &SteelHistory) -> f64 {
+        let is_last = strain == history.last[0] && history.direction != LoadingDirection::Virgin;
+        if is_last { history.last[1] } else { self.on_branch(strain, history).stress }
+    }
+
+    /// Stresses and tangents of fibres on their branches.
+    fn respond(&self, branches: &SteelBranches, responses: &mut [UniaxialResponse]) {
+        let Self { modulus, hardening_ratio, .. } = *self;
+        vectorized(BranchLoops { branches, modulus, hardening_ratio, responses });
+    }
+
+    /// Energy at a strain with a stress, after a history.
+    fn energy_with(&self, history: &SteelHistory, strain: f64, stress: f64) -> InternalEnergy {
+        let stored = 0.5 * stress * stress / self.modulus;
+        InternalEnergy { stored, dissipated: history.work_to(strain, stress) - stored }
+    }
+
+    /// Ends a step at a strain with a stress.
+    fn commit_stress(&self, strain: f64, stress: f64, variables: &mut [f64]) {
+        let mut history = self.history_at(strain, variables);
+        history.work = history.work_to(strain, stress);
+        history.last = [strain, stress];
+        history.write(variables);
     }
 }
 
-/// Variables: see the documentation of `History`.
+/// Variables: see the documentation of `SteelHistory`.
 impl UniaxialMaterial for MenegottoPinto {
     fn modulus(&self) -> f64 {
         self.modulus
     }
 
     fn variable_count(&self) -> usize {
-        11
+        VARIABLE_COUNT
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
-        check_variables(variables, self.variable_count())?;
+        check_variables(variables, VARIABLE_COUNT)?;
         Ok(self.on_branch(strain, &self.history_at(strain, variables)))
     }
 
+    fn responses(
+        &self,
+        strains: &[f64],
+        variables: &[f64],
+        responses: &mut [UniaxialResponse],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
+        let mut branches = SteelBranches::WITHOUT_STRAIN;
+        for (k, (strain, variables)) in strains.iter().zip(histories).enumerate() {
+            branches.set(k, *strain, self.branch_at(*strain, variables));
+        }
+        self.respond(&branches, responses);
+        Ok(())
+    }
+
+    fn energies(
+        &self,
+        strains: &[f64],
+        variables: &[f64],
+        energies: &mut [InternalEnergy],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        let responses = &mut responses[..strains.len()];
+        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
+        // At the end of the last step all stresses are stored.
+        let mut fibers = strains.iter().zip(histories);
+        if fibers.any(|(strain, variables)| *strain != variables[LAST_STRAIN]) {
+            self.responses(strains, variables, responses)?;
+        }
+        let histories = histories.iter().map(|variables| SteelHistory::read(variables));
+        let fibers = strains.iter().zip(histories).zip(responses);
+        for (energy, ((strain, history), response)) in energies.iter_mut().zip(fibers) {
+            let stress = history.stress_or(*strain, response.stress);
+            *energy = self.energy_with(&history, *strain, stress);
+        }
+        Ok(())
+    }
+
+    /// (σ(midstep) − (σ(start) + σ(end))/2) (end − start): work is integrated by the trapezoidal rule.
+    fn remainder(&self, strains: [f64; 3], variables: &[f64]) -> Result<f64> {
+        check_variables(variables, VARIABLE_COUNT)?;
+        let mut remainder = [0.0];
+        let strains = strains.each_ref().map(std::slice::from_ref);
+        self.remainders(strains, variables, &mut remainder).map_err(|(_, fault)| fault)?;
+        Ok(remainder[0])
+    }
+
+    fn remainders(
+        &self,
+        strains: [&[f64]; 3],
+        variables: &[f64],
+        remainders: &mut [f64],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let mut responses = [[UniaxialResponse::default(); MAX_BATCH_FIBERS]; 2];
+        let [midstep, end] = responses.each_mut().map(|values| &mut values[..remainders.len()]);
+        self.responses(strains[1], variables, midstep)?;
+        self.responses(strains[2], variables, end)?;
+        let histories = variables.chunks_exact(VARIABLE_COUNT);
+        for (k, (remainder, variables)) in remainders.iter_mut().zip(histories).enumerate() {
+            let start_strain = strains[0][k];
+            let end_strain = strains[2][k];
+            let start_stress =
+                self.stress_at(start_strain, &self.history_at(start_strain, variables));
+            let end_stress = SteelHistory::read(variables).stress_or(end_strain, end[k].stress);
+            let mean_stress = 0.5 * (start_stress + end_stress);
+            *remainder = (midstep[k].stress - mean_stress) * (end_strain - start_strain);
+        }
+        Ok(())
+    }
+
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
-        check_variables(variables, self.variable_count())?;
+        check_variables(variables, VARIABLE_COUNT)?;
         let history = self.history_at(strain, variables);
-        // The stress at the end of the last step is stored.
-        let is_last = strain == history.last[0] && history.branch != Branch::Virgin;
-        let stress =
-            if is_last { history.last[1] } else { self.on_branch(strain, &history).stress };
-        let stored = 0.5 * stress * stress / self.modulus;
-        Ok(InternalEnergy { stored, dissipated: history.work_to(strain, stress) - stored })
+        let stress = self.stress_at(strain, &history);
+        Ok(self.energy_with(&history, strain, stress))
     }
 
     /// Changes nothing for a wrong number of variables.
     fn commit(&self, strain: f64, variables: &mut [f64]) {
-        if variables.len() != self.variable_count() {
+        if variables.len() == VARIABLE_COUNT {
+            let stress = self.on_branch(strain, &self.history_at(strain, variables)).stress;
+            self.commit_stress(strain, stress, variables);
+        }
+    }
+
+    fn commit_fibers(&self, strains: &[f64], variables: &mut [f64]) {
+        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        if self.responses(strains, variables, &mut responses[..strains.len()]).is_err() {
             return;
         }
-        let mut history = self.history_at(strain, variables);
-        let stress = self.on_branch(strain, &history).stress;
-        history.work = history.work_to(strain, stress);
-        history.last = [strain, stress];
-        history.write(variables);
+        let fibers = variables.chunks_exact_mut(VARIABLE_COUNT).zip(strains).zip(responses);
+        for ((variables, strain), response) in fibers {
+            self.commit_stress(*strain, response.stress, variables);
+        }
     }
 }

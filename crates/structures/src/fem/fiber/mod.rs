@@ -2,21 +2,26 @@
 //!
 //! | part | files |
 //! |---|---|
-//! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs`, `concrete.rs` |
-//! | sections of fibres | `section.rs`, `section_shapes.rs`, `section_checks.rs` |
-//! | forces of a beam without rigid motions | `basic_beam.rs`, `basic_state.rs`, `solution_memo.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
+//! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs` (`steel_branch.rs`, `steel_history.rs`, `elementary.rs`), `concrete.rs` |
+//! | sections of fibres | `section.rs`, `section_response.rs`, `section_shapes.rs`, `section_checks.rs` |
+//! | forces of a beam without rigid motions | `basic_beam.rs`, `force_based.rs`, `basic_state.rs`, `solution_memo.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
 
 mod basic_beam;
 mod basic_state;
 mod bilinear_steel;
 mod concrete;
+mod elementary;
+mod force_based;
 mod interpolation;
 mod menegotto_pinto;
 mod quadrature;
 mod section;
 mod section_checks;
+mod section_response;
 mod section_shapes;
 mod solution_memo;
+mod steel_branch;
+mod steel_history;
 #[cfg(test)]
 mod tests;
 
@@ -37,8 +42,18 @@ pub use menegotto_pinto::MenegottoPinto;
 pub(super) use quadrature::BeamPoint;
 pub use quadrature::BeamQuadrature;
 pub use section::FiberSection;
-pub(super) use section::{plane_strains, space_strains};
 pub(super) use solution_memo::SolutionMemo;
+
+/// Largest number of fibres that a law evaluates at once.
+const MAX_BATCH_FIBERS: usize = 16;
+
+/// Number of fibres of a loop with those that complete its last vector; loops over a rest would take longer.
+#[inline]
+fn padded_count(fiber_count: usize) -> usize {
+    /// Numbers in a vector of the instruction sets that most machines have.
+    const VECTOR_LENGTH: usize = 4;
+    fiber_count.next_multiple_of(VECTOR_LENGTH).min(MAX_BATCH_FIBERS)
+}
 
 /// Stress of a fibre and its derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -139,6 +154,55 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
             *response = self.response(*strain, fiber_variables).map_err(|fault| (k, fault))?;
         }
         Ok(())
+    }
+
+    /// Overwrites `energies` by those of several fibres, as [`responses`](UniaxialMaterial::responses).
+    ///
+    /// # Errors
+    /// The first of a fibre, with its index.
+    #[doc(hidden)]
+    fn energies(
+        &self,
+        strains: &[f64],
+        variables: &[f64],
+        energies: &mut [InternalEnergy],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let count = self.variable_count();
+        for (k, (energy, strain)) in energies.iter_mut().zip(strains).enumerate() {
+            let fiber_variables = &variables[k * count..(k + 1) * count];
+            *energy = self.energy(*strain, fiber_variables).map_err(|fault| (k, fault))?;
+        }
+        Ok(())
+    }
+
+    /// Overwrites `remainders` by those of several fibres, as [`responses`](UniaxialMaterial::responses).
+    ///
+    /// # Errors
+    /// The first of a fibre, with its index.
+    #[doc(hidden)]
+    fn remainders(
+        &self,
+        strains: [&[f64]; 3],
+        variables: &[f64],
+        remainders: &mut [f64],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let count = self.variable_count();
+        for (k, remainder) in remainders.iter_mut().enumerate() {
+            let fiber_variables = &variables[k * count..(k + 1) * count];
+            let fiber_strains = strains.map(|strains| strains[k]);
+            *remainder =
+                self.remainder(fiber_strains, fiber_variables).map_err(|fault| (k, fault))?;
+        }
+        Ok(())
+    }
+
+    /// Commits several fibres, as [`responses`](UniaxialMaterial::responses).
+    #[doc(hidden)]
+    fn commit_fibers(&self, strains: &[f64], variables: &mut [f64]) {
+        let count = self.variable_count();
+        for (k, strain) in strains.iter().enumerate() {
+            self.commit(*strain, &mut variables[k * count..(k + 1) * count]);
+        }
     }
 
     /// Energy stored and dissipated since the initial state, J/m³.

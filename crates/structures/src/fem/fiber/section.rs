@@ -1,16 +1,18 @@
 //! Cross-section of fibres.
 
+use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{UniaxialMaterial, UniaxialResponse};
+use super::section_response::SectionResponse;
+use super::{
+    BilinearSteel, Concrete, MAX_BATCH_FIBERS, MenegottoPinto, UniaxialMaterial, UniaxialResponse,
+};
 use crate::error::{Error, Result, all_finite, positive};
 use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
+use crate::fem::material::Material;
 use crate::fem::small_matrix::add_outer;
-
-/// Largest number of fibres whose responses are evaluated together.
-const MAX_CHUNK_FIBERS: usize = 32;
 
 /// Fibre of a section.
 #[derive(Debug, Clone)]
@@ -53,8 +55,8 @@ struct Fiber {
 #[derive(Debug, Clone, Default)]
 pub struct FiberSection {
     fibers: Vec<Fiber>,
-    /// Ranges of neighbouring fibres with one law, of a limited number of fibres.
-    chunks: Vec<Range<usize>>,
+    /// Ranges of neighbouring fibres with one law, whose responses are evaluated together.
+    batches: Vec<Range<usize>>,
     variable_count: usize,
     /// G J, N m²; `None` for a section of beams in the plane.
     pub(super) torsional_stiffness: Option<f64>,
@@ -62,23 +64,48 @@ pub struct FiberSection {
     pub(super) neglected_stiffness: [f64; 2],
 }
 
-/// Resultants of a section and their derivatives with respect to its N deformations.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::fem) struct SectionResponse<const N: usize> {
-    /// Axial force (N) and bending moments (N m), conjugate to the deformations.
-    pub(in crate::fem) forces: [f64; N],
-    /// Tangent, symmetric.
-    pub(in crate::fem) tangent: [[f64; N]; N],
+/// Neighbouring fibres with one law, whose responses are evaluated together.
+struct Batch<'a> {
+    /// Index of the first fibre in the section.
+    first: usize,
+    fibers: &'a [Fiber],
+    material: &'a dyn UniaxialMaterial,
+    /// Range of the fibres' internal variables among those of the section.
+    variables: Range<usize>,
 }
 
-/// Strain of a fibre due to unit deformations of its section: axial strain, curvature (1/m).
-pub(in crate::fem) fn plane_strains([y, _]: [f64; 2]) -> [f64; 2] {
-    [1.0, -y]
+impl Batch<'_> {
+    /// Number of fibres.
+    fn len(&self) -> usize {
+        self.fibers.len()
+    }
+
+    /// Writes the strains by the deformations of the section to a buffer, and returns them.
+    #[inline]
+    fn strains<'b, const N: usize>(
+        &self,
+        deformations: &[f64; N],
+        buffer: &'b mut [f64; MAX_BATCH_FIBERS],
+    ) -> &'b [f64] {
+        for (strain, fiber) in buffer.iter_mut().zip(self.fibers) {
+            *strain = fiber_strain(&strain_row(fiber.position), deformations);
+        }
+        &buffer[..self.len()]
+    }
+
+    /// Adds the index of a fibre to its error.
+    fn within_fiber(&self, (index, fault): (usize, Error)) -> Error {
+        within_fiber(self.first + index, fault)
+    }
 }
 
-/// Strain of a fibre due to axial strain and the curvatures about z and about y (1/m).
-pub(in crate::fem) fn space_strains([y, z]: [f64; 2]) -> [f64; 3] {
-    [1.0, -y, z]
+/// Strain of a fibre at [y, z] due to unit deformations of its section.
+///
+/// The deformations are axial strain, curvature about z, and curvature about y of a section in space (1/m).
+#[inline]
+fn strain_row<const N: usize>([y, z]: [f64; 2]) -> [f64; N] {
+    let row = [1.0, -y, z];
+    std::array::from_fn(|i| row[i])
 }
 
 impl FiberSection {
@@ -115,13 +142,25 @@ impl FiberSection {
             let variables = first..self.variable_count;
             self.fibers.push(Fiber { position, area, material: Arc::clone(material), variables });
         }
-        let mut start = self.fibers.len() - fibers.len();
+        self.extend_batches();
+        Ok(self)
+    }
+
+    /// Adds the fibres behind the last batch to it if they have its law, and to new batches.
+    fn extend_batches(&mut self) {
+        let mut start = self.batches.last().map_or(0, |last| last.end);
+        if let Some(last) = self.batches.last_mut()
+            && let [law, new_law] = [last.start, start].map(|i| &*self.fibers[i].material)
+            && is_same_law(law, new_law)
+        {
+            last.end = self.fibers.len().min(last.start + MAX_BATCH_FIBERS);
+            start = last.end;
+        }
         while start < self.fibers.len() {
-            let end = self.fibers.len().min(start + MAX_CHUNK_FIBERS);
-            self.chunks.push(start..end);
+            let end = self.fibers.len().min(start + MAX_BATCH_FIBERS);
+            self.batches.push(start..end);
             start = end;
         }
-        Ok(self)
     }
 
     /// Adds bending stiffness that the strains of fibres leave out, N m².
@@ -167,17 +206,24 @@ impl FiberSection {
         }
     }
 
-    /// Stiffness of small strains; `strains`: see [`plane_strains`].
-    pub(in crate::fem) fn elastic_stiffness<const N: usize>(
-        &self,
-        strains: fn([f64; 2]) -> [f64; N],
-    ) -> [[f64; N]; N] {
+    /// Stiffness of small strains.
+    pub(in crate::fem) fn elastic_stiffness<const N: usize>(&self) -> [[f64; N]; N] {
         let mut stiffness = [[0.0; N]; N];
         for fiber in &self.fibers {
             let factor = fiber.area * fiber.material.modulus();
-            add_outer(factor, &strains(fiber.position), &mut stiffness);
+            add_outer(factor, &strain_row(fiber.position), &mut stiffness);
         }
         stiffness
+    }
+
+    /// The batches in the order of the fibres.
+    fn batches(&self) -> impl Iterator<Item = Batch<'_>> {
+        self.batches.iter().filter_map(|range| {
+            let fibers = &self.fibers[range.clone()];
+            let first = fibers.first()?;
+            let variables = first.variables.start..fibers.last()?.variables.end;
+            Some(Batch { first: range.start, fibers, material: &*first.material, variables })
+        })
     }
 
     /// Resultants and tangent at the deformations of the section.
@@ -188,34 +234,22 @@ impl FiberSection {
         &self,
         deformations: &[f64; N],
         variables: &[f64],
-        strains: fn([f64; 2]) -> [f64; N],
     ) -> Result<SectionResponse<N>> {
         let mut response = SectionResponse { forces: [0.0; N], tangent: [[0.0; N]; N] };
-        let mut rows = [[0.0; N]; MAX_CHUNK_FIBERS];
-        let mut fiber_strains = [0.0; MAX_CHUNK_FIBERS];
-        let mut fiber_responses = [UniaxialResponse::default(); MAX_CHUNK_FIBERS];
-        for chunk in &self.chunks {
-            let fibers = &self.fibers[chunk.clone()];
-            let count = fibers.len();
-            let (Some(first), Some(last)) = (fibers.first(), fibers.last()) else {
-                continue;
-            };
-            for (k, fiber) in fibers.iter().enumerate() {
-                rows[k] = strains(fiber.position);
-                fiber_strains[k] = fiber_strain(&rows[k], deformations);
-            }
-            let variables = &variables[first.variables.start..last.variables.end];
-            first
+        let mut strains = [0.0; MAX_BATCH_FIBERS];
+        let mut fiber_responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        for batch in self.batches() {
+            let strains = batch.strains(deformations, &mut strains);
+            let fiber_responses = &mut fiber_responses[..batch.len()];
+            batch
                 .material
-                .responses(&fiber_strains[..count], variables, &mut fiber_responses[..count])
-                .map_err(|(k, fault)| within_fiber(chunk.start + k, fault))?;
-            for ((fiber, row), fiber_response) in fibers.iter().zip(&rows).zip(&fiber_responses) {
-                for (force, entry) in response.forces.iter_mut().zip(row) {
-                    *force += fiber.area * fiber_response.stress * entry;
-                }
-                add_outer(fiber.area * fiber_response.tangent, row, &mut response.tangent);
+                .responses(strains, &variables[batch.variables.clone()], fiber_responses)
+                .map_err(|fault| batch.within_fiber(fault))?;
+            for (fiber, fiber_response) in batch.fibers.iter().zip(fiber_responses) {
+                response.add_fiber(fiber.area, &strain_row(fiber.position), fiber_response);
             }
         }
+        response.complete_tangent();
         Ok(response)
     }
 
@@ -227,17 +261,21 @@ impl FiberSection {
         &self,
         deformations: &[f64; N],
         variables: &[f64],
-        strains: fn([f64; 2]) -> [f64; N],
     ) -> Result<InternalEnergy> {
         let mut sum = InternalEnergy::default();
-        for (index, fiber) in self.fibers.iter().enumerate() {
-            let strain = fiber_strain(&strains(fiber.position), deformations);
-            let energy = fiber
+        let mut strains = [0.0; MAX_BATCH_FIBERS];
+        let mut energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
+        for batch in self.batches() {
+            let strains = batch.strains(deformations, &mut strains);
+            let energies = &mut energies[..batch.len()];
+            batch
                 .material
-                .energy(strain, &variables[fiber.variables.clone()])
-                .map_err(|fault| within_fiber(index, fault))?;
-            sum.stored += fiber.area * energy.stored;
-            sum.dissipated += fiber.area * energy.dissipated;
+                .energies(strains, &variables[batch.variables.clone()], energies)
+                .map_err(|fault| batch.within_fiber(fault))?;
+            for (fiber, energy) in batch.fibers.iter().zip(energies) {
+                sum.stored += fiber.area * energy.stored;
+                sum.dissipated += fiber.area * energy.dissipated;
+            }
         }
         Ok(sum)
     }
@@ -250,17 +288,24 @@ impl FiberSection {
         &self,
         path: [&[f64; N]; 3],
         variables: &[f64],
-        strains: fn([f64; 2]) -> [f64; N],
     ) -> Result<f64> {
         let mut sum = 0.0;
-        for (index, fiber) in self.fibers.iter().enumerate() {
-            let row = strains(fiber.position);
-            let fiber_strains = path.map(|deformations| fiber_strain(&row, deformations));
-            let remainder = fiber
+        let mut strains = [[0.0; MAX_BATCH_FIBERS]; 3];
+        let mut remainders = [0.0; MAX_BATCH_FIBERS];
+        for batch in self.batches() {
+            let [start, midstep, end] = strains.each_mut();
+            let strains = [
+                batch.strains(path[0], start),
+                batch.strains(path[1], midstep),
+                batch.strains(path[2], end),
+            ];
+            let remainders = &mut remainders[..batch.len()];
+            batch
                 .material
-                .remainder(fiber_strains, &variables[fiber.variables.clone()])
-                .map_err(|fault| within_fiber(index, fault))?;
-            sum += fiber.area * remainder;
+                .remainders(strains, &variables[batch.variables.clone()], remainders)
+                .map_err(|fault| batch.within_fiber(fault))?;
+            let remainders = batch.fibers.iter().zip(remainders);
+            sum += remainders.map(|(fiber, remainder)| fiber.area * *remainder).sum::<f64>();
         }
         Ok(sum)
     }
@@ -273,11 +318,10 @@ impl FiberSection {
         &self,
         deformations: &[f64; N],
         variables: &[f64],
-        strains: fn([f64; 2]) -> [f64; N],
     ) -> Result<Vec<FiberState>> {
         let mut states = Vec::with_capacity(self.fibers.len());
         for (index, fiber) in self.fibers.iter().enumerate() {
-            let strain = fiber_strain(&strains(fiber.position), deformations);
+            let strain = fiber_strain(&strain_row(fiber.position), deformations);
             let response = fiber
                 .material
                 .response(strain, &variables[fiber.variables.clone()])
@@ -292,13 +336,27 @@ impl FiberSection {
         &self,
         deformations: &[f64; N],
         variables: &mut [f64],
-        strains: fn([f64; 2]) -> [f64; N],
     ) {
-        for fiber in &self.fibers {
-            let strain = fiber_strain(&strains(fiber.position), deformations);
-            fiber.material.commit(strain, &mut variables[fiber.variables.clone()]);
+        let mut strains = [0.0; MAX_BATCH_FIBERS];
+        for batch in self.batches() {
+            let strains = batch.strains(deformations, &mut strains);
+            batch.material.commit_fibers(strains, &mut variables[batch.variables]);
         }
     }
+}
+
+/// Whether two laws are equal laws of the library, or the same object.
+fn is_same_law(a: &dyn UniaxialMaterial, b: &dyn UniaxialMaterial) -> bool {
+    fn are_equal<L: PartialEq + 'static>(a: &dyn Any, b: &dyn Any) -> bool {
+        a.downcast_ref::<L>().is_some_and(|a| Some(a) == b.downcast_ref())
+    }
+    let are_equal_laws = [
+        are_equal::<Material>,
+        are_equal::<BilinearSteel>,
+        are_equal::<MenegottoPinto>,
+        are_equal::<Concrete>,
+    ];
+    std::ptr::addr_eq(a, b) || are_equal_laws.iter().any(|are_equal| are_equal(a, b))
 }
 
 /// The law of several fibres.
@@ -307,6 +365,7 @@ pub(super) fn shared(material: impl UniaxialMaterial) -> Arc<dyn UniaxialMateria
 }
 
 /// Strain of a fibre by the deformations of its section.
+#[inline]
 fn fiber_strain<const N: usize>(row: &[f64; N], deformations: &[f64; N]) -> f64 {
     row.iter().zip(deformations).map(|(entry, deformation)| entry * deformation).sum()
 }

@@ -1,6 +1,6 @@
 //! Checks of sections for beams in the plane and in space.
 
-use super::section::{FiberSection, plane_strains, space_strains};
+use super::section::FiberSection;
 use crate::error::{Error, Result, at_least, require};
 
 /// Bending stiffness, relative to that about the line of the nodes, below which it is rounding.
@@ -14,7 +14,7 @@ impl FiberSection {
     /// Returns an error for a section of fewer than two fibres, or that cannot bend along y.
     pub(in crate::fem) fn check_plane(&self) -> Result<()> {
         at_least("fibres of a section", self.fiber_count(), 2)?;
-        let [[axial, moment], [_, bending]] = self.elastic_stiffness(plane_strains);
+        let [[axial, moment], [_, bending]] = self.elastic_stiffness();
         self.check_bending(0, bending - moment * moment / axial, bending)
     }
 
@@ -26,7 +26,7 @@ impl FiberSection {
     pub(in crate::fem) fn check_space(&self) -> Result<f64> {
         at_least("fibres of a section in space", self.fiber_count(), 3)?;
         let [[axial, moment_y, moment_z], [_, bending_y, coupling], [_, _, bending_z]] =
-            self.elastic_stiffness(space_strains);
+            self.elastic_stiffness();
         let along_y = bending_y - moment_y * moment_y / axial;
         let along_z = bending_z - moment_z * moment_z / axial;
         self.check_bending(0, along_y, bending_y)?;

@@ -4,7 +4,7 @@ use basemat_testkit::random::Random;
 
 use super::*;
 use crate::fem::beam::{BeamSection, SpaceBeam};
-use crate::fem::{BilinearSteel, Concrete, Material, MenegottoPinto};
+use crate::fem::{BilinearSteel, Concrete, Material, MenegottoPinto, UniaxialMaterial};
 use crate::linalg::dot;
 
 const ALL_FORMULATIONS: [BeamFormulation; 2] =
@@ -356,4 +356,45 @@ fn impossible_beams_are_refused() {
     assert!(column.check(&[[0.0; 3], [0.0; 3]]).is_err());
     assert!(column.with_compression(f64::INFINITY).is_err());
     assert!(FiberSection::new().with_torsional_stiffness(0.0).is_err());
+}
+
+/// Beams by forces have a state behind steps of any size, also where concrete crushes, cracks and closes.
+#[test]
+fn beams_by_forces_have_a_state_behind_large_steps() {
+    let steel = BilinearSteel::new(355.0e6, 210.0e9, 0.005).unwrap();
+    let curved = MenegottoPinto::new(500.0e6, 200.0e9, 0.01).unwrap();
+    let rectangle = |law: Arc<dyn UniaxialMaterial>| {
+        FiberSection::new()
+            .with_rectangle([[-0.15, -0.1], [0.15, 0.1]], [8, 6], law)
+            .and_then(|section| section.with_torsional_stiffness(10.0e6))
+            .unwrap()
+    };
+    let sections = [
+        ("bilinear steel", rectangle(Arc::new(steel))),
+        ("curved steel", rectangle(Arc::new(curved))),
+        ("concrete with bars", concrete_section()),
+    ];
+    for (name, section) in sections {
+        let fibers = beam(&section, BeamFormulation::ForceBased);
+        let mut random = Random(17);
+        let mut failure_count = 0;
+        let mut variables = vec![0.0; fibers.variable_count()];
+        for path in 0..20 {
+            fibers.initialize(&INCLINED_ENDS, &mut variables).unwrap();
+            let scale = random.log_within(3e-3, 0.1);
+            for _ in 0..20 {
+                let u: Vec<f64> =
+                    (0..DOF_COUNT).map(|_| scale * random.within(-1.0, 1.0)).collect();
+                let mut force = [0.0; DOF_COUNT];
+                match fibers.force(&INCLINED_ENDS, &u, &variables, &mut force) {
+                    Ok(()) => fibers.commit(&INCLINED_ENDS, &u, &mut variables),
+                    Err(fault) => {
+                        println!("{name}, path {path}, scale {scale:.1e}: {fault}");
+                        failure_count += 1;
+                    }
+                }
+            }
+        }
+        assert_eq!(failure_count, 0, "{name}");
+    }
 }

@@ -1,0 +1,96 @@
+//! Internal variables of a fibre of steel with curved branches.
+
+use super::steel_branch::SteelBranch;
+
+/// Number of internal variables.
+pub(super) const VARIABLE_COUNT: usize = 10;
+/// Index of the strain at the end of the last step among the variables; its stress follows.
+pub(super) const LAST_STRAIN: usize = 7;
+
+/// Direction of loading since the last reversal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum LoadingDirection {
+    /// No strain so far.
+    Virgin,
+    Tension,
+    Compression,
+}
+
+/// Internal variables of a fibre by name.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SteelHistory {
+    pub(super) direction: LoadingDirection,
+    /// Extreme strains at reversals.
+    pub(super) min_strain: f64,
+    pub(super) max_strain: f64,
+    /// The branch; without meaning before the first strain.
+    pub(super) curve: SteelBranch,
+    /// Strain and stress at the end of the last step.
+    pub(super) last: [f64; 2],
+    /// Work of the stress so far, J/m³.
+    pub(super) work: f64,
+}
+
+impl SteelHistory {
+    /// Work of the stress up to a strain with this stress, J/m³.
+    pub(super) fn work_to(&self, strain: f64, stress: f64) -> f64 {
+        self.work + 0.5 * (self.last[1] + stress) * (strain - self.last[0])
+    }
+
+    /// The stress at the end of the last step for its strain, otherwise the `computed` one.
+    pub(super) fn stress_or(&self, strain: f64, computed: f64) -> f64 {
+        let is_last = strain == self.last[0] && self.direction != LoadingDirection::Virgin;
+        if is_last { self.last[1] } else { computed }
+    }
+
+    /// The branch of internal variables.
+    #[inline]
+    pub(super) fn curve_of(variables: &[f64]) -> SteelBranch {
+        SteelBranch {
+            exponent: variables[3],
+            strain_range: variables[4],
+            reversal: [variables[5], variables[6]],
+        }
+    }
+
+    /// The history of internal variables.
+    pub(super) fn read(variables: &[f64]) -> Self {
+        let direction = match variables[0] {
+            value if value > 0.0 => LoadingDirection::Tension,
+            value if value < 0.0 => LoadingDirection::Compression,
+            _ => LoadingDirection::Virgin,
+        };
+        Self {
+            direction,
+            min_strain: variables[1],
+            max_strain: variables[2],
+            curve: Self::curve_of(variables),
+            last: [variables[LAST_STRAIN], variables[LAST_STRAIN + 1]],
+            work: variables[9],
+        }
+    }
+
+    /// Overwrites internal variables by the history.
+    pub(super) fn write(&self, variables: &mut [f64]) {
+        let direction = match self.direction {
+            LoadingDirection::Virgin => 0.0,
+            LoadingDirection::Tension => 1.0,
+            LoadingDirection::Compression => -1.0,
+        };
+        let values = [
+            direction,
+            self.min_strain,
+            self.max_strain,
+            self.curve.exponent,
+            self.curve.strain_range,
+            self.curve.reversal[0],
+            self.curve.reversal[1],
+            self.last[0],
+            self.last[1],
+            self.work,
+        ];
+        for (variable, value) in variables.iter_mut().zip(values) {
+            *variable = value;
+        }
+    }
+}
