@@ -149,6 +149,8 @@ impl ContactModeSolver {
 
     /// Factors the reduced system: of the conditions that do not fix a component alone.
     ///
+    /// `has_curve`: whether the pressure of an element is a curve over its settlement.
+    ///
     /// Returns `false` if the system is singular.
     fn assemble(&mut self, input: &ContactInput<'_>, has_curve: bool) -> bool {
         self.list_rows_and_dofs();
@@ -158,6 +160,7 @@ impl ContactModeSolver {
         }
         self.factored_conditions.copy_from_slice(&self.conditions);
         self.updates.begin_matrix();
+        // Laws without a curve keep their rounding errors.
         self.has_valid_factor = if has_curve && order <= MAX_SMALL_ORDER {
             self.factor.factor_small(&self.matrix, order)
         } else {

@@ -130,15 +130,11 @@ impl<T: MatrixScalar> DenseFactor<T> {
 }
 
 impl DenseFactor {
-    /// Factors the row-major `matrix` of `order` as [`DenseFactor::factor`], faster for small matrices.
-    ///
-    /// Rounding errors differ from those of [`DenseFactor::factor`].
+    /// As [`DenseFactor::factor`] up to rounding errors, faster for small matrices.
     pub fn factor_small(&mut self, matrix: &[f64], order: usize) -> bool {
         self.order = order;
         self.values.clear();
-        for column in 0..order {
-            self.values.extend(matrix[column..].iter().step_by(order));
-        }
+        (0..order).for_each(|k| self.values.extend(matrix[k..].iter().step_by(order)));
         self.row_permutation.clear();
         self.row_permutation.extend(0..order);
         self.exchange_count = vectorized(SmallElimination {
@@ -221,9 +217,8 @@ fn eliminate_column<S: Simd>(simd: S, factored: &[f64], present: &mut [f64]) {
         add_rows(simd, multipliers, below, rows_below);
     }
     for k in complete_blocks_end..count {
-        let (entry, rows_below) = present[k..].split_at_mut(1);
-        let column = &factored[k * order + k + 1..(k + 1) * order];
-        add_row(simd, -entry[0], column, rows_below);
+        let column = &factored[k * order..][..order];
+        add_row(simd, -present[k], &column[k + 1..], &mut present[k + 1..]);
     }
 }
 
@@ -343,14 +338,11 @@ mod tests {
             assert!(factor.factor(&matrix, order));
             assert!(small_factor.factor_small(&matrix, order));
             assert_eq!(small_factor.row_permutation, factor.row_permutation);
-            assert_eq!(small_factor.inverse_permutation, factor.inverse_permutation);
             assert_eq!(small_factor.exchange_count, factor.exchange_count);
             for (a, b) in small_factor.values.iter().zip(&factor.values) {
                 assert!((a - b).abs() < 1e-11, "order {order}: {a} for {b}");
             }
         }
-        for singular in [[1.0, 2.0, 2.0, 4.0], [0.0; 4], [1.0, f64::NAN, 0.0, 1.0]] {
-            assert!(!small_factor.factor_small(&singular, 2));
-        }
+        assert!(!small_factor.factor_small(&[1.0, 2.0, 2.0, 4.0], 2));
     }
 }

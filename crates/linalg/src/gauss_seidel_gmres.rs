@@ -96,7 +96,7 @@ impl GaussSeidelGmres {
                 transposed_multiply_add(vector, 1.0, &[-*entry], &mut self.product);
             }
             column[iteration + 1] = self.append_to_basis();
-            let residual = least_squares.append(iteration, column);
+            let residual = least_squares.append(iteration, &column);
             // False for NaN.
             if residual <= tolerance * norm {
                 self.combine(&least_squares.solution(iteration + 1), rhs);
@@ -172,18 +172,20 @@ impl Default for LeastSquares {
 
 impl LeastSquares {
     /// Appends column `k` of H; returns the norm of the residual.
-    fn append(&mut self, k: usize, mut column: [f64; MAX_KRYLOV_VECTORS + 1]) -> f64 {
+    fn append(&mut self, k: usize, h_column: &[f64; MAX_KRYLOV_VECTORS + 1]) -> f64 {
+        let mut column = *h_column;
         for (i, [c, s]) in self.rotations[..k].iter().enumerate() {
             [column[i], column[i + 1]] =
                 [c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]];
         }
         let length = column[k].hypot(column[k + 1]);
-        let c = column[k] / length;
-        let s = column[k + 1] / length;
-        self.rotations[k] = [c, s];
+        let cosine = column[k] / length;
+        let sine = column[k + 1] / length;
+        self.rotations[k] = [cosine, sine];
         column[k] = length;
         self.triangle[k] = column;
-        [self.rhs[k], self.rhs[k + 1]] = [c * self.rhs[k], -s * self.rhs[k]];
+        self.rhs[k + 1] = -sine * self.rhs[k];
+        self.rhs[k] *= cosine;
         self.rhs[k + 1].abs()
     }
 

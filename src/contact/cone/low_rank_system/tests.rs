@@ -179,7 +179,7 @@ fn corrections_are_those_of_all_entries() {
             problem.update_displacements();
         }
         assert!(low_rank_system.solve(&mut both[0], &statuses), "case {case}");
-        assert!(system.solve(&mut both[1], &statuses, false), "case {case}");
+        assert!(system.solve(&mut both[1], &statuses, false, 0.0), "case {case}");
         let difference = force_difference(&both);
         assert!(difference < 1e-8, "case {case}: {difference:e}");
     }
