@@ -73,6 +73,7 @@ impl ContactModeSolver {
     /// The first trial of a step has factors of its own matrix, as in a resumed run.
     pub(super) fn begin_step(&mut self) {
         self.is_factor_of_step = false;
+        self.updates.begin_matrix();
     }
 
     /// Condition number of the system with all elements in their modes of rest.

@@ -15,8 +15,12 @@ use crate::linalg::{DenseFactor, dot, transposed_multiply_add};
 pub(super) const MAX_CHANGED_ROWS: usize = 6;
 /// Largest number of rows whose columns of A⁻¹ are stored.
 const MAX_STORED_COLUMNS: usize = 16;
-/// Smallest ratio of determinants; below it rounding errors would grow by its reciprocal.
-const MIN_DETERMINANT_RATIO: f64 = 1e-3;
+/// Largest factor by which small ratios of determinants may raise rounding errors, over all changes.
+const MAX_ERROR_GROWTH: f64 = 1e3;
+/// Largest factor by which the changes may raise the determinant.
+///
+/// A matrix A that is nearly singular, with large errors in its solutions, has a larger one.
+const MAX_DETERMINANT_GROWTH: f64 = 1e6;
 
 /// Changes of a few rows of a factored matrix.
 pub(super) struct RowUpdates {
@@ -30,6 +34,8 @@ pub(super) struct RowUpdates {
     columns: Vec<f64>,
     /// Reciprocal of 1 + r_k · z_k of each change.
     inverse_ratios: Vec<f64>,
+    /// Products over the changes: of the reciprocals of ratios below one, and of ratios above one.
+    growth: [f64; 2],
 }
 
 impl RowUpdates {
@@ -41,6 +47,7 @@ impl RowUpdates {
             differences: Vec::with_capacity(MAX_CHANGED_ROWS * capacity),
             columns: Vec::with_capacity(MAX_CHANGED_ROWS * capacity),
             inverse_ratios: Vec::with_capacity(MAX_CHANGED_ROWS),
+            growth: [1.0; 2],
         }
     }
 
@@ -56,6 +63,7 @@ impl RowUpdates {
         self.differences.clear();
         self.columns.clear();
         self.inverse_ratios.clear();
+        self.growth = [1.0; 2];
     }
 
     /// Changes one more row by `difference`, with the factors of A.
@@ -87,8 +95,11 @@ impl RowUpdates {
         let ratio = 1.0 + dot(difference, column);
         self.differences.extend_from_slice(difference);
         self.inverse_ratios.push(ratio.recip());
-        // False for NaN.
-        ratio.abs() >= MIN_DETERMINANT_RATIO && ratio.is_finite()
+        self.growth[0] *= ratio.abs().recip().max(1.0);
+        self.growth[1] *= ratio.abs().max(1.0);
+        let is_accurate =
+            self.growth[0] <= MAX_ERROR_GROWTH && self.growth[1] <= MAX_DETERMINANT_GROWTH;
+        is_accurate && ratio.is_finite()
     }
 
     /// Overwrites A⁻¹ b with the solution for the changed rows.

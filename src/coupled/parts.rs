@@ -62,6 +62,8 @@ pub(crate) struct Parts {
     pub(crate) water_force: Vec<f64>,
     /// Upward force of the water on the structure, N.
     pub(crate) buoyancy: f64,
+    /// Weight of a structure in water, N; zero without water above the base.
+    pub(crate) weight_in_water: f64,
     /// Point `[x, y]` to which the base moment refers, m.
     pub(crate) moment_center: [f64; 2],
 }
@@ -84,7 +86,6 @@ impl Parts {
         let mut ground = builder.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
         let components = elements.layout().components();
-        let water_table = water_table(&builder, ground.as_ref(), elements.has_walls())?;
         // A dense step compliance limits the number of elements. A ground that returns an error here is checked after
         // its preparation.
         if matches!(ground.diagonal_compliance(), Ok(None)) {
@@ -104,12 +105,8 @@ impl Parts {
         let element_count = elements.len();
         // The laws may rely on gravity only if there is pressure at the start.
         let initial_gravity = if builder.has_static_loads() { builder.gravity } else { 0.0 };
-        check_laws(
-            &builder.laws,
-            builder.search,
-            &ContactScene { gravity: initial_gravity, time_step },
-            element_count,
-        )?;
+        let contact_scene = ContactScene { gravity: initial_gravity, time_step };
+        check_laws(&builder.laws, builder.search, &contact_scene, element_count)?;
         if LawForm::of(layout) == LawForm::Limits {
             check_limits(&builder)?;
         }
@@ -124,11 +121,8 @@ impl Parts {
             same_length("mass at rest", masses.len(), structure.dofs())?;
             all_finite("mass at rest", masses)?;
             check_soil_at_rest(&builder)?;
-            let needed = "none with soil at rest, whose stresses are those of the grains";
-            require_part("water table", water_table.is_none(), needed)?;
         }
         let joints = lines(&builder.joints);
-        let contact_scene = ContactScene { gravity: initial_gravity, time_step };
         let bearing_laws = add_joint_laws(&mut builder, &elements, &contact_scene)?;
         let joint_element_count: usize = joints.iter().map(|joint| joint.elements().len()).sum();
         let dofs = structure.dofs();
@@ -142,7 +136,10 @@ impl Parts {
         let moment_center = [moment_x, center[1]];
         // These checks precede the preparation of the ground, which can take long.
         let mut description = ground.description();
-        if mass_at_rest.is_some() {
+        let has_soil_at_rest = mass_at_rest.is_some();
+        let water_table =
+            water_table(&builder, &description, elements.has_walls(), has_soil_at_rest)?;
+        if has_soil_at_rest {
             // Tractions on soil at rest are changes from the pressures at rest.
             description.pressure_at_rest.clear();
             description.depth_of_pressure_at_rest.clear();
@@ -173,6 +170,7 @@ impl Parts {
             water_table,
             water_force: Vec::new(),
             buoyancy: 0.0,
+            weight_in_water: 0.0,
             moment_center,
         })
     }
@@ -189,14 +187,20 @@ impl Parts {
 }
 
 /// Water table of the builder, or of a ground with walls.
+///
+/// On a fixed base the `description` is that of the support, which has none.
 fn water_table(
     builder: &SimulationBuilder,
-    ground: &dyn Ground,
+    description: &GroundDescription,
     has_walls: bool,
+    has_soil_at_rest: bool,
 ) -> Result<Option<WaterTable>> {
     let needed = "that of the ground (`TrenchGround::with_water_table`): it also acts on the soil beside the walls";
     require_part("water table", builder.water_table.is_none() || !has_walls, needed)?;
-    Ok(builder.water_table.or_else(|| ground.description().water_table))
+    let water_table = builder.water_table.or(description.water_table);
+    let needed = "none with soil at rest, whose stresses are those of the grains";
+    require_part("water table", !has_soil_at_rest || water_table.is_none(), needed)?;
+    Ok(water_table)
 }
 
 /// Lines of joints.

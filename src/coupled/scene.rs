@@ -132,6 +132,7 @@ impl Scene {
                 .map(|joint| joint.line.elements().to_vec())
                 .collect(),
             buoyancy: parts.buoyancy,
+            weight_in_water: parts.weight_in_water,
         };
         Self {
             time_step,

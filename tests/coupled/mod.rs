@@ -46,6 +46,7 @@ mod travel;
 mod trench_springs;
 mod unstable_states;
 mod water;
+mod water_page;
 mod wave_passage;
 mod yielding_column;
 mod yielding_order;

@@ -9,7 +9,7 @@
 //!
 //! The system is (D + L)⁻¹ A (D + U)⁻¹ D z = (D + L)⁻¹ b. With t = (D + U)⁻¹ D v its matrix multiplies v to
 //! t + (D + L)⁻¹ D (v − t): two substitutions, which read each entry of A once (Eisenstat 1981, SIAM J. Sci. Stat. Comput.
-//! 2, 1). The residual in the norm of this system falls in each iteration (Saad & Schultz 1986, SIAM J. Sci. Stat.
+//! 2, 1). The residual in the norm of this system does not grow in any iteration (Saad & Schultz 1986, SIAM J. Sci. Stat.
 //! Comput. 7, 856).
 
 #![allow(
@@ -49,7 +49,7 @@ impl GaussSeidelGmres {
 
     /// Stores the matrix of `order` whose columns `append_column` writes, one after the other.
     ///
-    /// Returns false if an entry on the diagonal is not above zero: sweeps then need not converge.
+    /// Returns false if an entry on the diagonal is not finite and above zero: sweeps then need not converge.
     pub fn set_columns(
         &mut self,
         order: usize,

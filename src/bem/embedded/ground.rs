@@ -90,7 +90,8 @@ impl TrenchGround {
     /// The backfill reaches from the surface down to the base, and consists of `soil` with this `damping`.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a width that is not finite and above zero.
+    /// [`Error::Input`](crate::Error::Input) for a width that is not finite and above zero, and for a backfill that is lighter
+    /// than the water of [`with_water_table`](Self::with_water_table).
     pub fn with_backfill(
         self,
         width: f64,
@@ -99,7 +100,9 @@ impl TrenchGround {
     ) -> Result<Self> {
         let source = self.source.clone();
         let soil = source.soil.with_backfill(width, soil, damping)?;
-        Ok(self.with_source(TrenchSource { soil, ..source }))
+        let ground = self.with_source(TrenchSource { soil, ..source });
+        ground.water.map_or(Ok(()), |water| ground.check_density(water))?;
+        Ok(ground)
     }
 
     /// Sets K₀, the ratio of horizontal to vertical pressure at rest.
@@ -116,7 +119,7 @@ impl TrenchGround {
     /// Adds a water table: the soil's pressures below it are effective.
     ///
     /// The water presses on base and walls of the structure during the whole run, also where these are open. Pressures at
-    /// rest and limits of [`interfaces`](Self::interfaces) follow from the weight of the soil under buoyancy. Densities
+    /// rest and limits of [`interfaces`](Self::interfaces), called afterwards, follow from the weight of the soil under buoyancy. Densities
     /// below the water table are those of saturated soil. Waves are those of the soil as given: water does not flow.
     ///
     /// ```
@@ -148,16 +151,18 @@ impl TrenchGround {
     pub fn with_water_table(self, water: WaterTable) -> Result<Self> {
         let quantity = "depth of a water table around a trench";
         require(quantity, water.depth(), water.depth() >= 0.0, "zero or more")?;
+        self.check_density(water)?;
+        Ok(Self { water: Some(water), ..self })
+    }
+
+    /// Returns an error for a soil or backfill that is not heavier than the water.
+    fn check_density(&self, water: WaterTable) -> Result<()> {
+        let quantity = "density of the soil under water";
         for soil in self.soil().soils() {
             let is_heavier = soil.density() > water.density();
-            require(
-                "density of the soil under water",
-                soil.density(),
-                is_heavier,
-                "above the water's",
-            )?;
+            require(quantity, soil.density(), is_heavier, "above the water's")?;
         }
-        Ok(Self { water: Some(water), ..self })
+        Ok(())
     }
 
     /// Sets the number of Runge–Kutta stages.

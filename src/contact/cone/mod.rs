@@ -170,7 +170,9 @@ impl ForceSearch {
             };
             method = method.max(last_method);
             self.newton.classify(&self.problem, false);
-            if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
+            // Forces that are not exact break no bond.
+            let is_exact = self.problem.relative_tolerance <= RELATIVE_RESIDUAL_TOLERANCE;
+            if !(is_exact && self.break_bonds(BOND_BREAKING_GAP * input.length_scale)) {
                 return Ok(method);
             }
         }
@@ -192,7 +194,9 @@ impl ForceSearch {
         let mut is_exact = false;
         loop {
             let has_moved = self.move_tangents(input, &mut linearisation)?;
-            if !has_moved && (is_exact || self.problem.is_solved()) {
+            let is_solved = !has_moved && (is_exact || self.problem.is_solved());
+            let gap = BOND_BREAKING_GAP * input.length_scale;
+            if is_solved && (is_exact || !self.break_bonds(gap)) {
                 return Ok(method);
             }
             linearisation.is_done()?;

@@ -15,7 +15,7 @@
 //!
 //! κ = R/\|t − ρ y\| is the radius ratio: the direction turns with the slip (Alart & Curnier 1991).
 //!
-//! Both solutions are equal up to rounding. A resumed run must make the same choice as the uninterrupted one: by the
+//! Solutions by factors are equal up to rounding, those by iterations up to their tolerance. A resumed run must make the same choice as the uninterrupted one: by the
 //! statuses alone if W is constant, otherwise by the statuses of the same step. If all elements stick, the factors
 //! of W itself solve.
 
@@ -58,9 +58,9 @@ pub(super) struct System {
     saved_cost: f64,
     /// Statuses of the present factors.
     factored_statuses: Vec<Status>,
-    /// Whether the factors belong to `factored_statuses`, all without slip.
+    /// Whether factors, not iterations, belong to `factored_statuses`, all without slip.
     is_reusable: bool,
-    /// Whether the factors belong to `factored_statuses`, computed in this step.
+    /// Whether factors or iterations for `factored_statuses` have solved in this step.
     is_recent: bool,
     /// Scratch: columns of the matrix, or quantities that are not unknown.
     ///
@@ -162,10 +162,13 @@ impl System {
             }
             self.has_displacement_factors = are_displacements;
             self.is_reusable = has_no_slip && !is_iterative;
-            self.is_recent = true;
             self.factored_statuses.copy_from_slice(statuses);
         }
+        // Reused factors count as those of this step, which a resumed run computes.
+        self.is_recent = true;
         if !self.correct(problem, linear_tolerance) {
+            self.is_reusable = false;
+            self.is_recent = false;
             return false;
         }
         problem.set_prescribed_forces(statuses);

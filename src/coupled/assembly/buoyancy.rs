@@ -13,7 +13,8 @@ use crate::structure::BaseNode;
 
 /// Sets the force of the water and the buoyancy in the `parts`.
 ///
-/// Returns an error for a part that floats, unless its base never opens. Parts that joints connect count as one.
+/// Returns an error for a part that floats, unless elements under it never open. With joints the whole model counts as
+/// one part.
 pub(super) fn set_water_force(parts: &mut Parts, assembled: &Assembled) -> Result<()> {
     let gravity = parts.builder.gravity;
     let Some(water) = parts.water_table.filter(|_| gravity > 0.0) else {
@@ -34,18 +35,18 @@ pub(super) fn set_water_force(parts: &mut Parts, assembled: &Assembled) -> Resul
     let has_joints = !base.joints().is_empty();
     let mut total_buoyancy = 0.0;
     let mut total_weight = 0.0;
-    let mut base_can_open = false;
+    let mut base_can_open = true;
     for part in assembled.influence.parts() {
         let part_buoyancy = part.resultants(&force)[UPWARD_DIRECTION];
         let part_weight = -part.resultants(&weight)[UPWARD_DIRECTION];
-        let part_can_open =
-            part.elements().iter().any(|e| law_of(laws, *e).modes().contains(&Mode::Open));
+        let mut downward = part.elements().iter().filter(|e| base.elements()[**e].faces_down());
+        let part_can_open = downward.all(|e| law_of(laws, *e).modes().contains(&Mode::Open));
         if part_can_open && !has_joints {
             check_floating(&part.nodes(base), is_plan, [part_weight, part_buoyancy])?;
         }
         total_buoyancy += part_buoyancy;
         total_weight += part_weight;
-        base_can_open |= part_can_open;
+        base_can_open &= part_can_open;
     }
     if base_can_open && has_joints {
         let nodes: Vec<_> = base.foundations().flat_map(|(nodes, _)| nodes).collect();
@@ -53,12 +54,14 @@ pub(super) fn set_water_force(parts: &mut Parts, assembled: &Assembled) -> Resul
     }
     parts.water_force = force;
     parts.buoyancy = total_buoyancy;
+    parts.weight_in_water = total_weight;
     Ok(())
 }
 
 /// Warning of a water table below the base.
 pub(super) fn warning(parts: &Parts) -> Option<Warning> {
-    let water = parts.water_table.filter(|_| parts.water_force.is_empty())?;
+    let has_no_force = parts.builder.gravity > 0.0 && parts.water_force.is_empty();
+    let water = parts.water_table.filter(|_| has_no_force)?;
     Some(Warning::Mistake(Mistake::WaterBelowBase { depth: water.depth() }))
 }
 

@@ -19,8 +19,9 @@ impl PlacedBase {
             let nodes = &self.nodes[foundation.nodes.clone()];
             for e in foundation.elements.clone() {
                 let element = &self.elements[e];
-                let row = if element.faces_down() {
-                    let mass = element.area() * water.mass_above(-element.heights()[0]);
+                let [start_height, end_height] = element.heights();
+                let row = if element.faces_down() && start_height == end_height {
+                    let mass = element.area() * water.mass_above(-start_height);
                     self.mean_row(self.layout.index_of(0, e))
                         .into_iter()
                         .map(|(dof, weight)| (dof, mass * weight))

@@ -66,7 +66,11 @@ pub(crate) fn tension_warning(
     can_open: impl Fn(usize) -> bool,
 ) -> Option<Warning> {
     let pressures = envelope.iter().map(|element| element.static_pressure);
-    let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
+    let max_pressure = pressures.clone().fold(0.0, f64::max);
+    // Water may lift a bonded base everywhere.
+    let max_tension = pressures.fold(0.0, |tension: f64, pressure| tension.max(-pressure));
+    let reference = if max_pressure > 0.0 { max_pressure } else { max_tension };
+    let limit = Warning::TENSION_LIMIT * reference;
     let elements_without_opening = envelope.iter().enumerate().filter(|(e, _)| !can_open(*e));
     let tensioned_element = elements_without_opening
         .map(|(_, element)| element)

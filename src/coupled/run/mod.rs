@@ -104,6 +104,11 @@ pub struct Run {
     /// Normal forces and pressures are effective: the weight is their sum at rest plus this force.
     #[cfg_attr(feature = "serde", serde(default))]
     pub buoyancy: f64,
+    /// Weight of a structure in water, of masses and [`Load::weight`](crate::coupled::Load::weight), N/m (in plan N).
+    ///
+    /// Zero without water above the base.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub weight_in_water: f64,
     /// The base as a whole.
     pub whole: Summary,
     /// The probes, in the order of the builder.
@@ -189,6 +194,7 @@ impl Run {
             time_step: resolution.time_step,
             is_overturned: false,
             buoyancy: state.context.buoyancy,
+            weight_in_water: state.context.weight_in_water,
             whole: Summary::start(state, None),
             probes: probe_extremes,
             foundations: (0..state.foundations.len())
@@ -348,9 +354,13 @@ impl Run {
         ContactElement::any_wall(self.envelope.iter().map(|envelope| &envelope.element))
     }
 
-    /// Weight of the structure, N/m (in plan N): the normal force at the start and the buoyancy.
-    pub(crate) fn weight(&self) -> f64 {
-        self.whole.static_normal_force + self.buoyancy
+    /// Weight of the structure, N/m (in plan N): without water the normal force at the start.
+    fn weight(&self) -> f64 {
+        if self.buoyancy == 0.0 {
+            self.whole.static_normal_force
+        } else {
+            self.weight_in_water
+        }
     }
 
     /// Largest horizontal force on the base over the weight; `None` without weight.

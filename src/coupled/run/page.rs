@@ -73,16 +73,17 @@ impl fmt::Display for Run {
 impl Run {
     /// Writes the effective weight on the base, and under water the weight and the buoyancy.
     fn write_weight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let effective_weight = self.whole.static_normal_force;
-        if effective_weight <= 0.0 {
-            return Ok(());
-        }
         let unit = whole_body_unit("kN/m", self.in_plan);
-        let effective_kn = 1e-3 * effective_weight;
         if self.buoyancy == 0.0 {
-            return writeln!(f, "Weight on the base: {effective_kn:.1} {unit}");
+            let weight = self.whole.static_normal_force;
+            return if weight <= 0.0 {
+                Ok(())
+            } else {
+                writeln!(f, "Weight on the base: {:.1} {unit}", 1e-3 * weight)
+            };
         }
-        let weight = self.weight();
+        let weight = self.weight_in_water;
+        let effective_kn = 1e-3 * (weight - self.buoyancy);
         writeln!(
             f,
             "Weight {:.1} {unit}, buoyancy {:.1} {unit}, factor of safety against flotation {}\n\

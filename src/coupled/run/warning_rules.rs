@@ -125,7 +125,7 @@ impl Warning {
         for (response_index, quantity) in Self::RESPONSES_CHECKED_AT_END.into_iter().enumerate() {
             let peak = run.whole.peak(quantity);
             let is_force = matches!(quantity, Quantity::BaseShear | Quantity::BaseMoment);
-            let scale = if is_force { run.whole.static_normal_force } else { 1.0 };
+            let scale = if is_force { run.whole.static_normal_force.abs() } else { 1.0 };
             let is_response = peak.magnitude() > Self::RESPONSE_ROUNDING * scale;
             let is_growing =
                 run.growth_in_last_step(response_index) > Self::CONSTANT_RESPONSE_GROWTH;
@@ -200,7 +200,9 @@ impl Warning {
 
     /// Warning of a gap that water must fill.
     pub(crate) fn of_water(run: &Run) -> Option<Self> {
-        let Peak { value: fraction, time } = run.whole.uplifted_fraction.highest;
+        let foundations = run.foundations.iter().map(|summary| summary.uplifted_fraction.highest);
+        let Peak { value: fraction, time } =
+            foundations.max_by(|a, b| a.value.total_cmp(&b.value))?;
         let is_open = run.buoyancy > 0.0 && fraction > Self::GAP_UNDER_WATER_LIMIT;
         is_open.then_some(Self::WaterInGap { fraction, time })
     }

@@ -56,6 +56,8 @@ pub(crate) struct ResultContext {
     pub(crate) joint_elements: Vec<Vec<ContactElement>>,
     /// Upward force of the water on the structure, N.
     pub(crate) buoyancy: f64,
+    /// Weight of a structure in water, N; zero without water above the base.
+    pub(crate) weight_in_water: f64,
 }
 
 /// Results of a simulation at the end of an accepted step.
