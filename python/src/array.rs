@@ -1,4 +1,4 @@
-//! Arrays and matrices that come from Python, and the limit of their memory.
+//! Arrays and matrices from and to Python; the memory limit.
 
 use basemat::structure::Triplets;
 use numpy::ndarray::{Ix1, Ix2, Ix3};

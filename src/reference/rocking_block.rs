@@ -6,15 +6,15 @@ use crate::error::{Result, positive, require};
 ///
 /// Housner, "The behavior of inverted pendulum structures during earthquakes", Bull. Seism. Soc. Am. 53 (1963), 403–417
 /// (free rocking: pp. 404–406). Amplitudes θ are between 0 and the angle α of the diagonal, at which the block
-/// overturns; their sign does not matter.
+/// overturns.
 ///
 /// ```
 /// use basemat::reference::RockingBlock;
 /// let block = RockingBlock::new(0.5, 2.0, 9.81)?;
 /// assert!((block.slenderness_angle() - 0.25_f64.atan()).abs() < 1e-15);
 /// assert!((block.restitution() - 31.0 / 34.0).abs() < 1e-15);
-/// let half_way = block.slenderness_angle() / 2.0;
-/// assert!((block.period(half_way)? - 2.793_372_815_632).abs() < 1e-12);
+/// let amplitude = block.slenderness_angle() / 2.0;
+/// assert!((block.period(amplitude)? - 2.793_372_815_632).abs() < 1e-12);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,12 +178,13 @@ impl RockingBlock {
             * self.restitution().powi(2)
             * (angle - amplitude / 2.0).sin()
             * (amplitude / 2.0).sin();
-        let sin_angle = (angle / 2.0).sin();
-        let sin_delta = (sin_angle * sin_angle - energy / 2.0).max(0.0).sqrt();
+        let sin_half_angle = (angle / 2.0).sin();
+        let sin_half_delta = (sin_half_angle * sin_half_angle - energy / 2.0).max(0.0).sqrt();
         // θ₁/2 = α/2 − δ/2 as one arcsine, without cancellation.
-        let cos_angle = (1.0 - sin_angle * sin_angle).sqrt();
-        let cos_delta = (1.0 - sin_delta * sin_delta).sqrt();
-        let sine = (energy / 2.0) / (sin_angle * cos_delta + cos_angle * sin_delta);
+        let cos_half_angle = (1.0 - sin_half_angle * sin_half_angle).sqrt();
+        let cos_half_delta = (1.0 - sin_half_delta * sin_half_delta).sqrt();
+        let sine =
+            (energy / 2.0) / (sin_half_angle * cos_half_delta + cos_half_angle * sin_half_delta);
         Ok(2.0 * sine.asin())
     }
 
@@ -231,8 +232,8 @@ impl RockingBlock {
     /// Returns `amplitude`, or an error unless it is a possible amplitude of rocking.
     fn check_amplitude(&self, amplitude: f64) -> Result<f64> {
         let is_possible = amplitude > 0.0 && amplitude < self.slenderness_angle();
-        let needed = "above zero and below the slenderness angle of the block";
-        require("rocking amplitude", amplitude, is_possible, needed)
+        let requirement = "above zero and below the slenderness angle of the block";
+        require("rocking amplitude", amplitude, is_possible, requirement)
     }
 }
 
@@ -243,7 +244,7 @@ const MAX_SERIES_DIFFERENCE: f64 = 1e-3;
 ///
 /// The arguments are not negative, and at most one of them is zero.
 ///
-/// Duplication theorem and series to sixth order: Carlson, "Computing elliptic integrals by
+/// Duplication theorem and series to fifth order: Carlson, "Computing elliptic integrals by
 /// duplication", Numer. Math. 33 (1979), 1–16; NIST DLMF 19.36.1.
 fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     loop {

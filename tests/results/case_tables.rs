@@ -111,13 +111,13 @@ fn cases_are_numbered_by_their_place() {
         row.value("residual_slip_m"),
         Err(Error::Part { part, .. }) if part == "case 3 failed"
     ));
-    for invalid_word in [
+    for error in [
         row.value("record").err(),
         row.value("slip").err(),
         row.text("width_m").err(),
         row.place("ratio, -").err(),
     ] {
-        assert!(matches!(invalid_word, Some(Error::Name { .. })), "{invalid_word:?}");
+        assert!(matches!(error, Some(Error::Name { .. })), "{error:?}");
     }
     sweep().run(
         |case| {
@@ -175,8 +175,8 @@ fn shards_have_bounds() {
     let last_shard = sweep().shard(usize::MAX - 1, usize::MAX).unwrap();
     assert_eq!(last_shard.cases().len(), 0);
     assert_eq!(last_shard.shard(usize::MAX - 1, usize::MAX).unwrap().cases().len(), 0);
-    let first = sweep().shard(0, usize::MAX).unwrap().shard(0, 2).unwrap();
-    assert!(first.cases().eq([0]));
+    let first_shard = sweep().shard(0, usize::MAX).unwrap().shard(0, 2).unwrap();
+    assert!(first_shard.cases().eq([0]));
 }
 
 /// Cases and shards that are missing from a merger of these files.
@@ -212,7 +212,7 @@ fn fault_of_other_shard(shards: &[PathBuf], sweep: Sweep<'_>, columns: [&str; 2]
             assert_eq!(file, other_path.display().to_string());
             fault
         }
-        other_path => panic!("{other_path:?}"),
+        result => panic!("{result:?}"),
     }
 }
 
@@ -220,8 +220,11 @@ fn fault_of_other_shard(shards: &[PathBuf], sweep: Sweep<'_>, columns: [&str; 2]
 fn wrong_sets_of_shards_are_errors() {
     let folder = folder("sets");
     let paths = shard_files(&folder, 4);
-    let third: Vec<usize> = (0..24).filter(|case| case % 4 == 2).collect();
-    assert_eq!(missing_parts(&[&paths[0], &paths[1], &paths[3]]), (third, vec![[2, 4]]));
+    let cases_of_third_shard: Vec<usize> = (0..24).filter(|case| case % 4 == 2).collect();
+    assert_eq!(
+        missing_parts(&[&paths[0], &paths[1], &paths[3]]),
+        (cases_of_third_shard, vec![[2, 4]])
+    );
     let missing_parts_of_two = missing_parts(&[&paths[1], &paths[3]]);
     assert_eq!((missing_parts_of_two.0.len(), missing_parts_of_two.1), (12, vec![[0, 4], [2, 4]]));
     assert_eq!(missing_parts(&[]), ((0..24).collect(), vec![]));
@@ -229,10 +232,10 @@ fn wrong_sets_of_shards_are_errors() {
     assert_eq!(text, "6 of the sweep's cases missing: 2, 6, 10, 14, 18, 22; shard 2/4");
 
     let name = paths[0].display().to_string();
-    let computed = format!("here and in {name}");
+    let places_text = format!("here and in {name}");
     assert_eq!(
         table_error(sweep().merge([&paths[0], &paths[1], &paths[0]])),
-        file_error(&name, value("case 0", &computed, "in one place"))
+        file_error(&name, value("case 0", &places_text, "in one place"))
     );
     let missing_path = folder.join("not_there.csv");
     assert_eq!(
@@ -243,14 +246,14 @@ fn wrong_sets_of_shards_are_errors() {
         )
     );
 
-    // Of another study: values, parameters, results.
+    // The shard of a sweep that differs in a value, a result column or the name of a parameter is an error.
     let fault = fault_of_other_shard(&paths, other_sweep(0.3, "width_m"), RESULT_COLUMNS);
     assert_eq!(fault, value("friction of case 15", "'0.3'", "'0.30000000000000004'"));
-    let same_grid = other_sweep(SEVENTEEN_DIGITS, "width_m");
-    let fault = fault_of_other_shard(&paths, same_grid, ["ratio, -", "slip"]);
+    let sweep_with_same_grid = other_sweep(SEVENTEEN_DIGITS, "width_m");
+    let fault = fault_of_other_shard(&paths, sweep_with_same_grid, ["ratio, -", "slip"]);
     assert_eq!(fault, value("heading of column 6", "'slip'", "'residual_slip_m'"));
-    let other_name = other_sweep(SEVENTEEN_DIGITS, "width");
-    let fault = fault_of_other_shard(&paths, other_name, RESULT_COLUMNS);
+    let renamed_sweep = other_sweep(SEVENTEEN_DIGITS, "width");
+    let fault = fault_of_other_shard(&paths, renamed_sweep, RESULT_COLUMNS);
     assert_eq!(fault, value("heading of column 4", "'width'", "'width_m'"));
 }
 
@@ -292,9 +295,9 @@ fn parameters_and_columns_are_checked() {
         grid_error(vec![numbers(&[1.0, f64::NAN])]).to_string(),
         "parameter 'x': list of values is not finite: entry 1 is NaN"
     );
-    for (twice, value) in [([2.0, 2.0], "2"), ([0.0, -0.0], "-0")] {
+    for (repeated_values, value) in [([2.0, 2.0], "2"), ([0.0, -0.0], "-0")] {
         let expected_repetition = parameter_error("x", repeated_value(value));
-        assert_eq!(grid_error(vec![numbers(&twice)]), expected_repetition);
+        assert_eq!(grid_error(vec![numbers(&repeated_values)]), expected_repetition);
     }
     let expected_repetition = parameter_error("r", repeated_value("a"));
     assert_eq!(grid_error(vec![Parameter::texts("r", ["a", "a"])]), expected_repetition);
@@ -360,7 +363,7 @@ fn lines_stay_below_a_hundred_characters() {
         assert_eq!(text.matches(name.as_str()).count(), 1, "{text}");
     }
 
-    // Twelve cases run in parallel.
+    // A comparison of twelve cases is printed in blocks.
     let mut simulation = crate::results::simulation();
     let run = simulation.run(50, |_| {}).unwrap();
     let cases = (0..12).map(|k| (format!("a case with friction 0.{k}"), run.clone()));

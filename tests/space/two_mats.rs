@@ -33,11 +33,11 @@ fn bodies_that_touch_or_overlap_are_errors() {
     assert!(first_body().with(block.clone(), 20.0).is_err());
     assert!(StructureGroup::new().with(block, 0.0).unwrap().with(body(0, 0), 20.0).is_err());
     // Half a cell between them.
-    let too_close = first_body().with(second_body_at([6.75, 0.0]), 0.0).unwrap();
+    let close_bodies = first_body().with(second_body_at([6.75, 0.0]), 0.0).unwrap();
     let soil = Soil::from_shear_wave_speed(120.0, 0.3, 1800.0).unwrap();
     for error in [
-        ElasticGround::under(soil, &too_close, 4).err().unwrap(),
-        SpringGround::under(&too_close, 4, 4e7, 3e7).err().unwrap(),
+        ElasticGround::under(soil, &close_bodies, 4).err().unwrap(),
+        SpringGround::under(&close_bodies, 4, 4e7, 3e7).err().unwrap(),
     ] {
         assert!(matches!(error, Error::Plan(PlanError::TooClose { mats: [0, 1], .. })), "{error}");
     }
@@ -62,11 +62,11 @@ fn cells_that_do_not_fit_two_mats_are_errors() {
     let wide_cells = SpringCells::between(&[-4.0, 4.0, 7.0, 11.0], &[-3.0, 3.0], BED_PROPERTIES);
     let error = cells_error(wide_cells);
     assert!(error.to_string().contains("under two mats"), "{error}");
-    // Nothing under the second.
-    let first_only = SpringCells::between(&lines[..9], &[-3.0, 0.0, 3.0], BED_PROPERTIES);
-    let error = cells_error(first_only);
+    // No cell is under the second mat.
+    let cells_of_first_mat = SpringCells::between(&lines[..9], &[-3.0, 0.0, 3.0], BED_PROPERTIES);
+    let error = cells_error(cells_of_first_mat);
     assert!(matches!(error, Error::Size { found: 0, .. }), "{error}");
-    // A plan of the first alone.
+    // A plan with the first mat alone.
     let plan = Plan::rectangle(-4.0..4.0, -3.0..3.0, 4).unwrap();
     let ground = SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap();
     let builder = Simulation::builder(0.01).structure(both_bodies(0)).ground(ground);

@@ -21,7 +21,7 @@ use crate::text::decimal::finite;
 ///
 /// The file has a header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`. A line with
 /// the names of the components, `N-S  E-W  U-D`, and the samples in gal follow.
-/// [`Record::read_all`](super::Record::read_all) returns all components. Reading returns an error if samples or peaks
+/// [`Record::read_all`](super::Record::read_all) returns all components. Reading returns an error if the number of samples or the peaks
 /// (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of acceleration other than gal. Newer
 /// files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
 ///

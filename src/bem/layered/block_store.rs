@@ -5,7 +5,7 @@
 //! | word | meaning |
 //! |---|---|
 //! | 0, 1 | "BASEMATK", format |
-//! | 2 | fingerprint of the kernel |
+//! | 2 | fingerprint of the convolution weights |
 //! | 3, 4 | numbers of classes of pairs and of blocks |
 //! | from 5 | convolution weights: by block, class, component, lag |
 //! | last | check sum of all previous words |
@@ -114,13 +114,13 @@ impl BlockStore {
         progress: &mut ProgressReporter,
         compute: impl FnOnce(&mut ProgressReporter) -> Result<T>,
     ) -> Result<&'a T> {
-        if let Some(stored) = cell.get() {
-            return stored.as_ref().map_err(Clone::clone);
+        if let Some(stored_result) = cell.get() {
+            return stored_result.as_ref().map_err(Clone::clone);
         }
         let _guard = self.lock(progress)?;
         // Another thread may have computed the content while this thread waited.
-        if let Some(stored) = cell.get() {
-            return stored.as_ref().map_err(Clone::clone);
+        if let Some(stored_result) = cell.get() {
+            return stored_result.as_ref().map_err(Clone::clone);
         }
         match compute(progress) {
             Err(stopped @ Error::Stopped(_)) => Err(stopped),

@@ -52,21 +52,22 @@ fn add_row(mesh: &mut Mesh, y: f64) -> [usize; 3] {
     [-1.0, 0.0, 1.0].map(|x| mesh.add_node(x, y).unwrap())
 }
 
-/// Rows of quadrilaterals 1 m high on a base 2 m wide; `merged` says whether the nodes at the seam
-/// between the first row and the rest are.
-fn stack(rows: usize, merged: bool) -> Mesh {
+/// Rows of quadrilaterals 1 m high on a base 2 m wide.
+///
+/// With `is_merged` the second row stands on the upper nodes of the first one.
+fn stack(rows: usize, is_merged: bool) -> Mesh {
     let mut mesh = Mesh::new();
     let mut quads = Vec::new();
-    let mut below = add_row(&mut mesh, 0.0);
+    let mut lower_nodes = add_row(&mut mesh, 0.0);
     for k in 0..rows {
-        if k == 1 && !merged {
-            below = add_row(&mut mesh, 1.0);
+        if k == 1 && !is_merged {
+            lower_nodes = add_row(&mut mesh, 1.0);
         }
-        let above = add_row(&mut mesh, 1.0 + k as f64);
+        let upper_nodes = add_row(&mut mesh, 1.0 + k as f64);
         for i in 0..2 {
-            quads.push([below[i], below[i + 1], above[i + 1], above[i]]);
+            quads.push([lower_nodes[i], lower_nodes[i + 1], upper_nodes[i + 1], upper_nodes[i]]);
         }
-        below = above;
+        lower_nodes = upper_nodes;
     }
     for quad in quads {
         mesh.add(Quad4::new(quad, material(), QuadFormulation::default())).unwrap();
@@ -78,8 +79,8 @@ fn standing_weight(mesh: Mesh) -> Result<f64> {
     build(FemModel::on_base(mesh).unwrap()).map(|simulation| simulation.state().normal_force)
 }
 
-/// GOAL: a stack whose nodes at a seam are not merged is an error with the nodes above it, and with the two
-/// at one place; merged, it has all of its weight.
+/// GOAL: the error for a stack with a seam that is not merged names the nodes above the seam, and two nodes at one
+/// place. With a merged seam the base carries the whole weight.
 #[test]
 fn a_seam_that_is_not_merged_is_named() {
     for rows in [2, 5, 20] {
@@ -89,9 +90,9 @@ fn a_seam_that_is_not_merged_is_named() {
             detached_part(FemModel::on_base(stack(rows, false)).unwrap());
         assert_eq!(dofs, (12..6 * (rows + 2)).collect::<Vec<_>>());
         assert!(place.starts_with("node 6 at (-1, 1), node 7 at (0, 1), "), "{place}");
-        let not_merged =
+        let seam_text =
             "; node 6 lies where node 3 is, but is not merged with it by `Mesh::merge_nodes`";
-        assert!(place.ends_with(not_merged), "{place}");
+        assert!(place.ends_with(seam_text), "{place}");
         assert!(rows == 2 || place.contains(&format!(" and {} more;", 3 * rows - 8)), "{place}");
     }
 }
@@ -102,21 +103,22 @@ fn links_and_springs_tie_parts() {
     let seam = [(3, 6), (4, 7), (5, 8)];
     for stiffness in [1e3, 1e9] {
         let mut mesh = stack(3, false);
-        for (low, high) in seam {
+        for (lower_node, upper_node) in seam {
             for direction in [Direction::X, Direction::Y] {
-                mesh.add(Spring::new([low, high], direction, stiffness).unwrap()).unwrap();
+                mesh.add(Spring::new([lower_node, upper_node], direction, stiffness).unwrap())
+                    .unwrap();
             }
         }
         assert!(build(FemModel::on_base(mesh).unwrap()).is_ok(), "{stiffness:e}");
     }
     let model = FemModel::on_base(stack(3, false)).unwrap();
     let mut isolated_model = WithSprings::new(model.clone());
-    for (low, high) in seam {
+    for (lower_node, upper_node) in seam {
         for direction in [Direction::X, Direction::Y] {
             let law = Bilinear::new(1e9, 1e8, 0.1).unwrap();
-            let high = model.row(high, direction).unwrap();
-            let low = model.row(low, direction).unwrap();
-            isolated_model = isolated_model.spring(high - low, law).unwrap();
+            let elongation = model.row(upper_node, direction).unwrap()
+                - model.row(lower_node, direction).unwrap();
+            isolated_model = isolated_model.spring(elongation, law).unwrap();
         }
     }
     assert!(build(isolated_model).is_ok());
@@ -183,7 +185,7 @@ fn single_dofs_are_named() {
     assert_eq!(free_pair.dofs, [12, 13]);
 }
 
-/// GOAL: what has neither mass nor stiffness is named, though it weighs nothing.
+/// GOAL: the error names a node that has only a dashpot, neither mass nor stiffness.
 #[test]
 fn a_node_on_a_dashpot_alone_is_a_mechanism() {
     let mut mesh = stack(1, true);
@@ -208,7 +210,7 @@ fn torn_stack() -> FemModel {
     FemModel::on_base(stack(2, false)).unwrap()
 }
 
-/// In groups and reductions the error names the structure of the nodes.
+/// In groups the error also names the structure; in reductions it names the nodes.
 #[test]
 fn wrappers_lead_to_the_nodes() {
     let block = RigidBlock::new(2.0, 1.0, 2000.0).unwrap();
@@ -241,8 +243,8 @@ fn wrappers_lead_to_the_nodes() {
     let reduced_structure = CraigBampton::new(3).keep(&kept_dofs).reduce(torn_stack()).unwrap();
     let mut tied_model = WithSprings::new(reduced_structure);
     for k in 6..12 {
-        let row = DofCombination::from(k + 6) - DofCombination::from(k);
-        tied_model = tied_model.spring(row, Bilinear::new(1e9, 1e8, 0.1).unwrap()).unwrap();
+        let deformation = DofCombination::from(k + 6) - DofCombination::from(k);
+        tied_model = tied_model.spring(deformation, Bilinear::new(1e9, 1e8, 0.1).unwrap()).unwrap();
     }
     assert!(build(tied_model).is_ok());
 }
@@ -304,8 +306,8 @@ fn last_base_shear(model: MatrixModel) -> f64 {
 }
 
 /// GOAL: coordinates relative to the base have springs to it and are coupled by mass: a
-/// tower in them marches as in absolute ones. Without the coupling, or without the support, they are
-/// a part that floats.
+/// tower in them has the base shear of one in absolute coordinates. Without the mass coupling, or without the
+/// springs to the base, the error names them as a detached part.
 #[test]
 fn relative_coordinates_are_no_part() {
     let m = [2.0e3, 1.0e3];
@@ -330,7 +332,7 @@ fn relative_coordinates_are_no_part() {
     assert_eq!((dofs, place.as_str()), (vec![3], "degree of freedom 3"));
     let beside_spring = appended(&[50.0, 0.0], &[], |matrix| matrix.add(4, 4, 1e5));
     assert_eq!(detached_part(beside_spring).dofs, [3]);
-    // A mode that the base does not excite, and a massless degree of freedom on a spring to a fixed point.
+    // A degree of freedom with unit mass counts as the amplitude of a mode; a massless one may be held by a spring.
     assert!(build(appended(&[1.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());
     assert!(build(appended(&[0.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());
 }

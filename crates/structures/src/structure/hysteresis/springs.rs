@@ -78,7 +78,9 @@ impl HystereticSprings {
         self.0.iter().flat_map(HystereticSpring::save).collect()
     }
 
-    /// Work of the springs inside a step that is neither stored nor dissipated, by its definition.
+    /// Work of the springs inside a step that is neither stored nor dissipated.
+    ///
+    /// It is f(midstep)·(end − start), less the changes of the stored and of the dissipated energy.
     ///
     /// An empty `start` is zero displacement.
     fn total_remainder(&self, start: &[f64], midstep: &[f64], end: &[f64]) -> f64 {
@@ -291,16 +293,16 @@ impl NonlinearForce for WithSprings {
         }
     }
 
-    /// Remainder of the structure's force, if it has one, and that of the springs by its definition.
+    /// Remainders of the structure's force and of the springs.
     ///
-    /// Around other structures it is `None`, and the work of the springs counts as algorithmic.
+    /// `None` if the structure has no nonlinear force with a remainder; that of the springs then counts as algorithmic.
     fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
         let structure_remainder = self.structure.nonlinear()?.remainder(midstep, end)?;
         let start = &self.committed_displacement;
         Some(structure_remainder + self.springs.total_remainder(start, midstep, end))
     }
 
-    /// State of the structure's force; springs have no text.
+    /// State of the structure's force; the springs are not described.
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         self.structure.nonlinear()?.describe_state(displacement, dofs)
     }
