@@ -17,7 +17,7 @@ const WATER_DENSITY: f64 = 1000.0;
 const BASE_WIDTH: f64 = 10.0;
 const BLOCK_HEIGHT: f64 = 12.0;
 const BLOCK_DENSITY: f64 = 1100.0;
-const WEIGHT: f64 = BLOCK_DENSITY * STANDARD_GRAVITY * BASE_WIDTH * BLOCK_HEIGHT;
+const BLOCK_WEIGHT: f64 = BLOCK_DENSITY * STANDARD_GRAVITY * BASE_WIDTH * BLOCK_HEIGHT;
 
 fn block() -> RigidBlock {
     RigidBlock::new(BASE_WIDTH, BLOCK_HEIGHT, BLOCK_DENSITY).unwrap()
@@ -36,7 +36,7 @@ fn shaken_block(water_head: f64) -> SimulationBuilder {
 
 fn line_of_flotation(water_head: f64) -> String {
     let buoyancy = WATER_DENSITY * STANDARD_GRAVITY * BASE_WIDTH * water_head;
-    format!("factor of safety against flotation {:.3}", WEIGHT / buoyancy)
+    format!("factor of safety against flotation {:.3}", BLOCK_WEIGHT / buoyancy)
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn a_block_without_static_state_has_its_weight() {
         .unwrap();
     let run = simulation.run(300, |_| {}).unwrap();
     assert_eq!(run.whole.static_normal_force, 0.0);
-    let expected_coefficient = run.whole.horizontal_force.magnitude() / WEIGHT;
+    let expected_coefficient = run.whole.horizontal_force.magnitude() / BLOCK_WEIGHT;
     assert!((run.shear_coefficient().unwrap() / expected_coefficient - 1.0).abs() < 1e-12);
     assert!(run.to_string().contains(&line_of_flotation(4.0)), "{run}");
 }
@@ -64,7 +64,7 @@ fn a_second_run_has_the_same_weight() {
     let second_run = simulation.run(250, |_| {}).unwrap();
     assert_ne!(first_run.whole.static_normal_force, second_run.whole.static_normal_force);
     for run in [first_run, second_run] {
-        assert!((run.weight_in_water / WEIGHT - 1.0).abs() < 1e-12);
+        assert!((run.weight_in_water / BLOCK_WEIGHT - 1.0).abs() < 1e-12);
         assert!(run.to_string().contains(&line_of_flotation(4.0)), "{run}");
     }
 }

@@ -23,6 +23,7 @@ pub(crate) mod wall_pressure;
 pub(crate) mod warning;
 mod warning_rules;
 mod warning_text;
+mod weight;
 
 pub use envelope::ElementEnvelope;
 pub use ground_motion::GroundMotion;
@@ -352,21 +353,6 @@ impl Run {
     /// Whether any element of the base belongs to a wall.
     pub(crate) fn has_walls(&self) -> bool {
         ContactElement::any_wall(self.envelope.iter().map(|envelope| &envelope.element))
-    }
-
-    /// Weight of the structure, N/m (in plan N): without water the normal force at the start.
-    fn weight(&self) -> f64 {
-        if self.buoyancy == 0.0 {
-            self.whole.static_normal_force
-        } else {
-            self.weight_in_water
-        }
-    }
-
-    /// Largest horizontal force on the base over the weight; `None` without weight.
-    pub fn shear_coefficient(&self) -> Option<f64> {
-        let weight = self.weight();
-        (weight > 0.0).then(|| self.whole.horizontal_force.magnitude() / weight)
     }
 
     /// Relative growth in the last step of a response of [`Warning::RESPONSES_CHECKED_AT_END`].

@@ -71,29 +71,6 @@ impl fmt::Display for Run {
 }
 
 impl Run {
-    /// Writes the effective weight on the base, and under water the weight and the buoyancy.
-    fn write_weight(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = whole_body_unit("kN/m", self.in_plan);
-        if self.buoyancy == 0.0 {
-            let weight = self.whole.static_normal_force;
-            return if weight <= 0.0 {
-                Ok(())
-            } else {
-                writeln!(f, "Weight on the base: {:.1} {unit}", 1e-3 * weight)
-            };
-        }
-        let weight = self.weight_in_water;
-        let effective_kn = 1e-3 * (weight - self.buoyancy);
-        writeln!(
-            f,
-            "Weight {:.1} {unit}, buoyancy {:.1} {unit}, factor of safety against flotation {}\n\
-             Effective weight on the base: {effective_kn:.1} {unit}; pressures and factors of safety are effective",
-            1e-3 * weight,
-            1e-3 * self.buoyancy,
-            safety_text(weight / self.buoyancy)
-        )
-    }
-
     fn peak_table(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let mut rows = Vec::new();
