@@ -132,10 +132,10 @@ impl ContactModeSolver {
             && self.conditions.iter().zip(&self.factored_conditions).all(|(a, b)| {
                 have_equal_coefficients(&a[0], &b[0]) && have_equal_coefficients(&a[1], &b[1])
             });
-        let has_curve = (0..modes.len()).any(|e| self.yields_with_hardening(e, modes[e]));
         if is_factored {
             self.reset_rows();
         } else {
+            let has_curve = (0..modes.len()).any(|e| self.yields_with_hardening(e, modes[e]));
             let is_updated = has_curve && self.update_rows(input);
             if !is_updated && !self.assemble(input, has_curve) {
                 self.has_valid_factor = false;

@@ -21,12 +21,12 @@ use super::trench_springs::{
     BLOCK_HEIGHT, SOIL_DENSITY, TRENCH_DEPTH, TRENCH_WIDTH, soil, trench_elements, trench_motion,
 };
 
-const WATER_DENSITY: f64 = 1000.0;
+pub(super) const WATER_DENSITY: f64 = 1000.0;
 /// Height of the water above the base, m.
 const WATER_HEAD: f64 = 4.0;
-const BASE_WIDTH: f64 = 10.0;
-const BLOCK_DENSITY: f64 = 1100.0;
-const BODY_HEIGHT: f64 = 12.0;
+pub(super) const BASE_WIDTH: f64 = 10.0;
+pub(super) const BLOCK_DENSITY: f64 = 1100.0;
+pub(super) const BODY_HEIGHT: f64 = 12.0;
 /// Buoyancy over weight.
 const BUOYANT_FRACTION: f64 = WATER_DENSITY * WATER_HEAD / (BLOCK_DENSITY * BODY_HEIGHT);
 const FRICTION_COEFFICIENT: f64 = 0.4;
@@ -35,7 +35,7 @@ fn water() -> WaterTable {
     WaterTable::at_depth(-WATER_HEAD).unwrap()
 }
 
-fn block() -> RigidBlock {
+pub(super) fn block() -> RigidBlock {
     RigidBlock::new(BASE_WIDTH, BODY_HEIGHT, BLOCK_DENSITY).unwrap()
 }
 
@@ -44,7 +44,7 @@ fn record(factor: f64) -> Record {
 }
 
 /// The block on a half-plane under a strong record: it uplifts and slides.
-fn shaken_block() -> SimulationBuilder {
+pub(super) fn shaken_block() -> SimulationBuilder {
     Simulation::builder(0.01)
         .ground(
             ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0).unwrap(), &block(), 12).unwrap(),

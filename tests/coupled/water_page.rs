@@ -2,36 +2,23 @@
 //! SCENE: a block without a static state, bonded where it would float, and run twice; a box bonded to its floor in a trench.
 //! REFERENCE: weight and buoyancy of the block in closed form.
 
+use basemat::Simulation;
+use basemat::bem::SpringGround;
 use basemat::bem::embedded::TrenchGround;
-use basemat::bem::{ElasticGround, SpringGround};
 use basemat::coupled::{GravityStage, SimulationBuilder, Warning};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::soil::WaterTable;
 use basemat::structure::{RigidBlock, WithWalls};
-use basemat::{Simulation, Soil};
 
 use super::trench_springs::{TRENCH_DEPTH, TRENCH_WIDTH, soil, trench_elements};
+use super::water::{BASE_WIDTH, BLOCK_DENSITY, BODY_HEIGHT, WATER_DENSITY, block, shaken_block};
 
-const WATER_DENSITY: f64 = 1000.0;
-const BASE_WIDTH: f64 = 10.0;
-const BLOCK_HEIGHT: f64 = 12.0;
-const BLOCK_DENSITY: f64 = 1100.0;
-const BLOCK_WEIGHT: f64 = BLOCK_DENSITY * STANDARD_GRAVITY * BASE_WIDTH * BLOCK_HEIGHT;
-
-fn block() -> RigidBlock {
-    RigidBlock::new(BASE_WIDTH, BLOCK_HEIGHT, BLOCK_DENSITY).unwrap()
-}
+const BLOCK_WEIGHT: f64 = BLOCK_DENSITY * STANDARD_GRAVITY * BASE_WIDTH * BODY_HEIGHT;
 
 /// The block with water of this height (m) above its base, on a half-plane.
-fn shaken_block(water_head: f64) -> SimulationBuilder {
-    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    Simulation::builder(0.01)
-        .ground(ElasticGround::under(soil, &block(), 8).unwrap())
-        .structure(block())
-        .interface(Coulomb::new(0.4).unwrap())
-        .motion(el_centro_1940())
-        .water_table(WaterTable::at_depth(-water_head).unwrap())
+fn block_in_water(water_head: f64) -> SimulationBuilder {
+    shaken_block().water_table(WaterTable::at_depth(-water_head).unwrap())
 }
 
 fn line_of_flotation(water_head: f64) -> String {
@@ -59,7 +46,7 @@ fn a_block_without_static_state_has_its_weight() {
 
 #[test]
 fn a_second_run_has_the_same_weight() {
-    let mut simulation = shaken_block(4.0).build().unwrap();
+    let mut simulation = block_in_water(4.0).build().unwrap();
     let first_run = simulation.run(250, |_| {}).unwrap();
     let second_run = simulation.run(250, |_| {}).unwrap();
     assert_ne!(first_run.whole.static_normal_force, second_run.whole.static_normal_force);
@@ -71,7 +58,7 @@ fn a_second_run_has_the_same_weight() {
 
 #[test]
 fn a_bonded_base_that_floats_is_reported() {
-    let mut simulation = shaken_block(14.0).interface(Bonded).build().unwrap();
+    let mut simulation = block_in_water(14.0).interface(Bonded).build().unwrap();
     let run = simulation.run(100, |_| {}).unwrap();
     assert!(run.to_string().contains(&line_of_flotation(14.0)), "{run}");
     let has_tension = |warning: &Warning| matches!(warning, Warning::Tension { .. });
@@ -80,7 +67,7 @@ fn a_bonded_base_that_floats_is_reported() {
 
 #[test]
 fn without_gravity_water_has_no_effect_and_no_warning() {
-    let mut simulation = shaken_block(4.0).gravity(0.0).interface(Bonded).build().unwrap();
+    let mut simulation = block_in_water(4.0).gravity(0.0).interface(Bonded).build().unwrap();
     let run = simulation.run(20, |_| {}).unwrap();
     assert_eq!(run.buoyancy, 0.0);
     assert!(!run.warnings.iter().any(|warning| matches!(warning, Warning::Mistake(_))));

@@ -5,9 +5,9 @@
 //! ```
 //!
 //! First table: a box of elastic soil under a welded block beside the half-plane, and alone beside the free field
-//! (`basemat_problems::near_field`). Second table: a block of 6 × 10 m on clay of 60 kPa (150 m/s) under 1.5 times El Centro, with a safety of 2.6: it rocks, lifts off, and the clay
-//! yields. The box has some 2000 degrees of freedom and is bonded to the 64 contact elements of its trench. The
-//! process fails if a limit is exceeded.
+//! (`basemat_problems::near_field`). Second table: a block of 6 × 10 m on clay of 60 kPa (150 m/s) under 1.5 times
+//! El Centro, with a safety of 2.6: it rocks, lifts off, and the clay yields. The box has some 2000 degrees of freedom
+//! and is bonded to the 64 contact elements of its trench. The process fails if a limit is exceeded.
 
 use basemat::bem::SharedKernels;
 use basemat::bem::embedded::NearField;

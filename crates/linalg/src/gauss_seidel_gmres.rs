@@ -26,6 +26,7 @@ use super::product::{
 const MAX_KRYLOV_VECTORS: usize = 32;
 
 /// A dense matrix, and memory for the solution of its systems by iterations.
+#[derive(Default)]
 pub struct GaussSeidelGmres {
     order: usize,
     /// A, column by column.
@@ -37,14 +38,15 @@ pub struct GaussSeidelGmres {
 }
 
 impl GaussSeidelGmres {
-    /// Allocates memory for matrices up to order `capacity`.
-    pub fn with_capacity(capacity: usize) -> Self {
-        Self {
-            order: 0,
-            columns: Vec::with_capacity(capacity * capacity),
-            basis: Vec::with_capacity(capacity * (MAX_KRYLOV_VECTORS + 1)),
-            product: Vec::with_capacity(capacity),
-        }
+    /// Allocates memory for matrices up to order `capacity`, unless it is there; discards the matrix.
+    pub fn reserve(&mut self, capacity: usize) {
+        self.order = 0;
+        self.columns.clear();
+        self.columns.reserve_exact(capacity * capacity);
+        self.basis.clear();
+        self.basis.reserve_exact(capacity * (MAX_KRYLOV_VECTORS + 1));
+        self.product.clear();
+        self.product.reserve_exact(capacity);
     }
 
     /// Stores the matrix of `order` whose columns `append_column` writes, one after the other.
@@ -70,7 +72,9 @@ impl GaussSeidelGmres {
         (0..self.order).map(|k| self.columns[k * (self.order + 1)])
     }
 
-    /// Overwrites `rhs` with a solution whose preconditioned residual is `tolerance` times that of zero.
+    /// Overwrites `rhs` with a solution; `tolerance` bounds its preconditioned residual.
+    ///
+    /// The residual is relative to that of the zero vector.
     ///
     /// Returns the number of iterations; `None`, with the same `rhs`, if they do not reach the tolerance.
     pub fn solve(&mut self, rhs: &mut [f64], tolerance: f64) -> Option<usize> {
@@ -114,7 +118,7 @@ impl GaussSeidelGmres {
         norm
     }
 
-    /// Overwrites the product with that of the preconditioned matrix and a vector of the basis.
+    /// Overwrites the product with the preconditioned matrix times a vector of the basis.
     fn multiply(&mut self, vector: usize) {
         let Self { order, columns, basis, product, .. } = self;
         let vector = &basis[vector * *order..][..*order];
@@ -189,7 +193,7 @@ impl LeastSquares {
         self.rhs[k + 1].abs()
     }
 
-    /// Coefficients of the first `count` vectors; those of the others are zero.
+    /// Coefficients of the first `count` vectors, with zeros for the other vectors.
     fn solution(&self, count: usize) -> [f64; MAX_KRYLOV_VECTORS] {
         let mut coefficients = [0.0; MAX_KRYLOV_VECTORS];
         coefficients[..count].copy_from_slice(&self.rhs[..count]);
@@ -291,7 +295,7 @@ mod tests {
     #[test]
     fn solutions_of_all_orders_have_the_tolerance() {
         let mut random = basemat_testkit::random::Random(3);
-        let mut system = GaussSeidelGmres::with_capacity(40);
+        let mut system = GaussSeidelGmres::default();
         for order in 0..=40 {
             let matrix = matrix(&mut random, order);
             let expected: Vec<f64> = (0..order).map(|_| random.within(-1.0, 1.0)).collect();
@@ -309,7 +313,7 @@ mod tests {
 
     #[test]
     fn systems_that_sweeps_do_not_suit_are_reported_and_keep_their_right_hand_side() {
-        let mut system = GaussSeidelGmres::with_capacity(40);
+        let mut system = GaussSeidelGmres::default();
         let has_positive_diagonal = |system: &mut GaussSeidelGmres, entry: f64| {
             system.set_columns(2, |j, values| values.extend([[1.0, 0.5], [0.5, entry]][j]))
         };

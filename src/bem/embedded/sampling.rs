@@ -111,14 +111,14 @@ pub(super) fn sample<const KINDS: usize>(
         samples.extend(chosen.iter().copied().zip(new_samples));
         let stored: Vec<_> = samples.values().collect();
         let sums = all_sums(&stored);
-        let weights = FIRST_CHECKS.map(|check| RationalWeights::new(&sums, check));
+        let weights_of = |check| RationalWeights::new(&sums, check);
         if are_accurate {
-            let [weights, _] = weights;
-            return Ok(Some(RationalCompliances::new(weights, &stored)));
+            return Ok(Some(RationalCompliances::new(weights_of(FIRST_CHECKS[0]), &stored)));
         }
         if samples.len() + SAMPLES_PER_ROUND > MAX_SAMPLE_COUNT {
             return Ok(None);
         }
+        let weights = FIRST_CHECKS.map(weights_of);
         chosen = next_candidates(domain, &candidates, &samples, &sums, &weights);
         let [weights, _] = weights;
         functions = Some(RationalCompliances::new(weights, &stored));

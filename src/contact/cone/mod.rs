@@ -128,7 +128,7 @@ impl ForceSearch {
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
         self.read_step(input)?;
-        self.newton.begin_step();
+        self.newton.begin_step(self.hardens);
         let mut method = SearchMethod::ActiveSet;
         for mode in modes.iter_mut() {
             *mode = mode.in_any_direction();

@@ -92,9 +92,9 @@ impl Newton {
     /// Makes the choice of unknowns independent of previous time steps.
     ///
     /// It discards stored data by which a step would choose forces or displacements as unknowns.
-    pub(super) fn begin_step(&mut self) {
+    pub(super) fn begin_step(&mut self, has_hardening: bool) {
         if let StatusSystem::Dense(system) = &mut self.system {
-            system.begin_step();
+            system.begin_step(has_hardening);
         }
     }
 

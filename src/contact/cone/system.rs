@@ -15,9 +15,9 @@
 //!
 //! κ = R/\|t − ρ y\| is the radius ratio: the direction turns with the slip (Alart & Curnier 1991).
 //!
-//! Solutions by factors are equal up to rounding, those by iterations up to their tolerance. A resumed run must make the same choice as the uninterrupted one: by the
-//! statuses alone if W is constant, otherwise by the statuses of the same step. If all elements stick, the factors
-//! of W itself solve.
+//! Solutions by factors are equal up to rounding, those by iterations up to their tolerance. A resumed run must make the
+//! same choice as the uninterrupted one: by the statuses alone if W is constant, otherwise by the statuses of the same
+//! step. If all elements stick, the factors of W itself solve.
 
 use super::problem::ConeProblem;
 use super::status::{Status, Tangential};
@@ -41,7 +41,7 @@ pub(super) struct System {
     mixed_rows: Vec<ComponentSum>,
     rhs: Vec<f64>,
     factor: DenseFactor,
-    /// Iterations in place of factors, if soil hardens.
+    /// Iterations in place of factors; without memory unless soil hardens.
     iterations: GaussSeidelGmres,
     /// Whether the last matrix is that of the iterations, and has no factors.
     is_iterative: bool,
@@ -83,7 +83,7 @@ impl System {
             mixed_rows: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
             factor: DenseFactor::with_capacity(size),
-            iterations: GaussSeidelGmres::with_capacity(size),
+            iterations: GaussSeidelGmres::default(),
             is_iterative: false,
             has_displacement_factors: false,
             w_factor: DenseFactor::with_columns(size, INVERSE_BLOCK_COLUMNS),
@@ -112,8 +112,12 @@ impl System {
 
     /// Makes the choice of unknowns independent of previous time steps.
     ///
-    /// It discards stored data by which a step would choose forces or displacements as unknowns.
-    pub(super) fn begin_step(&mut self) {
+    /// It discards stored data by which a step would choose forces or displacements as unknowns. With hardening it
+    /// allocates the memory of iterations, once.
+    pub(super) fn begin_step(&mut self, has_hardening: bool) {
+        if has_hardening {
+            self.iterations.reserve(self.products.len());
+        }
         self.is_recent = false;
         if !self.is_constant {
             self.is_reusable &= !self.has_displacement_factors;

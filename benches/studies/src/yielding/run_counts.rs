@@ -15,7 +15,9 @@ pub(super) struct RunCounts {
 }
 
 impl RunCounts {
-    /// Runs a scene, whose `text` says what it is; `None` for a scene whose build or run returns an error.
+    /// Runs a scene; `None` if its build or its run returns an error.
+    ///
+    /// `text`: description of the scene, for messages.
     pub(super) fn energies(
         &mut self,
         simulation: Result<Simulation>,

@@ -86,7 +86,7 @@ fn unknown_forces_or_displacements_meet_the_conditions_of_statuses() {
                 let earlier_statuses = [&other_statuses, &statuses][trial % 2];
                 system.solve(&mut problem, earlier_statuses, trial % 3 == 0, 0.0);
             }
-            system.begin_step();
+            system.begin_step(problem.has_hardening());
             problem.reset_forces();
             assert!(system.solve(&mut problem, &statuses, false, 0.0), "case {case}");
             problem.update_displacements();
@@ -149,7 +149,7 @@ fn iterations_on_hardening_soil_meet_the_conditions_to_their_tolerance() {
         for linear_tolerance in [1e-3, 1e-3, 1e-13, 0.0] {
             problem.reset_forces();
             let largest_before = problem.q.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
-            system.begin_step();
+            system.begin_step(problem.has_hardening());
             assert!(system.solve(&mut problem, &statuses, false, linear_tolerance));
             problem.update_displacements();
             let tolerance = 30.0 * linear_tolerance.max(1e-13) * largest_before;

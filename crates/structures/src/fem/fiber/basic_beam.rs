@@ -213,7 +213,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     /// Work inside a step that is neither stored nor dissipated, J; `states` at its start, mid-step and end.
     ///
     /// `increment`: change of the basic deformations from start to end. Sections of a force-based element do not follow
-    /// straight paths. Its remainder is therefore that of the whole element, by the definition.
+    /// straight paths. Its remainder is therefore computed from forces and energies of the whole element.
     ///
     /// # Errors
     /// Errors of fibres.

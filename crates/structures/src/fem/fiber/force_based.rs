@@ -20,12 +20,13 @@ use super::basic_beam::BasicBeam;
 use super::basic_state::{BasicState, BeamLinearisation, MAX_SECTIONS};
 use super::solution_memo::SolutionKey;
 use crate::error::{Error, Result};
+use crate::fem::element_nodes::inner_product;
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
 use crate::linalg::dot;
 
 /// Largest number of Newton's iterations for one part of a change of the deformations.
 const MAX_ELEMENT_ITERATIONS: usize = 40;
-/// Energy of the last correction at which the iterations end, relative to that of the first or of the whole deformation.
+/// Energy of a correction at which the iterations end, relative to the largest correction and to q·v.
 const ENERGY_TOLERANCE: f64 = 1e-24;
 /// Factor of the number of parts of a change of the deformations after a failure.
 const PART_FACTOR: usize = 4;
@@ -72,11 +73,11 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             return Ok(state);
         }
         let last = self.last_state(variables);
-        let start = match memo.start(self.length) {
-            Some(start) => Some(start),
-            None => self.linearise(&last.deformations, variables)?,
-        };
-        memo.set_start(self.length, start);
+        let mut start = memo.start(self.length);
+        if start.is_none() {
+            start = self.linearise(&last.deformations, variables)?;
+            memo.set_start(self.length, start);
+        }
         let mut part_count = 1;
         while let Some(start) = &start
             && part_count <= MAX_PARTS
@@ -110,7 +111,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         Err(Error::Scene { quantity, needed })
     }
 
-    /// State by increments that reduce the potential, from that of the last step; `None` if the search ends without one.
+    /// State that increments which reduce the potential find from the last step; `None` if they find none.
     fn descend(&self, v: &[f64; B], variables: &[f64]) -> Result<Option<BasicState<N, B>>> {
         let section_flexibility = inverse(self.section.elastic_stiffness::<N>());
         let stiffness = self.elastic_stiffness();
@@ -218,7 +219,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
 
     /// Corrects q and e; returns the energy of the corrections, J.
     ///
-    /// `changes` become those of e.
+    /// Overwrites `changes` with the corrections of e.
     fn correct(
         &self,
         v: &[f64; B],
@@ -233,7 +234,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             let b = (self.interpolation.forces)(point.position);
             let needed_forces = product(&b, &state.forces);
             let section_forces = &linearisation.forces[index];
-            let imbalance = std::array::from_fn(|i| needed_forces[i] - section_forces[i]);
+            let imbalance: [f64; N] = std::array::from_fn(|i| needed_forces[i] - section_forces[i]);
             changes[index] = product(&linearisation.flexibilities[index], &imbalance);
             let deformations = &mut state.deformations[index];
             add_to(deformations, &changes[index]);
@@ -266,7 +267,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             let b = (self.interpolation.forces)(point.position);
             let needed_forces = product(&b, forces);
             let section_forces = &linearisation.forces[index];
-            let imbalance = std::array::from_fn(|i| section_forces[i] - needed_forces[i]);
+            let imbalance: [f64; N] = std::array::from_fn(|i| section_forces[i] - needed_forces[i]);
             sum += point.weight * self.length * inner_product(&changes[index], &imbalance);
         }
         sum
@@ -314,11 +315,6 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
         Ok(true)
     }
-}
-
-/// Inner product of small vectors.
-fn inner_product<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Adds an increment to values.

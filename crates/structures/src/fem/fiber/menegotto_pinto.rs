@@ -114,7 +114,7 @@ impl MenegottoPinto {
         self.branch_of(&self.history_at(strain, variables))
     }
 
-    /// SteelHistory with the branch of a strain, after a reversal if there is one.
+    /// History with the branch of a strain, after a reversal if there is one.
     fn history_at(&self, strain: f64, variables: &[f64]) -> SteelHistory {
         let mut history = SteelHistory::read(variables);
         let increment = strain - history.last[0];
@@ -202,8 +202,8 @@ impl MenegottoPinto {
 
     /// Stress at a strain, with the history of its branch.
     fn stress_at(&self, strain: f64, history: &SteelHistory) -> f64 {
-        let is_last = strain == history.last[0] && history.direction != LoadingDirection::Virgin;
-        if is_last { history.last[1] } else { self.on_branch(strain, history).stress }
+        let committed_stress = history.committed_stress(strain);
+        committed_stress.unwrap_or_else(|| self.on_branch(strain, history).stress)
     }
 
     /// Stresses and tangents of fibres on their branches.
@@ -274,7 +274,7 @@ impl UniaxialMaterial for MenegottoPinto {
         let histories = histories.iter().map(|variables| SteelHistory::read(variables));
         let fibers = strains.iter().zip(histories).zip(responses);
         for (energy, ((strain, history), response)) in energies.iter_mut().zip(fibers) {
-            let stress = history.stress_or(*strain, response.stress);
+            let stress = history.committed_stress(*strain).unwrap_or(response.stress);
             *energy = self.energy_with(&history, *strain, stress);
         }
         Ok(())
@@ -305,7 +305,8 @@ impl UniaxialMaterial for MenegottoPinto {
             let end_strain = strains[2][k];
             let start_stress =
                 self.stress_at(start_strain, &self.history_at(start_strain, variables));
-            let end_stress = SteelHistory::read(variables).stress_or(end_strain, end[k].stress);
+            let committed_stress = SteelHistory::read(variables).committed_stress(end_strain);
+            let end_stress = committed_stress.unwrap_or(end[k].stress);
             let mean_stress = 0.5 * (start_stress + end_stress);
             *remainder = (midstep[k].stress - mean_stress) * (end_strain - start_strain);
         }

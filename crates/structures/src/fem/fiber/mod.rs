@@ -137,7 +137,7 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
     /// [`Error::Size`] for a wrong number of variables.
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse>;
 
-    /// Overwrites `responses` by those of several fibres, whose variables follow each other.
+    /// Overwrites `responses` with those of several fibres, whose variables follow each other.
     ///
     /// # Errors
     /// The first of a fibre, with its index.
@@ -156,7 +156,7 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
         Ok(())
     }
 
-    /// Overwrites `energies` by those of several fibres, as [`responses`](UniaxialMaterial::responses).
+    /// Overwrites `energies` with those of several fibres, as [`responses`](UniaxialMaterial::responses).
     ///
     /// # Errors
     /// The first of a fibre, with its index.
@@ -175,7 +175,7 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
         Ok(())
     }
 
-    /// Overwrites `remainders` by those of several fibres, as [`responses`](UniaxialMaterial::responses).
+    /// Overwrites `remainders` with those of several fibres, as [`responses`](UniaxialMaterial::responses).
     ///
     /// # Errors
     /// The first of a fibre, with its index.

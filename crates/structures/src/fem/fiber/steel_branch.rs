@@ -62,7 +62,7 @@ impl SteelBranch {
     }
 }
 
-/// SteelBranches and strains of several fibres, as a list of each quantity.
+/// Branches and strains of several fibres, as a list of each quantity.
 #[derive(Clone, Copy)]
 pub(super) struct SteelBranches {
     exponents: [f64; MAX_BATCH_FIBERS],
@@ -73,7 +73,7 @@ pub(super) struct SteelBranches {
 }
 
 impl SteelBranches {
-    /// SteelBranches of fibres without strain, with which loops fill their vectors.
+    /// Branches of fibres without strain, with which loops fill their vectors.
     pub(super) const WITHOUT_STRAIN: Self = Self {
         exponents: [1.0; MAX_BATCH_FIBERS],
         strain_ranges: [1.0; MAX_BATCH_FIBERS],

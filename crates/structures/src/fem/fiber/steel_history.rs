@@ -37,10 +37,10 @@ impl SteelHistory {
         self.work + 0.5 * (self.last[1] + stress) * (strain - self.last[0])
     }
 
-    /// The stress at the end of the last step for its strain, otherwise the `computed` one.
-    pub(super) fn stress_or(&self, strain: f64, computed: f64) -> f64 {
+    /// The stress at the end of the last step; `None` for another strain, or before the first step.
+    pub(super) fn committed_stress(&self, strain: f64) -> Option<f64> {
         let is_last = strain == self.last[0] && self.direction != LoadingDirection::Virgin;
-        if is_last { self.last[1] } else { computed }
+        is_last.then_some(self.last[1])
     }
 
     /// The branch of internal variables.
