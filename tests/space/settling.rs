@@ -11,7 +11,8 @@ use basemat::structure::{RigidBody, Structure};
 use basemat::{Result, Simulation, Soil};
 use basemat_problems::prescribed::PrescribedGround;
 use basemat_problems::rocking_footing::{
-    BEARING_PRESSURE, CYCLES_PER_PACKET, FOOTING_SIDES, SAND_DENSITY, VERTICAL_FORCE,
+    BEARING_PRESSURE, CYCLES_PER_PACKET, DEPTH_GRADIENT, ELASTIC_RANGE, FOOTING_SIDES,
+    REFERENCE_SETTLEMENT, SAND_DENSITY, VERTICAL_FORCE,
 };
 use basemat_problems::series::nearest_integer;
 use basemat_problems::settling_law::SettlingLaw;
@@ -21,7 +22,7 @@ const FOOTING_BASE: RockingBase =
     RockingBase { length: FOOTING_SIDES[0], width: FOOTING_SIDES[1], weight: VERTICAL_FORCE };
 const SHEAR_MODULUS: f64 = 30.0e6;
 const POISSON_RATIO: f64 = 0.35;
-/// Largest rotations of the five packets of three cycles.
+/// Largest measured rotations, one way, of the five packets of three cycles.
 const PACKET_ROTATIONS: [f64; 5] = [3.15e-3, 6.65e-3, 14.0e-3, 29.5e-3, 62.9e-3];
 /// Stiffness of the spring that prescribes the rotation, N m.
 const DRIVE_STIFFNESS: f64 = 1e12;
@@ -233,7 +234,7 @@ const PROTOTYPE_ROWS: [PacketRow; 2] = [
 
 /// Laws of these rows.
 fn prototype_laws() -> [SettlingLaw; 2] {
-    [sand_law(10e-3, 1.0, 0.0), sand_law(5e-3, 0.1, 1.4e6)]
+    [sand_law(10e-3, 1.0, 0.0), sand_law(REFERENCE_SETTLEMENT, ELASTIC_RANGE, DEPTH_GRADIENT)]
 }
 
 #[test]

@@ -5,6 +5,8 @@
 mod measured;
 mod slow_test;
 
+use basemat::interface::CyclicYielding;
+
 pub use measured::measured_packets;
 pub use slow_test::{SlowRockingRun, SlowRockingTest};
 
@@ -22,6 +24,22 @@ pub const BEARING_PRESSURE: f64 = 814.0e3;
 pub const SAND_DENSITY: f64 = 1657.0;
 /// Cycles of a packet.
 pub const CYCLES_PER_PACKET: usize = 3;
+
+/// Reference settlement w_r of `CyclicYielding`, fitted to this test, m.
+pub const REFERENCE_SETTLEMENT: f64 = 5.0e-3;
+/// Elastic range η, fitted to this test.
+pub const ELASTIC_RANGE: f64 = 0.1;
+/// Growth q_d of the bearing pressure with the settlement, Pa/m.
+pub const DEPTH_GRADIENT: f64 = 1.4e6;
+/// Friction coefficient between footing and sand.
+pub const FRICTION_COEFFICIENT: f64 = 0.6;
+
+/// Law of the sand with the parameters that were fitted to this test.
+pub fn fitted_law(friction: f64) -> basemat::Result<CyclicYielding> {
+    CyclicYielding::new(BEARING_PRESSURE, REFERENCE_SETTLEMENT, friction)?
+        .with_elastic_range(ELASTIC_RANGE)?
+        .with_depth_gradient(DEPTH_GRADIENT)
+}
 
 /// The footing at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -49,6 +67,14 @@ impl RockingPacket {
     /// Half the range of 2M/(P L): the mean of the moments both ways.
     pub fn moment(&self) -> f64 {
         self.half_range(|row| row.moment)
+    }
+
+    /// Largest 2M/(P L) to the left and to the right, both positive.
+    pub fn moments_both_ways(&self) -> [f64; 2] {
+        let moments = self.rows.iter().map(|row| row.moment);
+        let max_moment = moments.clone().fold(f64::NEG_INFINITY, f64::max);
+        let min_moment = moments.fold(f64::INFINITY, f64::min);
+        [-min_moment, max_moment]
     }
 
     /// Half the range of the rotation, rad.
