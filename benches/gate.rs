@@ -11,11 +11,11 @@ use std::time::Instant;
 
 use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory, RelaxedFftHistory};
-use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
-use basemat::motion::el_centro_1940;
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Yielding};
+use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::soil::SoilProfile;
-use basemat::structure::RigidBlock;
+use basemat::structure::{RigidBlock, RigidBody};
 use basemat::{Result, Simulation, Soil, unobserved};
 use basemat_problems::headline;
 
@@ -27,10 +27,12 @@ type TimedCall = Box<dyn FnOnce() -> Result<()>>;
 /// Function that prepares a timed call.
 type PrepareCall = fn() -> Result<TimedCall>;
 
-const TIMED_JOBS: [(&str, PrepareCall); 8] = [
+const TIMED_JOBS: [(&str, PrepareCall); 10] = [
     ("4000 steps, bonded", || headline_steps(Bonded)),
     ("4000 steps, friction", || headline_steps(Coulomb::new(0.2)?)),
     ("1000 steps, friction, 40 graded elements", many_elements),
+    ("1000 steps, bearing pressure, 40 graded elements", bearing_pressure),
+    ("500 steps, friction, 48 cells in plan", cells_in_plan),
     ("2000 steps, time series and contact", time_series),
     ("build of the headline", build),
     ("coefficients of the half-plane", half_plane),
@@ -46,22 +48,41 @@ fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<TimedCall> {
     Ok(Box::new(move || simulation.run(4_000, |_| ()).map(drop)))
 }
 
-fn block(graded_elements: usize) -> Result<Simulation> {
+fn block(graded_elements: usize, law: impl InterfaceLaw + 'static) -> Result<Simulation> {
     Simulation::builder(2.0e-3)
         .ground(ElasticGround::new(headline::soil()?, Strip::graded(-5.0..5.0, graded_elements)?)?)
         .structure(RigidBlock::new(10.0, 12.0, 1_000.0)?)
-        .interface(Coulomb::new(0.4)?)
+        .interface(law)
         .motion(el_centro_1940())
         .build()
 }
 
 fn many_elements() -> Result<TimedCall> {
-    let mut simulation = block(40)?;
+    let mut simulation = block(40, Coulomb::new(0.4)?)?;
     Ok(Box::new(move || simulation.run(1_000, |_| ()).map(drop)))
 }
 
+fn bearing_pressure() -> Result<TimedCall> {
+    // Twice the pressure of the weight.
+    let mut simulation = block(40, Yielding::new(2.4e5, 0.4)?)?;
+    Ok(Box::new(move || simulation.run(1_000, |_| ()).map(drop)))
+}
+
+fn cells_in_plan() -> Result<TimedCall> {
+    let body = RigidBody::cuboid([8.0, 6.0, 10.0], 1_000.0)?;
+    let ground = ElasticGround::under(headline::soil()?, &body, 6)?;
+    let motion = Triaxial { x: Some(el_centro_1940()), y: Some(el_centro_1940()), up: None };
+    let mut simulation = Simulation::builder(5.0e-3)
+        .ground(ground)
+        .structure(body)
+        .interface(Coulomb::new(0.4)?)
+        .motion(motion)
+        .build()?;
+    Ok(Box::new(move || simulation.run(500, |_| ()).map(drop)))
+}
+
 fn time_series() -> Result<TimedCall> {
-    let mut simulation = block(10)?;
+    let mut simulation = block(10, Coulomb::new(0.4)?)?;
     Ok(Box::new(move || {
         let mut time_series = Recorder::new().contact(1).start(&simulation)?;
         simulation.run(2_000, |state| time_series.record(state))?;

@@ -17,7 +17,9 @@ use basemat::coupled::{
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::HistoryMethod;
-use basemat::interface::{Bonded, Cohesive, Coulomb, ThinLayer, VariableFriction, Yielding};
+use basemat::interface::{
+    Bonded, Cohesive, Coulomb, CyclicYielding, ThinLayer, VariableFriction, Yielding,
+};
 use basemat::motion::{PlaneWave, Record, Triaxial, VerticalIncidence, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{
@@ -158,7 +160,14 @@ fn building_in_space() -> Result<StoreyBuilding> {
     StoreyBuilding::new(RigidBody::cuboid([4.0, 3.0, 1.0], 2400.0)?, &[storey; 3])
 }
 
-const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
+/// Soil that settles in every cycle, and whose bearing pressure grows with the settlement.
+fn settling_soil() -> Result<CyclicYielding> {
+    CyclicYielding::new(2.5e5, 5.0e-3, 0.5)?
+        .with_elastic_range(0.1)?
+        .with_depth_gradient(1.0e6)
+}
+
+const GOLDEN_SCENES: [(&str, BuildScene); 44] = [
     ("block, direct", || block_with_history(HistoryMethod::Direct, Grading::Cosine)),
     ("block, relaxed transforms on pairs", || {
         block_with_history(HistoryMethod::RelaxedFft, Grading::Cosine)
@@ -176,6 +185,7 @@ const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
     ("block, thin layer", || block_with_law(ThinLayer::new(soil()?, 1.0, 0.4)?)),
     ("block, cohesive", || block_with_law(Cohesive::new(2.0e4, 5.0e4, 0.5)?)),
     ("block, bearing pressure", || block_with_law(Yielding::new(2.5e5, 0.5)?)),
+    ("block, settling in every cycle", || block_with_law(settling_soil()?)),
     ("block, friction of speed", || {
         block_with_law(VariableFriction::new(|start| {
             0.2 + 0.2 * (-start.slip_rate.abs() / 0.05).exp()
@@ -249,6 +259,7 @@ const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
     ("plan, friction", || body_with_law(Coulomb::new(0.4)?)),
     ("plan, bonded", || body_with_law(Bonded)),
     ("plan, bearing pressure", || body_with_law(Yielding::new(2.5e5, 0.5)?)),
+    ("plan, settling in every cycle", || body_with_law(settling_soil()?)),
     ("plan, cohesive", || body_with_law(Cohesive::new(2.0e4, 5.0e4, 0.5)?)),
     ("plan, thin layer", || {
         body_with_law(ThinLayer::new(soil()?, 1.0, 0.4)?.with_debonded_ratio(0.0)?)
