@@ -1,4 +1,4 @@
-"""Settlement and rocking of a foundation: series, equivalent damping, limits and pictures."""
+"""Settlement and rocking of a foundation: series, equivalent damping, limits, pictures, and soil that settles in every cycle."""
 
 from __future__ import annotations
 
@@ -96,3 +96,63 @@ def run_pairs(run: bm.Run, name: str, rotation: float, factor: float) -> np.ndar
     """Rotations and another array of the rocking, each with its factor."""
     rocking = run.rocking()
     return np.stack([rotation * rocking["rotation"], factor * rocking[name]], axis=1)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"elastic_range": 0.0}, "elastic range is 0, but must be above 0, at most 1"),
+        ({"elastic_range": 1.1}, "elastic range is 1.1"),
+        ({"depth_gradient": -1.0}, "growth of the bearing pressure is -1"),
+        ({"depth_gradient": math.inf}, "growth of the bearing pressure is inf"),
+    ],
+)
+def test_parameters_of_soil_that_settles_in_every_cycle(parameters: dict[str, float], message: str) -> None:
+    with pytest.raises(bm.InputError, match=message):
+        bm.CyclicYielding(1.5e5, 5e-3, 0.6, **parameters)
+
+
+def test_virgin_settlement_is_on_the_hyperbola() -> None:
+    law = bm.CyclicYielding(1.5e5, 5e-3, 0.6, elastic_range=0.1, depth_gradient=1e6)
+    assert law.virgin_settlement(0.0) == 0.0
+    assert law.virgin_settlement(0.75e5) == pytest.approx(5e-3, rel=1e-12)
+    assert law.virgin_settlement(1e5) == pytest.approx(1e-2, rel=1e-12)
+
+
+def rocking_block(law: bm.InterfaceLaw) -> bm.Simulation:
+    """The block of `settling` with dashpots, shaken by the strong part of El Centro."""
+    block = bm.RigidBlock(4.0, 5.0, 2000.0)
+    ground = bm.SpringGround.under(block, 12, STIFFNESS, STIFFNESS, dashpots=(3e5, 2e5))
+    return bm.Simulation(0.01, block, ground, law, motion=bm.el_centro_1940())
+
+
+def test_the_limit_without_settlement_is_yielding() -> None:
+    yielding = rocking_block(bm.Yielding(1.5e5, 0.6)).run(600, warn=False)
+    assert yielding.residual_settlement > 1e-3
+    exact = rocking_block(bm.CyclicYielding(1.5e5, 0.0, 0.6)).run(600, warn=False)
+    np.testing.assert_array_equal(exact["base_rotation"], yielding["base_rotation"])
+    small = rocking_block(bm.CyclicYielding(1.5e5, 1e-9, 0.6)).run(600, warn=False)
+    for series in ("base_rotation", "settlement"):
+        scale = np.abs(yielding[series]).max()
+        np.testing.assert_allclose(small[series], yielding[series], rtol=0.0, atol=1e-3 * scale)
+    cyclic = rocking_block(bm.CyclicYielding(1.5e5, 5e-3, 0.6, elastic_range=0.1)).run(600, warn=False)
+    assert cyclic.residual_settlement > 1.5 * yielding.residual_settlement
+
+
+def test_checkpoints_keep_settlement_and_threshold() -> None:
+    law = bm.CyclicYielding(1.5e5, 5e-3, 0.6, elastic_range=0.1, depth_gradient=1e6)
+    simulation = rocking_block(law)
+    simulation.run(250, warn=False)
+    saved = pickle.loads(pickle.dumps(simulation.checkpoint()))
+    settlement, threshold = simulation.state.state_variables(0)
+    assert settlement > 1e-3 and 0.0 < threshold < 1.5e5 + 1e6 * settlement
+    expected = simulation.run(250, warn=False)
+    resumed = rocking_block(law)
+    resumed.resume(saved)
+    assert resumed.state.state_variables(0) == [settlement, threshold]
+    run = resumed.run(250, warn=False)
+    for series in ("base_rotation", "settlement", "rocking_work"):
+        np.testing.assert_array_equal(run[series], expected[series])
+    # A law with another number of state variables.
+    with pytest.raises(bm.CheckpointError):
+        rocking_block(bm.Yielding(1.5e5, 0.6)).resume(saved)
