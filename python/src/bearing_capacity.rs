@@ -48,7 +48,7 @@ impl PyBearingFactors {
 /// load along x and y (m; (0, 0) by default). ``vertical_force`` and ``horizontal_force`` (along x and y) of a load whose
 /// inclination reduces the capacity (N; 0 by default). ``base_tilt`` of the base against the horizontal (rad; 0 by default).
 ///
-/// The result of `drained_pressure` is the ``bearing_pressure`` for `Yielding`.
+/// The result of `drained_pressure` is the ``bearing_pressure`` for `Yielding` and `CyclicYielding`.
 #[pyclass(name = "ShallowFooting", module = "basemat", frozen, dict, eq)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PyShallowFooting(ShallowFooting);

@@ -36,12 +36,18 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 /// [`Yielding`](super::Yielding).
 ///
 /// The law stores no elastic energy. The energy balance counts p v ≥ 0 in `contact`, for all parameters, so that the
-/// dissipated energy never decreases. Sliding does not lower q.
+/// dissipated energy never decreases. Sliding does not lower q. Only friction bounds the shear traction; the law has no bound
+/// by the undrained strength of the soil.
 ///
 /// Each element yields independently of its neighbours, in series with the elastic ground. For a footing of
 /// 2.8 m × 0.65 m, w_r = 5 mm, η = 0.1 and q_d = 1.4 MPa/m were fitted to one slow centrifuge test of a rocking wall on
-/// dense dry sand (Gajan & Kutter 2008, doi:10.1061/(ASCE)1090-0241(2008)134:8(1129)). With q_d = 0 the settlement grows
-/// linearly with the number of cycles of equal pressure.
+/// dense dry sand (Gajan & Kutter 2008, doi:10.1061/(ASCE)1090-0241(2008)134:8(1129)). They belong to q_u = 814 kPa and to
+/// a half-space of 30 MPa. In cycles of equal rotation each adds the same settlement if q_d = 0, and less than the cycle
+/// before if q_d > 0.
+///
+/// For another footing, a point of its load test gives w_r: where the pressure p has caused the settlement h in addition to
+/// that of the elastic ground, w_r = h (q/p − 1). The settlement in a cycle of load gives η, since the soil settles more
+/// with a shorter elastic range; without a test, η from 0.1 to 1 shows its effect.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -99,6 +105,7 @@ validated! {
 impl CyclicYielding {
     /// Creates the law from its bearing pressure (Pa), reference settlement (m) and friction coefficient.
     ///
+    /// [`ShallowFooting`](crate::soil::ShallowFooting) computes the bearing pressure of a footing.
     /// The elastic range is one: the soil yields again only above its largest past pressure. The bearing pressure does
     /// not grow. The friction coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
@@ -128,6 +135,8 @@ impl CyclicYielding {
     /// Sets the growth q_d of the bearing pressure with the settlement, Pa/m.
     ///
     /// For a base on sand it is about γ N_q, since the soil beside a base that has settled is a surcharge.
+    /// [`ShallowFooting::pressure_growth`](crate::soil::ShallowFooting::pressure_growth) includes the factor of shape: for
+    /// the footing above and sand of 42° it is 1.60 MPa/m, while γ N_q is 1.39 MPa/m.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and not below zero.

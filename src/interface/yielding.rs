@@ -19,6 +19,7 @@ use crate::error::{Result, positive};
 /// In the energy balance, `contact` includes q times the indentation. The law models the near field of a foundation: a
 /// rocking base settles, and the surface under it becomes rounded, as in beds of yielding springs (Allotey & El Naggar
 /// 2003). The ground below remains elastic. Sliding does not reduce q.
+/// Only friction bounds the shear traction; the law has no bound by the undrained strength of the soil.
 ///
 /// ```
 /// use basemat::Simulation;

@@ -36,8 +36,8 @@ enum FootingOutline {
 /// Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D.
 ///
 /// All values are characteristic, without partial factors. Annex D has no factors for depth and for sloping ground;
-/// sliding needs a separate check. The drained pressure can be the bearing pressure of
-/// [`Yielding`](crate::interface::Yielding).
+/// sliding needs a separate check. The pressure can be the bearing pressure of [`Yielding`](crate::interface::Yielding) and
+/// [`CyclicYielding`](crate::interface::CyclicYielding).
 ///
 /// ```
 /// use basemat::soil::{ShallowFooting, SoilStrength};

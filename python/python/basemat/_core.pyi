@@ -228,7 +228,7 @@ class ShallowFooting:
     load along x and y (m; (0, 0) by default). ``vertical_force`` and ``horizontal_force`` (along x and y) of a load whose
     inclination reduces the capacity (N; 0 by default). ``base_tilt`` of the base against the horizontal (rad; 0 by default).
 
-    The result of `drained_pressure` is the ``bearing_pressure`` for `Yielding`.
+    The result of `drained_pressure` is the ``bearing_pressure`` for `Yielding` and `CyclicYielding`.
     """
 
     def __new__(
@@ -766,7 +766,7 @@ class Cohesive(InterfaceLaw):
 class Yielding(InterfaceLaw):
     """Coulomb friction on soil that yields under its bearing pressure.
 
-    ``bearing_pressure``: Pa. ``friction``: coefficient.
+    ``bearing_pressure``: Pa. ``friction``: coefficient. Only friction bounds the shear traction, not an undrained strength.
     """
 
     def __new__(cls, bearing_pressure: float, friction: float) -> Self: ...
@@ -775,13 +775,14 @@ class Yielding(InterfaceLaw):
 class CyclicYielding(InterfaceLaw):
     """Coulomb friction on soil that settles in every cycle of load.
 
-    ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa.
+    ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa. Only friction bounds the shear
+    traction, not an undrained strength.
 
     Under virgin load half of the bearing pressure acts at the ``reference_settlement`` (m; 0 or more).
     ``elastic_range``: increase of pressure without yielding, relative to the bearing pressure, above 0 and at most 1; 1
     unless given, for soil that yields again only above its largest previous pressure. ``depth_gradient``: growth of the
-    bearing pressure with the settlement, Pa/m; 0 unless given. State variables of an element: settlement (m), and
-    pressure above which it yields (Pa).
+    bearing pressure with the settlement, Pa/m; 0 unless given (`ShallowFooting.pressure_growth`). State variables of an
+    element: settlement (m), and pressure above which it yields (Pa).
     """
 
     def __new__(

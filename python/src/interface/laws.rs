@@ -77,7 +77,7 @@ impl PyCohesive {
 
 /// Coulomb friction on soil that yields under its bearing pressure.
 ///
-/// ``bearing_pressure``: Pa. ``friction``: coefficient.
+/// ``bearing_pressure``: Pa. ``friction``: coefficient. Only friction bounds the shear traction, not an undrained strength.
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
@@ -92,13 +92,14 @@ impl PyYielding {
 
 /// Coulomb friction on soil that settles in every cycle of load.
 ///
-/// ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa.
+/// ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa. Only friction bounds the shear
+/// traction, not an undrained strength.
 ///
 /// Under virgin load half of the bearing pressure acts at the ``reference_settlement`` (m; 0 or more).
 /// ``elastic_range``: increase of pressure without yielding, relative to the bearing pressure, above 0 and at most 1; 1
 /// unless given, for soil that yields again only above its largest previous pressure. ``depth_gradient``: growth of the
-/// bearing pressure with the settlement, Pa/m; 0 unless given. State variables of an element: settlement (m), and
-/// pressure above which it yields (Pa).
+/// bearing pressure with the settlement, Pa/m; 0 unless given (`ShallowFooting.pressure_growth`). State variables of an
+/// element: settlement (m), and pressure above which it yields (Pa).
 #[pyclass(name = "CyclicYielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCyclicYielding(CyclicYielding);
 
