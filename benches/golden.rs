@@ -160,7 +160,7 @@ fn building_in_space() -> Result<StoreyBuilding> {
     StoreyBuilding::new(RigidBody::cuboid([4.0, 3.0, 1.0], 2400.0)?, &[storey; 3])
 }
 
-/// Soil that settles in every cycle, and whose bearing pressure grows with the settlement.
+/// Soil that settles in every cycle, with a growing bearing pressure.
 fn settling_soil() -> Result<CyclicYielding> {
     CyclicYielding::new(2.5e5, 5.0e-3, 0.5)?
         .with_elastic_range(0.1)?

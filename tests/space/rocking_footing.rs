@@ -1,4 +1,4 @@
-//! GOAL: a law fitted to a slow test has the test's moments and settlements; a bearing pressure alone has its closed form.
+//! GOAL: a law fitted to a slow test has the test's moments and settlements; a bearing pressure alone those of a program.
 //! SCENE: the centrifuge test SSG02_03 with the measured amplitudes of rotation, in space; cycles of one amplitude.
 //! REFERENCE: the measured rows; another program (a rigid rectangle on 16 strips of Love's half-space, statics alone).
 
@@ -35,7 +35,9 @@ fn measured_packets_have_their_moments_and_settlements() {
     }
 }
 
-/// One set of parameters has the mean moment of each packet within 15 %, and its settlement within a factor of 1.5.
+/// One set of parameters has the moment and settlement of each packet.
+///
+/// Mean moments both ways are within 15 %, settlements within a factor of 1.5.
 #[test]
 fn the_fitted_law_has_the_measured_moments_and_settlements() {
     let measured_packets = measured_packets();
@@ -57,7 +59,9 @@ fn the_fitted_law_has_the_measured_moments_and_settlements() {
     assert!(run.energy_error < 1e-9, "{}", run.energy_error);
 }
 
-/// Settlements of a cycle over the footing's length, of each three of 30 cycles of 20 mrad.
+/// Settlement of a cycle over the footing's length.
+///
+/// Means of each three of 30 cycles of 20 mrad, without the first three.
 fn settlements_of_equal_cycles(law: CyclicYielding) -> Vec<f64> {
     let test = SlowRockingTest {
         steps_per_cycle: 40,
@@ -70,7 +74,7 @@ fn settlements_of_equal_cycles(law: CyclicYielding) -> Vec<f64> {
     pairs.map(|pair| (pair[1] - pair[0]) / CYCLES_PER_PACKET as f64).collect()
 }
 
-/// Each cycle adds the same settlement if the bearing pressure does not grow with it, and less and less if it does.
+/// Equal cycles add equal settlements, or less and less where the bearing pressure grows.
 #[test]
 fn settlements_of_equal_cycles_decrease_where_the_bearing_pressure_grows() {
     let law = fitted_law(FRICTION_COEFFICIENT).unwrap();

@@ -53,7 +53,7 @@ struct SettlingScene {
     elastic_range: f64,
     depth_gradient: f64,
     gravity_stage: GravityStage,
-    /// Young's modulus of a structure of finite elements, Pa; infinite for a rigid one.
+    /// Young's modulus of the structure, Pa; infinite if it is rigid.
     young: f64,
 }
 
@@ -206,8 +206,9 @@ fn settling_states(simulation: &Simulation) -> Vec<SettlingState> {
 /// Counts and extremes over the steps of all scenes.
 #[derive(Debug, Default)]
 struct SettlingTotals {
-    /// Scenes whose base can stand, and those of them with a flexible base.
+    /// Scenes whose base can stand.
     scenes: usize,
+    /// Scenes with a flexible base among them.
     flexible_scenes: usize,
     refused_scenes: usize,
     steps: usize,

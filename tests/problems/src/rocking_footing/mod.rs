@@ -34,7 +34,7 @@ pub const DEPTH_GRADIENT: f64 = 1.4e6;
 /// Friction coefficient between footing and sand.
 pub const FRICTION_COEFFICIENT: f64 = 0.6;
 
-/// Law of the sand with the parameters that were fitted to this test.
+/// Law of the sand with the parameters fitted to this test.
 pub fn fitted_law(friction: f64) -> basemat::Result<CyclicYielding> {
     CyclicYielding::new(BEARING_PRESSURE, REFERENCE_SETTLEMENT, friction)?
         .with_elastic_range(ELASTIC_RANGE)?
