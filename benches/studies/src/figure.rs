@@ -58,6 +58,8 @@ pub(crate) struct FigurePanel {
     x: String,
     y: String,
     logarithmic: [bool; 2],
+    /// Whether values increase downwards.
+    is_downward: bool,
     legend: SeriesLabelPosition,
     categories: Vec<String>,
     /// Part of the height that is kept free for the legend: below, above.
@@ -71,6 +73,7 @@ impl FigurePanel {
             x: x.into(),
             y: y.into(),
             logarithmic: [false; 2],
+            is_downward: false,
             legend: SeriesLabelPosition::UpperRight,
             categories: Vec::new(),
             room: [0.05; 2],
@@ -87,6 +90,12 @@ impl FigurePanel {
     /// With two logarithmic axes.
     pub(crate) fn double_logarithmic(mut self) -> Self {
         self.logarithmic = [true; 2];
+        self
+    }
+
+    /// With values that increase downwards, on a linear vertical axis.
+    pub(crate) fn downward(mut self) -> Self {
+        self.is_downward = true;
         self
     }
 
@@ -196,7 +205,10 @@ impl FigurePanel {
                 let chart = builder.build_cartesian_2d(x, y.log_scale())?;
                 self.fill(chart, format_x, &|value| power_of_ten(*value))
             }
-            _ => self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y),
+            _ => {
+                let y = if self.is_downward { y.end..y.start } else { y };
+                self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y)
+            }
         }
     }
 

@@ -9,15 +9,16 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use basemat::interface::{CyclicYielding, InterfaceLaw, Yielding};
+use basemat::interface::{InterfaceLaw, Yielding};
 use basemat_problems::rocking_footing::{
-    BEARING_PRESSURE, RockingPacket, SlowRockingRun, SlowRockingTest, measured_packets,
+    BEARING_PRESSURE, FRICTION_COEFFICIENT, RockingPacket, SlowRockingTest, fitted_law,
+    measured_packets,
 };
 use plotters::prelude::SeriesLabelPosition;
 
 use crate::AnyError;
 use crate::document::{file_stem, splice, write_csv};
-use crate::figure::{CURVE_BLUE, CURVE_GRAY, Figure, FigurePanel};
+use crate::figure::{CURVE_BLUE, CURVE_GRAY, CURVE_ORANGE, Figure, FigurePanel};
 
 /// A rocking footing on dry sand: moment, settlement and damping by packets of cycles, measured and computed.
 ///
@@ -37,7 +38,7 @@ pub(crate) struct RockingFootingOptions {
     #[arg(long, default_value_t = 0.35)]
     poisson: f64,
     /// Friction coefficient between footing and sand.
-    #[arg(long, default_value_t = 0.6)]
+    #[arg(long, default_value_t = FRICTION_COEFFICIENT)]
     friction: f64,
     /// Steps of a cycle.
     #[arg(long, default_value_t = 200)]
@@ -50,22 +51,14 @@ pub(crate) struct RockingFootingOptions {
     docs: Option<PathBuf>,
 }
 
-/// Parameters of `CyclicYielding`, fitted to this test: w_r (m), η, and q_d (Pa/m).
-const REFERENCE_SETTLEMENT: f64 = 5.0e-3;
-const ELASTIC_RANGE: f64 = 0.1;
-const DEPTH_GRADIENT: f64 = 1.4e6;
-
 /// A law and its name.
 type NamedLaw = (&'static str, Box<dyn InterfaceLaw>);
 
-/// The laws that are compared with the test; the picture shows the last one.
-fn laws(friction: f64) -> basemat::Result<Vec<NamedLaw>> {
-    let cyclic = CyclicYielding::new(BEARING_PRESSURE, REFERENCE_SETTLEMENT, friction)?
-        .with_elastic_range(ELASTIC_RANGE)?
-        .with_depth_gradient(DEPTH_GRADIENT)?;
-    Ok(vec![
+/// The laws that are compared with the test.
+fn laws(friction: f64) -> basemat::Result<[NamedLaw; 2]> {
+    Ok([
         ("Yielding", Box::new(Yielding::new(BEARING_PRESSURE, friction)?)),
-        ("CyclicYielding", Box::new(cyclic)),
+        ("CyclicYielding", Box::new(fitted_law(friction)?)),
     ])
 }
 
@@ -84,11 +77,11 @@ pub(crate) fn run(options: &RockingFootingOptions) -> Result<(), AnyError> {
     };
     write_series(&options.out.join("measured.csv"), &measured_rows)?;
     let mut text = String::new();
-    let mut figure = None;
+    let mut panels = measured_panels(&measured_rows);
     for (name, law) in laws(options.friction)? {
         let computed = test.run(law)?;
         write_series(&options.out.join(format!("{}.csv", file_stem(name))), &computed.packets)?;
-        let table = table(name, &measured_rows, &computed)?;
+        let table = table(name, &measured_rows, &computed.packets)?;
         println!("{table}");
         println!(
             "{} steps in {:.1} s, energy error {:.0e}\n",
@@ -97,14 +90,19 @@ pub(crate) fn run(options: &RockingFootingOptions) -> Result<(), AnyError> {
             computed.energy_error
         );
         text.push_str(&table);
-        figure = Some(picture(name, &measured_rows, &computed.packets));
+        let curves = curves_of(&computed.packets);
+        panels = if name == "Yielding" {
+            with_curves(panels, curves, |panel, points| panel.dashed(name, CURVE_ORANGE, points))
+        } else {
+            with_curves(panels, curves, |panel, points| panel.line(name, CURVE_BLUE, points))
+        };
     }
-    if let Some(figure) = figure {
-        figure.draw(&options.out.join("rocking_footing.svg"))?;
-        if let Some(docs) = &options.docs {
-            splice("rocking_footing.md", "rocking footing", &text)?;
-            figure.draw(&docs.join("images/rocking_footing.svg"))?;
-        }
+    let title = "A footing that rocks on dry sand: SSG02_03";
+    let figure = Figure::new(title, 2, panels.into());
+    figure.draw(&options.out.join("rocking_footing.svg"))?;
+    if let Some(docs) = &options.docs {
+        splice("rocking_footing.md", "rocking footing", &text)?;
+        figure.draw(&docs.join("images/rocking_footing.svg"))?;
     }
     println!("files in {}", options.out.display());
     Ok(())
@@ -114,20 +112,26 @@ pub(crate) fn run(options: &RockingFootingOptions) -> Result<(), AnyError> {
 fn table(
     name: &str,
     measured: &[RockingPacket],
-    computed: &SlowRockingRun,
+    computed: &[RockingPacket],
 ) -> Result<String, AnyError> {
     let mut text = format!(
-        "**{name}**\n\n| packet | rotation, mrad | 2M/(P L), measured | computed | settlement/L, measured | computed | \
-         damping, measured, % | computed, % |\n|---|---|---|---|---|---|---|---|\n"
+        "**{name}**\n\n| packet | rotation, mrad | 2M/(P L), measured (left, right) | computed (left, right) | \
+         settlement/L, measured | computed | damping, measured, % | computed, % |\n|---|---|---|---|---|---|---|---|\n"
     );
-    for (measured, computed) in measured.iter().zip(&computed.packets) {
+    for (measured, computed) in measured.iter().zip(computed) {
+        let measured_ways = measured.moments_both_ways();
+        let computed_ways = computed.moments_both_ways();
         writeln!(
             text,
-            "| {} | {:.1} | {:.3} | {:.3} | {:.4} | {:.5} | {:.1} | {:.1} |",
+            "| {} | {:.1} | {:.3} ({:.3}, {:.3}) | {:.3} ({:.3}, {:.3}) | {:.4} | {:.5} | {:.1} | {:.1} |",
             measured.name,
             1e3 * measured.rotation_amplitude(),
             measured.moment(),
+            measured_ways[0],
+            measured_ways[1],
             computed.moment(),
+            computed_ways[0],
+            computed_ways[1],
             measured.settlement(),
             computed.settlement(),
             1e2 * measured.equivalent_damping(),
@@ -158,25 +162,35 @@ fn write_series(path: &Path, packets: &[RockingPacket]) -> Result<(), AnyError> 
     write_csv(path, columns, rows)
 }
 
-/// Moment and settlement over rotation.
-fn picture(name: &str, measured_rows: &[RockingPacket], computed: &[RockingPacket]) -> Figure {
-    let mut moments = FigurePanel::new("rotation, mrad", "moment, 2M/(P L)")
+/// Points of a curve or markers.
+type FigurePoints = Vec<(f64, f64)>;
+
+/// Moment, and settlement, over rotation in mrad.
+fn curves_of(packets: &[RockingPacket]) -> [FigurePoints; 2] {
+    let rows = packets.iter().flat_map(|packet| &packet.rows);
+    let moments = rows.clone().map(|row| (1e3 * row.rotation, row.moment)).collect();
+    let settlements = rows.map(|row| (1e3 * row.rotation, row.settlement)).collect();
+    [moments, settlements]
+}
+
+/// Adds a curve to each panel.
+fn with_curves(
+    [moments, settlements]: [FigurePanel; 2],
+    [moment_points, settlement_points]: [FigurePoints; 2],
+    add: impl Fn(FigurePanel, FigurePoints) -> FigurePanel,
+) -> [FigurePanel; 2] {
+    [add(moments, moment_points), add(settlements, settlement_points)]
+}
+
+/// Panels of moments and of settlements, with the measured rows.
+fn measured_panels(packets: &[RockingPacket]) -> [FigurePanel; 2] {
+    let moments = FigurePanel::new("rotation, mrad", "moment, 2M/(P L)")
         .legend(SeriesLabelPosition::UpperLeft)
         .room(0.05, 0.25);
-    let mut settlements = FigurePanel::new("rotation, mrad", "settlement/L")
-        .legend(SeriesLabelPosition::UpperLeft)
-        .room(0.05, 0.25);
-    for (series, packets) in [("measured", measured_rows), (name, computed)] {
-        let rows = packets.iter().flat_map(|packet| &packet.rows);
-        let moment = rows.clone().map(|row| (1e3 * row.rotation, row.moment)).collect();
-        let settlement = rows.map(|row| (1e3 * row.rotation, row.settlement)).collect();
-        if series == "measured" {
-            moments = moments.reference(series, CURVE_GRAY, moment);
-            settlements = settlements.reference(series, CURVE_GRAY, settlement);
-        } else {
-            moments = moments.line(series, CURVE_BLUE, moment);
-            settlements = settlements.line(series, CURVE_BLUE, settlement);
-        }
-    }
-    Figure::new("A footing that rocks on dry sand: SSG02_03", 2, vec![moments, settlements])
+    let settlements = FigurePanel::new("rotation, mrad", "settlement/L")
+        .downward()
+        .legend(SeriesLabelPosition::LowerLeft);
+    with_curves([moments, settlements], curves_of(packets), |panel, points| {
+        panel.crosses("measured", CURVE_GRAY, points)
+    })
 }
