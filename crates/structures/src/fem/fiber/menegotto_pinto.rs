@@ -332,17 +332,12 @@ impl UniaxialMaterial for MenegottoPinto {
         variables: &[f64],
         remainders: &mut [f64],
     ) -> std::result::Result<(), (usize, Error)> {
-        let mut responses = [[UniaxialResponse::default(); MAX_BATCH_FIBERS]; 2];
-        let [midstep, end] = responses.each_mut().map(|values| &mut values[..remainders.len()]);
-        self.responses(strains[1], variables, midstep)?;
-        self.responses(strains[2], variables, end)?;
-        let histories = variables.as_chunks().0;
-        for (k, (remainder, variables)) in remainders.iter_mut().zip(histories).enumerate() {
-            let stresses = [midstep[k].stress, end[k].stress];
-            *remainder =
-                self.remainder_with(strains.map(|strains| strains[k]), stresses, variables);
-        }
-        Ok(())
+        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        self.responses(strains[1], variables, &mut responses[..remainders.len()])?;
+        let mut stresses = responses.map(|response| response.stress);
+        let mut energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
+        let energies = &mut energies[..remainders.len()];
+        self.end_step(strains, &[variables], &mut stresses, remainders, energies)
     }
 
     fn end_step(
