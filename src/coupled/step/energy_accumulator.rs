@@ -217,16 +217,17 @@ impl EnergyAccumulator {
     fn add_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, structure, .. } = data;
         let work = dot(&increment.nonlinear_force, &increment.total_displacement);
+        let Increment { midstep_displacement, force_displacement, .. } = increment;
+        // The remainder first: elements with internal variables then know their energies at the end.
+        let remainder = structure
+            .nonlinear()
+            .and_then(|force| force.remainder(midstep_displacement, force_displacement));
         let Some(InternalEnergy { stored, dissipated }) =
-            nonlinear_energies(scene, structure, &increment.force_displacement)
+            nonlinear_energies(scene, structure, force_displacement)
         else {
             self.nonlinear_energy += work;
             return;
         };
-        let Increment { midstep_displacement, force_displacement, .. } = increment;
-        let remainder = structure
-            .nonlinear()
-            .and_then(|force| force.remainder(midstep_displacement, force_displacement));
         let energy_balance = &mut self.energy_balance;
         match remainder {
             Some(remainder) => energy_balance.midstep_remainder += remainder,

@@ -72,6 +72,24 @@ pub trait InelasticForce: Send + Sync {
         self.tangent(coordinates, displacement, variables, matrix)
     }
 
+    /// Number of stresses that a model stores between evaluations of a step. Default: none.
+    #[doc(hidden)]
+    fn stress_count(&self) -> usize {
+        0
+    }
+
+    /// As [`force_and_tangent`](InelasticForce::force_and_tangent), with a list of stresses for the end of the step.
+    #[doc(hidden)]
+    fn force_tangent_and_stresses(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        [force, matrix, _stresses]: [&mut [f64]; 3],
+    ) -> Result<()> {
+        self.force_and_tangent(coordinates, displacement, variables, force, matrix)
+    }
+
     /// Whether the tangent is symmetric at every displacement. Default: yes.
     fn has_symmetric_tangent(&self) -> bool {
         true
@@ -105,6 +123,25 @@ pub trait InelasticForce: Send + Sync {
         variables: &[f64],
     ) -> Result<f64>;
 
+    /// Remainder of a step, and energies at its end, as the two methods. Default: one after the other.
+    ///
+    /// `stresses`: those that [`force_tangent_and_stresses`](InelasticForce::force_tangent_and_stresses) wrote at mid-step. They become those for
+    /// [`commit_stresses`](InelasticForce::commit_stresses).
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    #[doc(hidden)]
+    fn end_step(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacements: [&[f64]; 3],
+        variables: &[f64],
+        _stresses: &mut [f64],
+    ) -> Result<(f64, InternalEnergy)> {
+        let energy = self.energy(coordinates, displacements[2], variables)?;
+        Ok((self.remainder(coordinates, displacements, variables)?, energy))
+    }
+
     /// Rows of the deformations that can yield: weights of the element's degrees of freedom. Default: none.
     ///
     /// A model returns an error if its links and ties do not let one of them change. Such an element would be rigid there.
@@ -114,6 +151,18 @@ pub trait InelasticForce: Send + Sync {
 
     /// Overwrites `variables` by those after a step that ended with `displacement`.
     fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]);
+
+    /// As [`commit`](InelasticForce::commit), with the stresses of [`end_step`](InelasticForce::end_step).
+    #[doc(hidden)]
+    fn commit_stresses(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        _stresses: &[f64],
+        variables: &mut [f64],
+    ) {
+        self.commit(coordinates, displacement, variables);
+    }
 
     /// States of the integration points, for results and pictures. Default: none.
     ///

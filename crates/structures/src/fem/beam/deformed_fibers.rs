@@ -9,7 +9,7 @@
 use super::local_matrices::AxialForce;
 use crate::error::{Result, same_length};
 use crate::fem::element_matrix::add_matrix;
-use crate::fem::fiber::{BasicBeam, BasicState};
+use crate::fem::fiber::{BasicBeam, BasicState, StepEnd};
 use crate::fem::inelastic_force::{BeamSectionState, InelasticForce};
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::{add_congruent, add_outer, product};
@@ -51,9 +51,9 @@ impl<const B: usize, const D: usize> BasicRows<B, D> {
     }
 }
 
-/// State of a basic beam at basic deformations and internal variables.
+/// State of a basic beam at basic deformations and internal variables, with the stresses of its fibres.
 type Evaluate<'a, const N: usize, const B: usize> =
-    fn(&BasicBeam<'a, N, B>, &[f64; B], &[f64]) -> Result<BasicState<N, B>>;
+    fn(&BasicBeam<'a, N, B>, &[f64; B], &[f64], &mut [f64]) -> Result<BasicState<N, B>>;
 
 /// Beam element of fibres: its sections, and its rows between two nodes.
 pub(super) trait FiberElement<const N: usize, const B: usize, const D: usize>:
@@ -66,13 +66,16 @@ pub(super) trait FiberElement<const N: usize, const B: usize, const D: usize>:
     fn basic_rows(&self, coordinates: &[[f64; 3]]) -> Result<BasicRows<B, D>>;
 
     /// State at displacements of the nodes.
+    ///
+    /// `stresses` becomes the stresses of the fibres of an element by displacements, unless it is empty.
     fn deformed(
         &self,
         coordinates: &[[f64; 3]],
         displacement: &[f64],
         variables: &[f64],
+        stresses: &mut [f64],
     ) -> Result<DeformedFiberBeam<'_, N, B, D>> {
-        self.evaluated(coordinates, displacement, variables, BasicBeam::state)
+        self.evaluated(coordinates, displacement, variables, stresses, BasicBeam::state)
     }
 
     /// As [`deformed`](FiberElement::deformed), without forces and tangent in an element by displacements.
@@ -82,7 +85,7 @@ pub(super) trait FiberElement<const N: usize, const B: usize, const D: usize>:
         displacement: &[f64],
         variables: &[f64],
     ) -> Result<DeformedFiberBeam<'_, N, B, D>> {
-        self.evaluated(coordinates, displacement, variables, BasicBeam::deformed_state)
+        self.evaluated(coordinates, displacement, variables, &mut [], BasicBeam::deformed_state)
     }
 
     /// State by one of the methods of the basic beam.
@@ -91,6 +94,7 @@ pub(super) trait FiberElement<const N: usize, const B: usize, const D: usize>:
         coordinates: &[[f64; 3]],
         displacement: &[f64],
         variables: &[f64],
+        stresses: &mut [f64],
         evaluate: Evaluate<'a, N, B>,
     ) -> Result<DeformedFiberBeam<'a, N, B, D>> {
         same_length("coordinates of a beam", coordinates.len(), 2)?;
@@ -99,7 +103,7 @@ pub(super) trait FiberElement<const N: usize, const B: usize, const D: usize>:
         let rows = self.basic_rows(coordinates)?;
         let beam = self.basic_beam(rows.length);
         let v = rows.deformations(displacement);
-        let state = evaluate(&beam, &v, variables)?;
+        let state = evaluate(&beam, &v, variables, stresses)?;
         let twist = rows.torsion.as_ref().map_or(0.0, |torsion| dot(&torsion.row, displacement));
         Ok(DeformedFiberBeam { beam, rows, v, state, twist })
     }
@@ -169,15 +173,25 @@ impl<const N: usize, const B: usize, const D: usize> DeformedFiberBeam<'_, N, B,
         Ok(energy)
     }
 
-    /// Remainder of a step that begins in this state, J.
-    pub(super) fn remainder(&self, midstep: &Self, end: &Self, variables: &[f64]) -> Result<f64> {
+    /// Remainder of a step that begins in this state, and energy at its end, J.
+    ///
+    /// `stresses`: as for [`BasicBeam::end_step`].
+    pub(super) fn end_step(
+        &self,
+        midstep: &Self,
+        end: &Self,
+        variables: &[f64],
+        stresses: &mut [f64],
+    ) -> Result<(f64, InternalEnergy)> {
         let increment = std::array::from_fn(|i| end.v[i] - self.v[i]);
         let states = [&self.state, &midstep.state, &end.state];
-        let bending = self.beam.remainder(states, &increment, variables)?;
+        let StepEnd { remainder, mut energy } =
+            self.beam.end_step(states, &increment, variables, stresses)?;
+        energy.stored += 0.5 * end.torsional_stiffness() * end.twist * end.twist;
         // Work of the torque at mid-step less that of the mean torque, which the torsion stores.
         let mean_twist = 0.5 * (self.twist + end.twist);
         let torque_difference = self.torsional_stiffness() * (midstep.twist - mean_twist);
-        Ok(bending + torque_difference * (end.twist - self.twist))
+        Ok((remainder + torque_difference * (end.twist - self.twist), energy))
     }
 
     /// States of the sections between two nodes.
@@ -210,8 +224,10 @@ impl<const N: usize, const B: usize, const D: usize> DeformedFiberBeam<'_, N, B,
     }
 
     /// Overwrites `variables` by those after a step that ended in this state.
-    pub(super) fn commit(&self, variables: &mut [f64]) {
-        self.beam.commit(&self.state, &self.v, variables);
+    ///
+    /// `stresses`: those of [`end_step`](DeformedFiberBeam::end_step); empty if they are not known.
+    pub(super) fn commit(&self, stresses: &[f64], variables: &mut [f64]) {
+        self.beam.commit(&self.state, &self.v, stresses, variables);
     }
 }
 
@@ -246,7 +262,7 @@ macro_rules! fiber_element_force {
                 variables: &[f64],
                 force: &mut [f64],
             ) -> Result<()> {
-                self.deformed(coordinates, displacement, variables)?.add_force(force);
+                self.deformed(coordinates, displacement, variables, &mut [])?.add_force(force);
                 Ok(())
             }
 
@@ -257,8 +273,12 @@ macro_rules! fiber_element_force {
                 variables: &[f64],
                 matrix: &mut [f64],
             ) -> Result<()> {
-                self.deformed(coordinates, displacement, variables)?.add_tangent(matrix);
+                self.deformed(coordinates, displacement, variables, &mut [])?.add_tangent(matrix);
                 Ok(())
+            }
+
+            fn stress_count(&self) -> usize {
+                self.basic_beam(1.0).fiber_count()
             }
 
             fn force_and_tangent(
@@ -269,7 +289,18 @@ macro_rules! fiber_element_force {
                 force: &mut [f64],
                 matrix: &mut [f64],
             ) -> Result<()> {
-                let deformed = self.deformed(coordinates, displacement, variables)?;
+                let values = [force, matrix, &mut []];
+                self.force_tangent_and_stresses(coordinates, displacement, variables, values)
+            }
+
+            fn force_tangent_and_stresses(
+                &self,
+                coordinates: &[[f64; 3]],
+                displacement: &[f64],
+                variables: &[f64],
+                [force, matrix, stresses]: [&mut [f64]; 3],
+            ) -> Result<()> {
+                let deformed = self.deformed(coordinates, displacement, variables, stresses)?;
                 deformed.add_force(force);
                 deformed.add_tangent(matrix);
                 Ok(())
@@ -290,10 +321,23 @@ macro_rules! fiber_element_force {
                 displacements: [&[f64]; 3],
                 variables: &[f64],
             ) -> Result<f64> {
+                let mut stresses = vec![0.0; self.stress_count()];
+                self.deformed(coordinates, displacements[1], variables, &mut stresses)?;
+                let end = self.end_step(coordinates, displacements, variables, &mut stresses);
+                end.map(|(remainder, _)| remainder)
+            }
+
+            fn end_step(
+                &self,
+                coordinates: &[[f64; 3]],
+                displacements: [&[f64]; 3],
+                variables: &[f64],
+                stresses: &mut [f64],
+            ) -> Result<(f64, InternalEnergy)> {
                 let start = self.strained(coordinates, displacements[0], variables)?;
                 let midstep = self.strained(coordinates, displacements[1], variables)?;
                 let end = self.strained(coordinates, displacements[2], variables)?;
-                start.remainder(&midstep, &end, variables)
+                start.end_step(&midstep, &end, variables, stresses)
             }
 
             fn sections(
@@ -302,19 +346,29 @@ macro_rules! fiber_element_force {
                 displacement: &[f64],
                 variables: &[f64],
             ) -> Result<Vec<BeamSectionState>> {
-                let deformed = self.deformed(coordinates, displacement, variables)?;
+                let deformed = self.deformed(coordinates, displacement, variables, &mut [])?;
                 deformed.sections([coordinates[0], coordinates[1]], variables)
             }
 
-            /// Changes nothing in a state that a beam by forces cannot have.
             fn commit(
                 &self,
                 coordinates: &[[f64; 3]],
                 displacement: &[f64],
                 variables: &mut [f64],
             ) {
+                self.commit_stresses(coordinates, displacement, &[], variables);
+            }
+
+            /// Changes nothing in a state that a beam by forces cannot have.
+            fn commit_stresses(
+                &self,
+                coordinates: &[[f64; 3]],
+                displacement: &[f64],
+                stresses: &[f64],
+                variables: &mut [f64],
+            ) {
                 if let Ok(deformed) = self.strained(coordinates, displacement, variables) {
-                    deformed.commit(variables);
+                    deformed.commit(stresses, variables);
                 }
             }
         }

@@ -9,16 +9,17 @@
 //! | w | part of the length of a section |
 //!
 //! The **displacement-based** element interpolates e by a, and q = Σ w aᵀ s(e). The **force-based** element is in
-//! `force_based.rs`; q and e at the end of the last step are among its internal variables.
+//! `force_based.rs`; q and e at the end of the last step are among its internal variables, with a fingerprint of all steps.
 
 use std::ops::Range;
 
 use super::basic_state::{BasicState, LastState, MAX_SECTIONS, SectionState};
 use super::interpolation::Interpolation;
+use super::member_sections::StepEnd;
 use super::quadrature::BeamPoint;
 use super::section::FiberSection;
 use super::section_response::SectionResponse;
-use super::solution_memo::SolutionMemo;
+use super::solution_memo::{SolutionMemo, next_fingerprint};
 use crate::error::Result;
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
@@ -50,11 +51,11 @@ pub(in crate::fem) struct BasicBeam<'a, const N: usize, const B: usize> {
 }
 
 impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
-    /// Number of internal variables: those of all fibres, then e, q and v of a force-based element.
+    /// Number of internal variables: those of all fibres, then e, q, v and the fingerprint of a force-based element.
     pub(in crate::fem) fn variable_count(&self) -> usize {
         let state_count = match self.formulation {
             BeamFormulation::DisplacementBased => 0,
-            BeamFormulation::ForceBased => N * self.points.len() + B + B,
+            BeamFormulation::ForceBased => N * self.points.len() + B + B + 1,
         };
         self.points.len() * self.section.variable_count() + state_count
     }
@@ -73,10 +74,14 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         index * count..(index + 1) * count
     }
 
+    /// Internal variables e, q, v and fingerprint of a force-based element.
+    pub(super) fn element_variables<'v>(&self, variables: &'v [f64]) -> &'v [f64] {
+        &variables[self.points.len() * self.section.variable_count()..]
+    }
+
     /// Internal variables e, q and v of a force-based element at the end of the last step.
     pub(super) fn last_state(&self, variables: &[f64]) -> LastState<N, B> {
-        let first = self.points.len() * self.section.variable_count();
-        let mut values = variables[first..].iter().copied();
+        let mut values = self.element_variables(variables).iter().copied();
         let mut next = || values.next().unwrap_or(0.0);
         let mut deformations = [[0.0; N]; MAX_SECTIONS];
         for section in deformations.iter_mut().take(self.points.len()) {
@@ -113,7 +118,14 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         }
     }
 
+    /// Internal variables of all sections.
+    fn section_variables<'v>(&self, variables: &'v [f64]) -> &'v [f64] {
+        &variables[..self.points.len() * self.section.variable_count()]
+    }
+
     /// Basic forces and tangent at basic deformations v.
+    ///
+    /// `stresses` becomes the stresses of the fibres of an element by displacements, unless it is empty.
     ///
     /// # Errors
     /// Errors of fibres, and [`Error::Scene`] for a force-based element whose iterations do not converge.
@@ -121,9 +133,12 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         &self,
         v: &[f64; B],
         variables: &[f64],
+        stresses: &mut [f64],
     ) -> Result<BasicState<N, B>> {
         match self.formulation {
-            BeamFormulation::DisplacementBased => self.displacement_based_state(v, variables),
+            BeamFormulation::DisplacementBased => {
+                self.displacement_based_state(v, variables, stresses)
+            }
             BeamFormulation::ForceBased => self.force_based_state(v, variables),
         }
     }
@@ -138,6 +153,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         &self,
         v: &[f64; B],
         variables: &[f64],
+        _stresses: &mut [f64],
     ) -> Result<BasicState<N, B>> {
         if self.formulation == BeamFormulation::ForceBased {
             let LastState { deformations, forces, basic_deformations } = self.last_state(variables);
@@ -164,29 +180,32 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         &self,
         v: &[f64; B],
         variables: &[f64],
+        stresses: &mut [f64],
     ) -> Result<BasicState<N, B>> {
-        let mut state = BasicState::zero();
-        for (index, point) in self.points.iter().enumerate() {
+        let mut state = self.deformed_state(v, variables, &mut [])?;
+        let responses = self.responses(&state.deformations, variables, stresses)?;
+        for (point, response) in self.points.iter().zip(responses) {
             let a = (self.interpolation.deformations)(point.position);
-            let deformations = self.interpolated(&a, v);
-            let response = self.response(index, &deformations, variables)?;
             add_transposed(point.weight, &a, &response.forces, &mut state.forces);
             let factor = point.weight / self.length;
             add_congruent(factor, &a, &response.tangent, &mut state.stiffness);
-            state.deformations[index] = deformations;
         }
         Ok(state)
     }
 
-    /// Response of a section.
-    pub(super) fn response(
+    /// Responses of all sections, of which the first are in use; `stresses` is as for [`state`](BasicBeam::state).
+    pub(super) fn responses(
         &self,
-        index: usize,
-        deformations: &[f64; N],
+        deformations: &[[f64; N]; MAX_SECTIONS],
         variables: &[f64],
-    ) -> Result<SectionResponse<N>> {
-        let section_variables = &variables[self.section_range(index)];
-        self.section.response(deformations, section_variables)
+        stresses: &mut [f64],
+    ) -> Result<[SectionResponse<N>; MAX_SECTIONS]> {
+        let count = self.points.len();
+        let mut responses = [SectionResponse::zero(); MAX_SECTIONS];
+        let variables = self.section_variables(variables);
+        let used_responses = &mut responses[..count];
+        self.section.responses(&deformations[..count], variables, stresses, used_responses)?;
+        Ok(responses)
     }
 
     /// Energy of a state, J.
@@ -210,31 +229,45 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         Ok(sum)
     }
 
-    /// Work inside a step that is neither stored nor dissipated, J; `states` at its start, mid-step and end.
+    /// Number of fibres of all sections.
+    pub(in crate::fem) fn fiber_count(&self) -> usize {
+        self.points.len() * self.section.fiber_count()
+    }
+
+    /// Work inside a step that is neither stored nor dissipated, and energy at its end, J.
     ///
-    /// `increment`: change of the basic deformations from start to end. Sections of a force-based element do not follow
-    /// straight paths. Its remainder is therefore computed from forces and energies of the whole element.
+    /// `states` at its start, mid-step and end; `increment`: change of the basic deformations from start to end. `stresses` of an
+    /// element by displacements are those at mid-step; they become those for [`commit`](BasicBeam::commit).
+    ///
+    /// Sections of a force-based element do not follow straight paths. Its remainder is therefore computed from forces and
+    /// energies of the whole element.
     ///
     /// # Errors
     /// Errors of fibres.
-    pub(in crate::fem) fn remainder(
+    pub(in crate::fem) fn end_step(
         &self,
         states: [&BasicState<N, B>; 3],
         increment: &[f64; B],
         variables: &[f64],
-    ) -> Result<f64> {
+        stresses: &mut [f64],
+    ) -> Result<StepEnd> {
+        let count = self.points.len();
+        let path = states.map(|state| &state.deformations[..count]);
+        let mut ends = [StepEnd::default(); MAX_SECTIONS];
+        let section_variables = self.section_variables(variables);
+        self.section.end_step(path, section_variables, stresses, &mut ends[..count])?;
+        let mut sum = StepEnd::default();
+        for (point, end) in self.points.iter().zip(ends) {
+            let length = point.weight * self.length;
+            sum.remainder += length * end.remainder;
+            sum.energy.stored += length * end.energy.stored;
+            sum.energy.dissipated += length * end.energy.dissipated;
+        }
         if self.formulation == BeamFormulation::ForceBased {
             let start = self.energy(states[0], variables)?;
-            let end = self.energy(states[2], variables)?;
+            let end = sum.energy;
             let change = end.stored - start.stored + end.dissipated - start.dissipated;
-            return Ok(dot(&states[1].forces, increment) - change);
-        }
-        let mut sum = 0.0;
-        for (index, point) in self.points.iter().enumerate() {
-            let path = states.map(|state| &state.deformations[index]);
-            let section_variables = &variables[self.section_range(index)];
-            let remainder = self.section.remainder(path, section_variables)?;
-            sum += point.weight * self.length * remainder;
+            sum.remainder = dot(&states[1].forces, increment) - change;
         }
         Ok(sum)
     }
@@ -248,6 +281,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         state: &BasicState<N, B>,
         variables: &[f64],
     ) -> Result<Vec<SectionState<N>>> {
+        let responses = self.responses(&state.deformations, variables, &mut [])?;
         let mut states = Vec::with_capacity(self.points.len());
         for (index, point) in self.points.iter().enumerate() {
             let deformations = state.deformations[index];
@@ -255,7 +289,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             states.push(SectionState {
                 point: *point,
                 deformations,
-                forces: self.response(index, &deformations, variables)?.forces,
+                forces: responses[index].forces,
                 fibers: self.section.fiber_states(&deformations, section_variables)?,
             });
         }
@@ -263,22 +297,26 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     }
 
     /// Overwrites `variables` by those after a step that ended in a state with basic deformations v.
+    ///
+    /// `stresses`: those of [`end_step`](BasicBeam::end_step); empty if they are not known.
     pub(in crate::fem) fn commit(
         &self,
         state: &BasicState<N, B>,
         v: &[f64; B],
+        stresses: &[f64],
         variables: &mut [f64],
     ) {
-        for index in 0..self.points.len() {
-            let section_variables = &mut variables[self.section_range(index)];
-            self.section.commit(&state.deformations[index], section_variables);
-        }
+        let count = self.points.len();
+        let (sections, last_state) = variables.split_at_mut(count * self.section.variable_count());
+        self.section.commit(&state.deformations[..count], stresses, sections);
         if self.formulation == BeamFormulation::ForceBased {
-            let first = self.points.len() * self.section.variable_count();
-            let sections = state.deformations.iter().take(self.points.len()).flatten();
-            let values = sections.chain(&state.forces).chain(v);
-            for (variable, value) in variables[first..].iter_mut().zip(values) {
+            let deformations = state.deformations.iter().take(count).flatten();
+            let values = deformations.chain(&state.forces).chain(v);
+            for (variable, value) in last_state.iter_mut().zip(values) {
                 *variable = *value;
+            }
+            if let Some((fingerprint, values)) = last_state.split_last_mut() {
+                *fingerprint = next_fingerprint(*fingerprint, values);
             }
         }
     }

@@ -145,15 +145,18 @@ impl Concrete {
         }
     }
 
-    /// Energy at a strain, after the variables of the last step.
+    /// Energy at a strain with a stress, after the variables of the last step.
     #[inline]
-    fn energy_after(&self, strain: f64, mut variables: [f64; VARIABLE_COUNT]) -> InternalEnergy {
+    fn energy_with(
+        &self,
+        strain: f64,
+        stress: f64,
+        mut variables: [f64; VARIABLE_COUNT],
+    ) -> InternalEnergy {
         if -strain > variables[0] {
             self.write(-strain, &mut variables);
         }
-        let [max_compression, residual_strain, slope, dissipated] = variables;
-        let unloading = Unloading { residual_strain, slope };
-        let stress = self.response_after(strain, max_compression, &unloading).stress;
+        let [_, _, slope, dissipated] = variables;
         let stored = if slope > 0.0 { 0.5 * stress * stress / slope } else { 0.0 };
         InternalEnergy { stored, dissipated }
     }
@@ -208,7 +211,7 @@ impl WithSimd for ConcreteLoops<'_> {
         }
         let mut stresses = [0.0; MAX_BATCH_FIBERS];
         let mut tangents = [0.0; MAX_BATCH_FIBERS];
-        for k in 0..padded_count(responses.len()) {
+        for k in 0..padded_count(responses.len(), MAX_BATCH_FIBERS) {
             let unloading = Unloading { residual_strain: residual_strains[k], slope: slopes[k] };
             let response = concrete.response_after(strains[k], max_compressions[k], &unloading);
             stresses[k] = response.stress;
@@ -251,27 +254,61 @@ impl UniaxialMaterial for Concrete {
     }
 
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
-        check_variables(variables, VARIABLE_COUNT)?;
-        Ok(self.energy_after(strain, std::array::from_fn(|i| variables[i])))
+        let stress = self.response(strain, variables)?.stress;
+        Ok(self.energy_with(strain, stress, std::array::from_fn(|i| variables[i])))
+    }
+
+    fn energies(
+        &self,
+        strains: &[f64],
+        variables: &[f64],
+        energies: &mut [InternalEnergy],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        self.responses(strains, variables, &mut responses[..energies.len()])?;
+        let fibers = strains.iter().zip(variables.as_chunks().0).zip(responses);
+        for (energy, ((strain, history), response)) in energies.iter_mut().zip(fibers) {
+            *energy = self.energy_with(*strain, response.stress, *history);
+        }
+        Ok(())
     }
 
     fn remainders(
         &self,
-        [start, midstep, end]: [&[f64]; 3],
+        strains: [&[f64]; 3],
         variables: &[f64],
         remainders: &mut [f64],
     ) -> std::result::Result<(), (usize, Error)> {
         let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
-        let responses = &mut responses[..remainders.len()];
-        self.responses(midstep, variables, responses)?;
-        let histories = variables.as_chunks().0;
-        for (k, (remainder, history)) in remainders.iter_mut().zip(histories).enumerate() {
-            let work = responses[k].stress * (end[k] - start[k]);
-            let start_energy = self.energy_after(start[k], *history);
-            let end_energy = self.energy_after(end[k], *history);
-            let stored_change = end_energy.stored - start_energy.stored;
-            let dissipated_change = end_energy.dissipated - start_energy.dissipated;
-            *remainder = work - stored_change - dissipated_change;
+        self.responses(strains[1], variables, &mut responses[..remainders.len()])?;
+        let mut stresses = responses.map(|response| response.stress);
+        let mut energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
+        let energies = &mut energies[..remainders.len()];
+        self.end_step(strains, &[variables], &mut stresses, remainders, energies)
+    }
+
+    /// The remainder is the work of the stresses at mid-step less the changes of energy.
+    fn end_step(
+        &self,
+        [start, _, end]: [&[f64]; 3],
+        variables: &[&[f64]],
+        stresses: &mut [f64],
+        remainders: &mut [f64],
+        energies: &mut [InternalEnergy],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let count = remainders.len() / variables.len().max(1);
+        let mut start_energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
+        let start_energies = &mut start_energies[..count];
+        for (section, variables) in variables.iter().enumerate() {
+            let fibers = section * count..(section + 1) * count;
+            self.energies(&start[fibers.clone()], variables, start_energies)?;
+            self.energies(&end[fibers.clone()], variables, &mut energies[fibers.clone()])?;
+            for (k, start_energy) in fibers.zip(&*start_energies) {
+                let work = stresses[k] * (end[k] - start[k]);
+                let stored_change = energies[k].stored - start_energy.stored;
+                let dissipated_change = energies[k].dissipated - start_energy.dissipated;
+                remainders[k] = work - stored_change - dissipated_change;
+            }
         }
         Ok(())
     }

@@ -68,7 +68,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         variables: &[f64],
     ) -> Result<BasicState<N, B>> {
         let key = SolutionKey { length: self.length, v: *v };
-        let mut memo = self.memo.at(variables);
+        let mut memo = self.memo.at(self.element_variables(variables));
         if let Some(state) = memo.find(&key) {
             return Ok(state);
         }
@@ -126,10 +126,8 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         state.deformations = last.deformations;
         for _ in 0..MAX_DESCENT_ROUNDS {
             for _ in 0..DESCENT_INCREMENTS {
-                for index in 0..self.points.len() {
-                    let response = self.response(index, &state.deformations[index], variables)?;
-                    linearisation.forces[index] = response.forces;
-                }
+                let responses = self.responses(&state.deformations, variables, &mut [])?;
+                linearisation.forces = responses.map(|response| response.forces);
                 self.correct(v, &linearisation, &mut state, &mut [[0.0; N]; MAX_SECTIONS]);
             }
             let mut trial = state;
@@ -148,8 +146,8 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
     ) -> Result<Option<BeamLinearisation<N, B>>> {
         let mut flexibility = [[0.0; B]; B];
         let mut linearisation = BeamLinearisation::zero();
-        for (index, point) in self.points.iter().enumerate() {
-            let response = self.response(index, &deformations[index], variables)?;
+        let responses = self.responses(deformations, variables, &mut [])?;
+        for (index, (point, response)) in self.points.iter().zip(responses).enumerate() {
             let Some(section_flexibility) = self.flexibility(response.tangent) else {
                 return Ok(None);
             };

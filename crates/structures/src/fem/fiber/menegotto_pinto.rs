@@ -10,9 +10,11 @@
 //! `steel_branch.rs` has the curve.
 
 use super::bilinear_steel::check_steel;
-use super::steel_branch::{BranchLoops, SteelBranch, SteelBranches};
+use super::steel_branch::{BranchLoops, MAX_LOOP_BRANCHES, SteelBranch, SteelBranches};
 use super::steel_history::{LAST_STRAIN, LoadingDirection, SteelHistory, VARIABLE_COUNT};
-use super::{MAX_BATCH_FIBERS, UniaxialMaterial, UniaxialResponse, check_variables};
+use super::{
+    MAX_BATCH_FIBERS, MAX_MEMBER_FIBERS, UniaxialMaterial, UniaxialResponse, check_variables,
+};
 use crate::error::{Error, Result, positive, require};
 use crate::fem::internal_energy::InternalEnergy;
 use crate::linalg::vectorized;
@@ -106,16 +108,15 @@ impl MenegottoPinto {
     /// Branch of a strain.
     #[inline]
     fn branch_at(&self, strain: f64, variables: &[f64; VARIABLE_COUNT]) -> SteelBranch {
-        let direction = variables[0];
         // Most fibres follow their last branch.
-        if direction != 0.0 && direction * (strain - variables[LAST_STRAIN]) >= 0.0 {
+        if SteelHistory::follows_branch(strain, variables) {
             return SteelHistory::curve_of(variables);
         }
         self.branch_of(&self.history_at(strain, variables))
     }
 
     /// History with the branch of a strain, after a reversal if there is one.
-    fn history_at(&self, strain: f64, variables: &[f64]) -> SteelHistory {
+    fn history_at(&self, strain: f64, variables: &[f64; VARIABLE_COUNT]) -> SteelHistory {
         let mut history = SteelHistory::read(variables);
         let increment = strain - history.last[0];
         let next_direction = if increment > 0.0 {
@@ -212,6 +213,22 @@ impl MenegottoPinto {
         vectorized(BranchLoops { branches, modulus, hardening_ratio, responses });
     }
 
+    /// Remainder of a step, with the stresses of the branches at mid-step and at the end.
+    #[inline]
+    fn remainder_with(
+        &self,
+        [start_strain, _, end_strain]: [f64; 3],
+        [midstep_stress, end_stress]: [f64; 2],
+        variables: &[f64; VARIABLE_COUNT],
+    ) -> f64 {
+        let history = SteelHistory::read(variables);
+        let start_stress = history.committed_stress(start_strain).unwrap_or_else(|| {
+            self.stress_at(start_strain, &self.history_at(start_strain, variables))
+        });
+        let end_stress = history.committed_stress(end_strain).unwrap_or(end_stress);
+        (midstep_stress - 0.5 * (start_stress + end_stress)) * (end_strain - start_strain)
+    }
+
     /// Energy at a strain with a stress, after a history.
     fn energy_with(&self, history: &SteelHistory, strain: f64, stress: f64) -> InternalEnergy {
         let stored = 0.5 * stress * stress / self.modulus;
@@ -219,12 +236,20 @@ impl MenegottoPinto {
     }
 
     /// Ends a step at a strain with a stress.
-    fn commit_stress(&self, strain: f64, stress: f64, variables: &mut [f64]) {
-        let mut history = self.history_at(strain, variables);
-        history.work = history.work_to(strain, stress);
-        history.last = [strain, stress];
-        history.write(variables);
+    fn commit_stress(&self, strain: f64, stress: f64, variables: &mut [f64; VARIABLE_COUNT]) {
+        let work = SteelHistory::read(variables).work_to(strain, stress);
+        if !SteelHistory::follows_branch(strain, variables) {
+            self.history_at(strain, variables).write(variables);
+        }
+        SteelHistory::write_end([strain, stress], work, variables);
     }
+}
+
+/// The internal variables of a fibre; an error for a wrong number.
+fn checked(variables: &[f64]) -> Result<&[f64; VARIABLE_COUNT]> {
+    check_variables(variables, VARIABLE_COUNT)?;
+    let needed = "ten internal variables";
+    variables.try_into().map_err(|_| Error::Scene { quantity: "fibre of steel", needed })
 }
 
 /// Variables: see the documentation of `SteelHistory`.
@@ -238,8 +263,8 @@ impl UniaxialMaterial for MenegottoPinto {
     }
 
     fn response(&self, strain: f64, variables: &[f64]) -> Result<UniaxialResponse> {
-        check_variables(variables, VARIABLE_COUNT)?;
-        Ok(self.on_branch(strain, &self.history_at(strain, variables)))
+        let history = self.history_at(strain, checked(variables)?);
+        Ok(self.on_branch(strain, &history))
     }
 
     fn responses(
@@ -248,12 +273,24 @@ impl UniaxialMaterial for MenegottoPinto {
         variables: &[f64],
         responses: &mut [UniaxialResponse],
     ) -> std::result::Result<(), (usize, Error)> {
-        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
-        let mut branches = SteelBranches::WITHOUT_STRAIN;
-        for (k, (strain, variables)) in strains.iter().zip(histories).enumerate() {
-            branches.set(k, *strain, self.branch_at(*strain, variables));
+        self.responses_of_sections(strains, &[variables], responses)
+    }
+
+    fn responses_of_sections(
+        &self,
+        strains: &[f64],
+        variables: &[&[f64]],
+        responses: &mut [UniaxialResponse],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let mut histories = variables.iter().flat_map(|fibers| fibers.as_chunks().0);
+        let strains = strains.chunks(MAX_LOOP_BRANCHES);
+        for (strains, responses) in strains.zip(responses.chunks_mut(MAX_LOOP_BRANCHES)) {
+            let mut branches = SteelBranches::WITHOUT_STRAIN;
+            for (k, (strain, variables)) in strains.iter().zip(&mut histories).enumerate() {
+                branches.set(k, *strain, self.branch_at(*strain, variables));
+            }
+            self.respond(&branches, responses);
         }
-        self.respond(&branches, responses);
         Ok(())
     }
 
@@ -265,13 +302,13 @@ impl UniaxialMaterial for MenegottoPinto {
     ) -> std::result::Result<(), (usize, Error)> {
         let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
         let responses = &mut responses[..strains.len()];
-        let histories = variables.as_chunks::<VARIABLE_COUNT>().0;
+        let histories = variables.as_chunks().0;
         // At the end of the last step all stresses are stored.
         let mut fibers = strains.iter().zip(histories);
         if fibers.any(|(strain, variables)| *strain != variables[LAST_STRAIN]) {
             self.responses(strains, variables, responses)?;
         }
-        let histories = histories.iter().map(|variables| SteelHistory::read(variables));
+        let histories = histories.iter().map(SteelHistory::read);
         let fibers = strains.iter().zip(histories).zip(responses);
         for (energy, ((strain, history), response)) in energies.iter_mut().zip(fibers) {
             let stress = history.committed_stress(*strain).unwrap_or(response.stress);
@@ -282,7 +319,7 @@ impl UniaxialMaterial for MenegottoPinto {
 
     /// (σ(midstep) − (σ(start) + σ(end))/2) (end − start): work is integrated by the trapezoidal rule.
     fn remainder(&self, strains: [f64; 3], variables: &[f64]) -> Result<f64> {
-        check_variables(variables, VARIABLE_COUNT)?;
+        checked(variables)?;
         let mut remainder = [0.0];
         let strains = strains.each_ref().map(std::slice::from_ref);
         self.remainders(strains, variables, &mut remainder).map_err(|(_, fault)| fault)?;
@@ -295,34 +332,55 @@ impl UniaxialMaterial for MenegottoPinto {
         variables: &[f64],
         remainders: &mut [f64],
     ) -> std::result::Result<(), (usize, Error)> {
-        let mut responses = [[UniaxialResponse::default(); MAX_BATCH_FIBERS]; 2];
-        let [midstep, end] = responses.each_mut().map(|values| &mut values[..remainders.len()]);
-        self.responses(strains[1], variables, midstep)?;
-        self.responses(strains[2], variables, end)?;
-        let histories = variables.chunks_exact(VARIABLE_COUNT);
-        for (k, (remainder, variables)) in remainders.iter_mut().zip(histories).enumerate() {
-            let start_strain = strains[0][k];
-            let end_strain = strains[2][k];
-            let start_stress =
-                self.stress_at(start_strain, &self.history_at(start_strain, variables));
-            let committed_stress = SteelHistory::read(variables).committed_stress(end_strain);
-            let end_stress = committed_stress.unwrap_or(end[k].stress);
-            let mean_stress = 0.5 * (start_stress + end_stress);
-            *remainder = (midstep[k].stress - mean_stress) * (end_strain - start_strain);
+        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
+        self.responses(strains[1], variables, &mut responses[..remainders.len()])?;
+        let mut stresses = responses.map(|response| response.stress);
+        let mut energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
+        let energies = &mut energies[..remainders.len()];
+        self.end_step(strains, &[variables], &mut stresses, remainders, energies)
+    }
+
+    fn end_step(
+        &self,
+        strains: [&[f64]; 3],
+        variables: &[&[f64]],
+        stresses: &mut [f64],
+        remainders: &mut [f64],
+        energies: &mut [InternalEnergy],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let mut responses = [UniaxialResponse::default(); MAX_MEMBER_FIBERS];
+        let responses = &mut responses[..remainders.len()];
+        self.responses_of_sections(strains[2], variables, responses)?;
+        let histories = variables.iter().flat_map(|fibers| fibers.as_chunks().0);
+        for (k, (variables, response)) in histories.zip(responses).enumerate() {
+            let end_stress = response.stress;
+            let midstep_stress = std::mem::replace(&mut stresses[k], end_stress);
+            let fiber_strains = strains.map(|strains| strains[k]);
+            let fiber_stresses = [midstep_stress, end_stress];
+            remainders[k] = self.remainder_with(fiber_strains, fiber_stresses, variables);
+            let history = SteelHistory::read(variables);
+            let end_stress = history.committed_stress(fiber_strains[2]).unwrap_or(end_stress);
+            energies[k] = self.energy_with(&history, fiber_strains[2], end_stress);
         }
         Ok(())
     }
 
+    fn commit_stresses(&self, strains: &[f64], stresses: &[f64], variables: &mut [f64]) {
+        let histories = variables.as_chunks_mut().0;
+        for ((variables, strain), stress) in histories.iter_mut().zip(strains).zip(stresses) {
+            self.commit_stress(*strain, *stress, variables);
+        }
+    }
+
     fn energy(&self, strain: f64, variables: &[f64]) -> Result<InternalEnergy> {
-        check_variables(variables, VARIABLE_COUNT)?;
-        let history = self.history_at(strain, variables);
+        let history = self.history_at(strain, checked(variables)?);
         let stress = self.stress_at(strain, &history);
         Ok(self.energy_with(&history, strain, stress))
     }
 
     /// Changes nothing for a wrong number of variables.
     fn commit(&self, strain: f64, variables: &mut [f64]) {
-        if variables.len() == VARIABLE_COUNT {
+        if let Ok(variables) = <&mut [f64; VARIABLE_COUNT]>::try_from(variables) {
             let stress = self.on_branch(strain, &self.history_at(strain, variables)).stress;
             self.commit_stress(strain, stress, variables);
         }
@@ -333,9 +391,7 @@ impl UniaxialMaterial for MenegottoPinto {
         if self.responses(strains, variables, &mut responses[..strains.len()]).is_err() {
             return;
         }
-        let fibers = variables.chunks_exact_mut(VARIABLE_COUNT).zip(strains).zip(responses);
-        for ((variables, strain), response) in fibers {
-            self.commit_stress(*strain, response.stress, variables);
-        }
+        let stresses = responses.map(|response| response.stress);
+        self.commit_stresses(strains, &stresses, variables);
     }
 }

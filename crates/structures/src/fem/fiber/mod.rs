@@ -3,7 +3,7 @@
 //! | part | files |
 //! |---|---|
 //! | laws of a fibre | [`UniaxialMaterial`] here; `bilinear_steel.rs`, `menegotto_pinto.rs` (`steel_branch.rs`, `steel_history.rs`, `elementary.rs`), `concrete.rs` |
-//! | sections of fibres | `section.rs`, `section_response.rs`, `section_shapes.rs`, `section_checks.rs` |
+//! | sections of fibres | `section.rs`, `member_sections.rs`, `section_response.rs`, `section_shapes.rs`, `section_checks.rs` |
 //! | forces of a beam without rigid motions | `basic_beam.rs`, `force_based.rs`, `basic_state.rs`, `solution_memo.rs`; `interpolation.rs`, and `quadrature.rs`: points along a beam |
 
 mod basic_beam;
@@ -13,6 +13,7 @@ mod concrete;
 mod elementary;
 mod force_based;
 mod interpolation;
+mod member_sections;
 mod menegotto_pinto;
 mod quadrature;
 mod section;
@@ -35,24 +36,28 @@ use crate::error::{Error, Result, same_length};
 pub(super) use basic_beam::BasicBeam;
 pub use basic_beam::BeamFormulation;
 pub(super) use basic_state::BasicState;
+use basic_state::MAX_SECTIONS;
 pub use bilinear_steel::BilinearSteel;
 pub use concrete::Concrete;
 pub(super) use interpolation::{PLANE_BENDING, SPACE_BENDING};
+pub(super) use member_sections::StepEnd;
 pub use menegotto_pinto::MenegottoPinto;
 pub(super) use quadrature::BeamPoint;
 pub use quadrature::BeamQuadrature;
 pub use section::FiberSection;
 pub(super) use solution_memo::SolutionMemo;
 
-/// Largest number of fibres that a law evaluates at once.
+/// Largest number of fibres of a section that a law evaluates at once.
 const MAX_BATCH_FIBERS: usize = 16;
+/// Largest number of fibres of all sections of a beam that a law evaluates at once.
+const MAX_MEMBER_FIBERS: usize = MAX_SECTIONS * MAX_BATCH_FIBERS;
 
 /// Number of fibres of a loop with those that complete its last vector; loops over a rest would take longer.
 #[inline]
-fn padded_count(fiber_count: usize) -> usize {
+fn padded_count(fiber_count: usize, max_count: usize) -> usize {
     /// Numbers in a vector of the instruction sets that most machines have.
     const VECTOR_LENGTH: usize = 4;
-    fiber_count.next_multiple_of(VECTOR_LENGTH).min(MAX_BATCH_FIBERS)
+    fiber_count.next_multiple_of(VECTOR_LENGTH).min(max_count)
 }
 
 /// Stress of a fibre and its derivative.
@@ -156,6 +161,27 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
         Ok(())
     }
 
+    /// Overwrites `responses` with those of the same fibres of several sections, section by section.
+    ///
+    /// `variables`: those of the fibres of each section.
+    ///
+    /// # Errors
+    /// The first of a fibre, with its index in its section.
+    #[doc(hidden)]
+    fn responses_of_sections(
+        &self,
+        strains: &[f64],
+        variables: &[&[f64]],
+        responses: &mut [UniaxialResponse],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let count = strains.len() / variables.len().max(1);
+        for (k, variables) in variables.iter().enumerate() {
+            let fibers = k * count..(k + 1) * count;
+            self.responses(&strains[fibers.clone()], variables, &mut responses[fibers])?;
+        }
+        Ok(())
+    }
+
     /// Overwrites `energies` with those of several fibres, as [`responses`](UniaxialMaterial::responses).
     ///
     /// # Errors
@@ -194,6 +220,39 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
                 self.remainder(fiber_strains, fiber_variables).map_err(|fault| (k, fault))?;
         }
         Ok(())
+    }
+
+    /// Overwrites remainders of a step and energies at its end, of the same fibres of several sections.
+    ///
+    /// `strains`, `variables`, and errors are as for [`remainders`](UniaxialMaterial::remainders) and
+    /// [`responses_of_sections`](UniaxialMaterial::responses_of_sections). `stresses` are those at mid-step. A law whose
+    /// [`commit_stresses`](UniaxialMaterial::commit_stresses) needs the stresses at the end overwrites them.
+    ///
+    /// # Errors
+    /// The first of a fibre, with its index in its section.
+    #[doc(hidden)]
+    fn end_step(
+        &self,
+        strains: [&[f64]; 3],
+        variables: &[&[f64]],
+        _stresses: &mut [f64],
+        remainders: &mut [f64],
+        energies: &mut [InternalEnergy],
+    ) -> std::result::Result<(), (usize, Error)> {
+        let count = remainders.len() / variables.len().max(1);
+        for (k, variables) in variables.iter().enumerate() {
+            let fibers = k * count..(k + 1) * count;
+            let strains = strains.map(|strains| &strains[fibers.clone()]);
+            self.remainders(strains, variables, &mut remainders[fibers.clone()])?;
+            self.energies(strains[2], variables, &mut energies[fibers])?;
+        }
+        Ok(())
+    }
+
+    /// Commits several fibres with their stresses from [`end_step`](UniaxialMaterial::end_step).
+    #[doc(hidden)]
+    fn commit_stresses(&self, strains: &[f64], _stresses: &[f64], variables: &mut [f64]) {
+        self.commit_fibers(strains, variables);
     }
 
     /// Commits several fibres, as [`responses`](UniaxialMaterial::responses).

@@ -4,10 +4,7 @@ use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::section_response::SectionResponse;
-use super::{
-    BilinearSteel, Concrete, MAX_BATCH_FIBERS, MenegottoPinto, UniaxialMaterial, UniaxialResponse,
-};
+use super::{BilinearSteel, Concrete, MAX_BATCH_FIBERS, MenegottoPinto, UniaxialMaterial};
 use crate::error::{Error, Result, all_finite, positive};
 use crate::fem::inelastic_force::FiberState;
 use crate::fem::internal_energy::InternalEnergy;
@@ -16,11 +13,11 @@ use crate::fem::small_matrix::add_outer;
 
 /// Fibre of a section.
 #[derive(Debug, Clone)]
-struct Fiber {
+pub(super) struct Fiber {
     /// Coordinates y and z in the section, m.
-    position: [f64; 2],
+    pub(super) position: [f64; 2],
     /// Area, m².
-    area: f64,
+    pub(super) area: f64,
     material: Arc<dyn UniaxialMaterial>,
     /// Range of the fibre's internal variables among those of the section.
     variables: Range<usize>,
@@ -65,27 +62,27 @@ pub struct FiberSection {
 }
 
 /// Neighbouring fibres with one law, whose responses are evaluated together.
-struct Batch<'a> {
+pub(super) struct Batch<'a> {
     /// Index of the first fibre in the section.
-    first: usize,
-    fibers: &'a [Fiber],
-    material: &'a dyn UniaxialMaterial,
+    pub(super) first: usize,
+    pub(super) fibers: &'a [Fiber],
+    pub(super) material: &'a dyn UniaxialMaterial,
     /// Range of the fibres' internal variables among those of the section.
-    variables: Range<usize>,
+    pub(super) variables: Range<usize>,
 }
 
 impl Batch<'_> {
     /// Number of fibres.
-    fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.fibers.len()
     }
 
     /// Writes the strains by the deformations of the section to a buffer, and returns them.
     #[inline]
-    fn strains<'b, const N: usize>(
+    pub(super) fn strains<'b, const N: usize>(
         &self,
         deformations: &[f64; N],
-        buffer: &'b mut [f64; MAX_BATCH_FIBERS],
+        buffer: &'b mut [f64],
     ) -> &'b [f64] {
         for (strain, fiber) in buffer.iter_mut().zip(self.fibers) {
             *strain = fiber_strain(&strain_row(fiber.position), deformations);
@@ -94,7 +91,7 @@ impl Batch<'_> {
     }
 
     /// Adds the index of a fibre to its error.
-    fn within_fiber(&self, (index, fault): (usize, Error)) -> Error {
+    pub(super) fn within_fiber(&self, (index, fault): (usize, Error)) -> Error {
         within_fiber(self.first + index, fault)
     }
 }
@@ -103,7 +100,7 @@ impl Batch<'_> {
 ///
 /// The deformations are axial strain, curvature about z, and curvature about y of a section in space (1/m).
 #[inline]
-fn strain_row<const N: usize>([y, z]: [f64; 2]) -> [f64; N] {
+pub(super) fn strain_row<const N: usize>([y, z]: [f64; 2]) -> [f64; N] {
     let row = [1.0, -y, z];
     std::array::from_fn(|i| row[i])
 }
@@ -217,7 +214,7 @@ impl FiberSection {
     }
 
     /// The batches in the order of the fibres.
-    fn batches(&self) -> impl Iterator<Item = Batch<'_>> {
+    pub(super) fn batches(&self) -> impl Iterator<Item = Batch<'_>> {
         self.batches.iter().filter_map(|range| {
             let fibers = &self.fibers[range.clone()];
             let first = fibers.first()?;
@@ -226,37 +223,10 @@ impl FiberSection {
         })
     }
 
-    /// Resultants and tangent at the deformations of the section.
-    ///
-    /// # Errors
-    /// Any of a material, in an [`Error::Item`] that names the fibre.
-    pub(in crate::fem) fn response<const N: usize>(
-        &self,
-        deformations: &[f64; N],
-        variables: &[f64],
-    ) -> Result<SectionResponse<N>> {
-        let mut response = SectionResponse { forces: [0.0; N], tangent: [[0.0; N]; N] };
-        let mut strains = [0.0; MAX_BATCH_FIBERS];
-        let mut fiber_responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
-        for batch in self.batches() {
-            let strains = batch.strains(deformations, &mut strains);
-            let fiber_responses = &mut fiber_responses[..batch.len()];
-            batch
-                .material
-                .responses(strains, &variables[batch.variables.clone()], fiber_responses)
-                .map_err(|fault| batch.within_fiber(fault))?;
-            for (fiber, fiber_response) in batch.fibers.iter().zip(fiber_responses) {
-                response.add_fiber(fiber.area, &strain_row(fiber.position), fiber_response);
-            }
-        }
-        response.complete_tangent();
-        Ok(response)
-    }
-
     /// Energy per length of the beam, J/m.
     ///
     /// # Errors
-    /// As for [`FiberSection::response`].
+    /// Any of a material, in an [`Error::Item`] that names the fibre.
     pub(in crate::fem) fn energy<const N: usize>(
         &self,
         deformations: &[f64; N],
@@ -280,40 +250,10 @@ impl FiberSection {
         Ok(sum)
     }
 
-    /// Remainder of a step per length of the beam, J/m; `path`: deformations at its start, mid-step and end.
-    ///
-    /// # Errors
-    /// As for [`FiberSection::response`].
-    pub(in crate::fem) fn remainder<const N: usize>(
-        &self,
-        path: [&[f64; N]; 3],
-        variables: &[f64],
-    ) -> Result<f64> {
-        let mut sum = 0.0;
-        let mut strains = [[0.0; MAX_BATCH_FIBERS]; 3];
-        let mut remainders = [0.0; MAX_BATCH_FIBERS];
-        for batch in self.batches() {
-            let [start, midstep, end] = strains.each_mut();
-            let strains = [
-                batch.strains(path[0], start),
-                batch.strains(path[1], midstep),
-                batch.strains(path[2], end),
-            ];
-            let remainders = &mut remainders[..batch.len()];
-            batch
-                .material
-                .remainders(strains, &variables[batch.variables.clone()], remainders)
-                .map_err(|fault| batch.within_fiber(fault))?;
-            let remainders = batch.fibers.iter().zip(remainders);
-            sum += remainders.map(|(fiber, remainder)| fiber.area * *remainder).sum::<f64>();
-        }
-        Ok(sum)
-    }
-
     /// Strain and stress of each fibre.
     ///
     /// # Errors
-    /// As for [`FiberSection::response`].
+    /// As for [`FiberSection::energy`].
     pub(in crate::fem) fn fiber_states<const N: usize>(
         &self,
         deformations: &[f64; N],
@@ -329,19 +269,6 @@ impl FiberSection {
             states.push(FiberState::new(fiber.position, fiber.area, strain, response.stress));
         }
         Ok(states)
-    }
-
-    /// Commits the fibres at the deformations of the section.
-    pub(in crate::fem) fn commit<const N: usize>(
-        &self,
-        deformations: &[f64; N],
-        variables: &mut [f64],
-    ) {
-        let mut strains = [0.0; MAX_BATCH_FIBERS];
-        for batch in self.batches() {
-            let strains = batch.strains(deformations, &mut strains);
-            batch.material.commit_fibers(strains, &mut variables[batch.variables]);
-        }
     }
 }
 

@@ -12,6 +12,11 @@ pub(in crate::fem) struct SectionResponse<const N: usize> {
 }
 
 impl<const N: usize> SectionResponse<N> {
+    /// Response of a section without fibres.
+    pub(super) fn zero() -> Self {
+        Self { forces: [0.0; N], tangent: [[0.0; N]; N] }
+    }
+
     /// Adds a fibre; of the tangent only the upper triangle.
     #[inline]
     pub(super) fn add_fiber(&mut self, area: f64, row: &[f64; N], fiber: &UniaxialResponse) {

@@ -10,11 +10,16 @@
 #![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
 
 use super::elementary::{exponential, logarithm};
-use super::{MAX_BATCH_FIBERS, UniaxialResponse, padded_count};
+use super::{UniaxialResponse, padded_count};
 use crate::linalg::{Simd, WithSimd};
 
 /// Smallest logarithm of q and of its root: smaller ones have no effect.
 const MIN_POWER_LOGARITHM: f64 = -700.0;
+/// Largest number of branches of a loop.
+///
+/// A branch is a long chain of operations that wait for each other. Processors work on several vectors of a loop at a time.
+pub(super) const MAX_LOOP_BRANCHES: usize = 32;
+
 /// Curve from a reversal to the asymptote of a half cycle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SteelBranch {
@@ -65,21 +70,21 @@ impl SteelBranch {
 /// Branches and strains of several fibres, as a list of each quantity.
 #[derive(Clone, Copy)]
 pub(super) struct SteelBranches {
-    exponents: [f64; MAX_BATCH_FIBERS],
-    strain_ranges: [f64; MAX_BATCH_FIBERS],
-    reversal_strains: [f64; MAX_BATCH_FIBERS],
-    reversal_stresses: [f64; MAX_BATCH_FIBERS],
-    strains: [f64; MAX_BATCH_FIBERS],
+    exponents: [f64; MAX_LOOP_BRANCHES],
+    strain_ranges: [f64; MAX_LOOP_BRANCHES],
+    reversal_strains: [f64; MAX_LOOP_BRANCHES],
+    reversal_stresses: [f64; MAX_LOOP_BRANCHES],
+    strains: [f64; MAX_LOOP_BRANCHES],
 }
 
 impl SteelBranches {
     /// Branches of fibres without strain, with which loops fill their vectors.
     pub(super) const WITHOUT_STRAIN: Self = Self {
-        exponents: [1.0; MAX_BATCH_FIBERS],
-        strain_ranges: [1.0; MAX_BATCH_FIBERS],
-        reversal_strains: [0.0; MAX_BATCH_FIBERS],
-        reversal_stresses: [0.0; MAX_BATCH_FIBERS],
-        strains: [0.0; MAX_BATCH_FIBERS],
+        exponents: [1.0; MAX_LOOP_BRANCHES],
+        strain_ranges: [1.0; MAX_LOOP_BRANCHES],
+        reversal_strains: [0.0; MAX_LOOP_BRANCHES],
+        reversal_stresses: [0.0; MAX_LOOP_BRANCHES],
+        strains: [0.0; MAX_LOOP_BRANCHES],
     };
 
     /// Sets strain and branch of a fibre.
@@ -93,7 +98,7 @@ impl SteelBranches {
     }
 }
 
-/// Stresses and tangents of several fibres, at most [`MAX_BATCH_FIBERS`].
+/// Stresses and tangents of several fibres, at most [`MAX_LOOP_BRANCHES`].
 pub(super) struct BranchLoops<'a> {
     pub(super) branches: &'a SteelBranches,
     /// E, Pa.
@@ -115,9 +120,9 @@ impl WithSimd for BranchLoops<'_> {
             reversal_stresses,
             strains,
         } = self.branches;
-        let mut stresses = [0.0; MAX_BATCH_FIBERS];
-        let mut tangents = [0.0; MAX_BATCH_FIBERS];
-        for k in 0..padded_count(self.responses.len()) {
+        let mut stresses = [0.0; MAX_LOOP_BRANCHES];
+        let mut tangents = [0.0; MAX_LOOP_BRANCHES];
+        for k in 0..padded_count(self.responses.len(), MAX_LOOP_BRANCHES) {
             let branch = SteelBranch {
                 exponent: exponents[k],
                 strain_range: strain_ranges[k],

@@ -6,6 +6,8 @@ use super::steel_branch::SteelBranch;
 pub(super) const VARIABLE_COUNT: usize = 10;
 /// Index of the strain at the end of the last step among the variables; its stress follows.
 pub(super) const LAST_STRAIN: usize = 7;
+/// Index of the work of the stress among the variables.
+const WORK: usize = 9;
 
 /// Direction of loading since the last reversal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,9 +45,16 @@ impl SteelHistory {
         is_last.then_some(self.last[1])
     }
 
+    /// Whether a strain is on the branch of internal variables, without a reversal.
+    #[inline]
+    pub(super) fn follows_branch(strain: f64, variables: &[f64; VARIABLE_COUNT]) -> bool {
+        let direction = variables[0];
+        direction != 0.0 && direction * (strain - variables[LAST_STRAIN]) >= 0.0
+    }
+
     /// The branch of internal variables.
     #[inline]
-    pub(super) fn curve_of(variables: &[f64]) -> SteelBranch {
+    pub(super) fn curve_of(variables: &[f64; VARIABLE_COUNT]) -> SteelBranch {
         SteelBranch {
             exponent: variables[3],
             strain_range: variables[4],
@@ -54,7 +63,8 @@ impl SteelHistory {
     }
 
     /// The history of internal variables.
-    pub(super) fn read(variables: &[f64]) -> Self {
+    #[inline]
+    pub(super) fn read(variables: &[f64; VARIABLE_COUNT]) -> Self {
         let direction = match variables[0] {
             value if value > 0.0 => LoadingDirection::Tension,
             value if value < 0.0 => LoadingDirection::Compression,
@@ -66,18 +76,26 @@ impl SteelHistory {
             max_strain: variables[2],
             curve: Self::curve_of(variables),
             last: [variables[LAST_STRAIN], variables[LAST_STRAIN + 1]],
-            work: variables[9],
+            work: variables[WORK],
         }
     }
 
+    /// Overwrites strain and stress at the end of the last step, and the work of the stress.
+    #[inline]
+    pub(super) fn write_end(last: [f64; 2], work: f64, variables: &mut [f64; VARIABLE_COUNT]) {
+        variables[LAST_STRAIN] = last[0];
+        variables[LAST_STRAIN + 1] = last[1];
+        variables[WORK] = work;
+    }
+
     /// Overwrites internal variables by the history.
-    pub(super) fn write(&self, variables: &mut [f64]) {
+    pub(super) fn write(&self, variables: &mut [f64; VARIABLE_COUNT]) {
         let direction = match self.direction {
             LoadingDirection::Virgin => 0.0,
             LoadingDirection::Tension => 1.0,
             LoadingDirection::Compression => -1.0,
         };
-        let values = [
+        *variables = [
             direction,
             self.min_strain,
             self.max_strain,
@@ -89,8 +107,5 @@ impl SteelHistory {
             self.last[1],
             self.work,
         ];
-        for (variable, value) in variables.iter_mut().zip(values) {
-            *variable = value;
-        }
     }
 }

@@ -259,3 +259,64 @@ fn many_fibres_at_once_are_those_one_after_the_other() {
         }
     }
 }
+
+/// Fibres of several sections at once are those of one section after the other, also with the stresses of a step.
+#[test]
+fn fibres_of_several_sections_are_those_of_one_after_the_other() {
+    for (name, law, scale) in laws() {
+        let mut random = Random(31);
+        for [section_count, fiber_count] in [[1, 1], [2, 7], [5, 6], [5, 13], [4, 16]] {
+            let count = section_count * fiber_count;
+            let section_variable_count = fiber_count * law.variable_count();
+            let mut variables = vec![0.0; count * law.variable_count()];
+            variables.chunks_mut(law.variable_count()).for_each(|fiber| law.initialize(fiber));
+            let mut start = vec![0.0; count];
+            for step in 0..50 {
+                let text = format!("{name}, {section_count} sections, step {step}");
+                let end: Vec<f64> =
+                    start
+                        .iter()
+                        .map(|start| {
+                            if random.chance(0.1) {
+                                *start
+                            } else {
+                                scale * random.within(-2.0, 1.0)
+                            }
+                        })
+                        .collect();
+                let midstep: Vec<f64> =
+                    start.iter().zip(&end).map(|(start, end)| 0.5 * (start + end)).collect();
+                let sections: Vec<_> = variables.chunks(section_variable_count).collect();
+                let mut responses = vec![UniaxialResponse::default(); count];
+                law.responses_of_sections(&midstep, &sections, &mut responses).unwrap();
+                let mut stresses: Vec<f64> =
+                    responses.iter().map(|response| response.stress).collect();
+                let mut remainders = vec![0.0; count];
+                let mut energies = vec![InternalEnergy::default(); count];
+                let strains = [&start[..], &midstep, &end];
+                law.end_step(strains, &sections, &mut stresses, &mut remainders, &mut energies)
+                    .unwrap();
+                let mut committed = variables.clone();
+                for (k, variables) in variables.chunks_mut(section_variable_count).enumerate() {
+                    let fibers = k * fiber_count..(k + 1) * fiber_count;
+                    let strains = strains.map(|strains| &strains[fibers.clone()]);
+                    let mut expected = vec![UniaxialResponse::default(); fiber_count];
+                    law.responses(strains[1], variables, &mut expected).unwrap();
+                    assert_eq!(responses[fibers.clone()], expected, "{text}");
+                    let mut expected = vec![0.0; fiber_count];
+                    law.remainders(strains, variables, &mut expected).unwrap();
+                    assert_eq!(remainders[fibers.clone()], expected, "{text}");
+                    let mut expected = vec![InternalEnergy::default(); fiber_count];
+                    law.energies(strains[2], variables, &mut expected).unwrap();
+                    assert_eq!(energies[fibers.clone()], expected, "{text}");
+                    law.commit_fibers(strains[2], variables);
+                    let committed =
+                        &mut committed[k * section_variable_count..][..section_variable_count];
+                    law.commit_stresses(strains[2], &stresses[fibers], committed);
+                    assert_eq!(*committed, *variables, "{text}");
+                }
+                start = end;
+            }
+        }
+    }
+}

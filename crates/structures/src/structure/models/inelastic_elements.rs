@@ -1,11 +1,14 @@
 //! Nonlinear force of a model's elements with internal variables.
 
 mod element;
+mod scratch;
+mod step_end;
 
 use std::cmp::Ordering;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use element::InelasticElement;
+use scratch::Scratch;
 
 use crate::error::{CheckpointError, Result, all_finite, same_length};
 use crate::fem::{Direction, InelasticForce, Mesh, ReadStates, SolidState, read_points};
@@ -21,35 +24,6 @@ struct NamedState {
 fn by_strength(a: &SolidState, b: &SolidState) -> Ordering {
     let strengths = a.mobilised_strength.total_cmp(&b.mobilised_strength);
     strengths.then(a.plastic_strain.total_cmp(&b.plastic_strain))
-}
-
-/// Displacements, forces and matrix of one element, and the tangents of elements that compute them with their forces.
-struct Scratch {
-    displacements: [Vec<f64>; 3],
-    force: Vec<f64>,
-    matrix: Vec<f64>,
-    /// Tangents of all elements with a shared evaluation, one after the other.
-    tangents: Vec<f64>,
-    /// Displacement of the model to which `tangents` belong; empty for none.
-    tangent_displacement: Vec<f64>,
-}
-
-impl Scratch {
-    /// Scratch for elements.
-    fn new(elements: &[InelasticElement]) -> Self {
-        let max_order = elements.iter().map(|element| element.rows.len()).max().unwrap_or(0);
-        let shared_elements = elements.iter().filter(|element| element.has_shared_evaluation());
-        let tangent_count: usize =
-            shared_elements.map(|element| element.rows.len() * element.rows.len()).sum();
-        let zeros = vec![0.0; max_order];
-        Self {
-            displacements: [zeros.clone(), zeros.clone(), zeros.clone()],
-            force: zeros,
-            matrix: vec![0.0; max_order * max_order],
-            tangents: vec![0.0; tangent_count],
-            tangent_displacement: Vec::new(),
-        }
-    }
 }
 
 /// Elements of a model that have internal variables, as its nonlinear force.
@@ -207,24 +181,6 @@ impl InelasticElements {
         }
         Ok(sum)
     }
-
-    /// Work of all elements' forces inside a step that is neither stored nor dissipated.
-    fn total_remainder(&self, midstep: &[f64], end: &[f64]) -> Result<f64> {
-        self.check_length(midstep)?;
-        self.check_length(end)?;
-        let mut scratch = self.scratch();
-        let mut sum = 0.0;
-        for (element, force, variables) in self.forces() {
-            let displacements = [&self.committed_displacement, midstep, end];
-            for (buffer, displacement) in scratch.displacements.iter_mut().zip(displacements) {
-                element.gather(displacement, &mut buffer[..element.rows.len()]);
-            }
-            let path = scratch.displacements.each_ref().map(|u| &u[..element.rows.len()]);
-            let remainder = force.remainder(&element.coordinates, path, variables);
-            sum += remainder.map_err(|fault| fault.within(element.name()))?;
-        }
-        Ok(sum)
-    }
 }
 
 impl NonlinearForce for InelasticElements {
@@ -232,8 +188,9 @@ impl NonlinearForce for InelasticElements {
         self.check_length(displacement)?;
         same_length("nonlinear force of the model", force.len(), self.dof_count)?;
         let scratch = &mut *self.scratch();
-        scratch.tangent_displacement.clear();
+        scratch.forget_evaluations();
         let mut tangent_start = 0;
+        let mut stress_start = 0;
         for (element, inelastic_force, variables) in self.forces() {
             let order = element.rows.len();
             let u = &mut scratch.displacements[0][..order];
@@ -245,14 +202,19 @@ impl NonlinearForce for InelasticElements {
                 let matrix = &mut scratch.tangents[tangent_start..][..order * order];
                 tangent_start += order * order;
                 matrix.fill(0.0);
-                inelastic_force.force_and_tangent(coordinates, u, variables, element_force, matrix)
+                let stress_count = inelastic_force.stress_count();
+                let stresses = &mut scratch.stresses[stress_start..][..stress_count];
+                stress_start += stress_count;
+                let values = [element_force, matrix, stresses];
+                inelastic_force.force_tangent_and_stresses(coordinates, u, variables, values)
             } else {
                 inelastic_force.force(coordinates, u, variables, element_force)
             };
             result.map_err(|fault| fault.within(element.name()))?;
-            element.scatter(element_force, force);
+            element.scatter(&scratch.force[..order], force);
         }
         scratch.tangent_displacement.extend_from_slice(displacement);
+        scratch.has_midstep_stresses = true;
         Ok(())
     }
 
@@ -288,7 +250,11 @@ impl NonlinearForce for InelasticElements {
     /// Energies since the undeformed state; NaN for an element that returns an error.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         let unknown_energy = InternalEnergy { stored: f64::NAN, dissipated: f64::NAN };
-        let energy = self.total_energy(displacement).unwrap_or(unknown_energy);
+        let end_energy = self.scratch().end_energy_at(displacement);
+        let energy = match end_energy {
+            Some(energy) => energy,
+            None => self.total_energy(displacement).unwrap_or(unknown_energy),
+        };
         Some(InternalEnergy {
             stored: energy.stored - self.energy_at_rest.stored,
             dissipated: energy.dissipated - self.energy_at_rest.dissipated,
@@ -297,7 +263,7 @@ impl NonlinearForce for InelasticElements {
 
     /// The remainder of all elements; NaN for an element that returns an error.
     fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
-        Some(self.total_remainder(midstep, end).unwrap_or(f64::NAN))
+        Some(self.end_step(midstep, end).unwrap_or(f64::NAN))
     }
 
     /// Text of the element of highest mobilised strength at the first of `dofs` with an inelastic element.
@@ -328,15 +294,7 @@ impl NonlinearForce for InelasticElements {
         if self.check_length(displacement).is_err() {
             return;
         }
-        let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
-        scratch.tangent_displacement.clear();
-        for element in &self.elements {
-            let Some(force) = element.element.inelastic() else { continue };
-            let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
-            element.gather(displacement, element_displacement);
-            let variables = &mut self.variables[element.variables.clone()];
-            force.commit(&element.coordinates, element_displacement, variables);
-        }
+        self.commit_elements(displacement);
         self.committed_displacement.copy_from_slice(displacement);
     }
 
@@ -351,7 +309,7 @@ impl NonlinearForce for InelasticElements {
             return Err(CheckpointError::Corrupt { quantity: "state of the elements" }.into());
         }
         let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
-        scratch.tangent_displacement.clear();
+        scratch.forget_evaluations();
         let variable_count = self.variables.len();
         self.variables.copy_from_slice(&values[..variable_count]);
         self.committed_displacement.copy_from_slice(&values[variable_count..]);

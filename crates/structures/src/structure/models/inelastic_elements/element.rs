@@ -82,6 +82,11 @@ impl InelasticElement {
         self.element.inelastic().is_some_and(InelasticForce::has_shared_evaluation)
     }
 
+    /// Number of stresses that the model stores for the element.
+    pub(super) fn stress_count(&self) -> usize {
+        self.element.inelastic().map_or(0, InelasticForce::stress_count)
+    }
+
     /// Returns an error if links and ties prevent a deformation that can yield.
     pub(super) fn check_links(&self, force: &dyn InelasticForce) -> Result<()> {
         for deformation in force.yielding_deformations(&self.coordinates) {

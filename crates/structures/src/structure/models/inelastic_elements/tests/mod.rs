@@ -2,6 +2,7 @@
 
 mod composition;
 mod hinges;
+mod step_ends;
 
 use crate::error::Error;
 use crate::fem::hardening::{Hardening, HiddenElastic};
