@@ -9,7 +9,7 @@
 //! | w | part of the length of a section |
 //!
 //! The **displacement-based** element interpolates e by a, and q = Σ w aᵀ s(e). The **force-based** element is in
-//! `force_based.rs`; q and e at the end of the last step are among its internal variables, with a fingerprint of all steps.
+//! `force_based.rs`; q and e at the end of the last step are among its internal variables.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ use super::member_sections::StepEnd;
 use super::quadrature::BeamPoint;
 use super::section::FiberSection;
 use super::section_response::SectionResponse;
-use super::solution_memo::{SolutionMemo, next_fingerprint};
+use super::solution_memo::SolutionMemo;
 use crate::error::Result;
 use crate::fem::internal_energy::InternalEnergy;
 use crate::fem::small_matrix::{add_congruent, add_transposed, inverse, product};
@@ -51,11 +51,11 @@ pub(in crate::fem) struct BasicBeam<'a, const N: usize, const B: usize> {
 }
 
 impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
-    /// Number of internal variables: those of all fibres, then e, q, v and the fingerprint of a force-based element.
+    /// Number of internal variables: those of all fibres, then e, q and v of a force-based element.
     pub(in crate::fem) fn variable_count(&self) -> usize {
         let state_count = match self.formulation {
             BeamFormulation::DisplacementBased => 0,
-            BeamFormulation::ForceBased => N * self.points.len() + B + B + 1,
+            BeamFormulation::ForceBased => N * self.points.len() + B + B,
         };
         self.points.len() * self.section.variable_count() + state_count
     }
@@ -74,14 +74,10 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         index * count..(index + 1) * count
     }
 
-    /// Internal variables e, q, v and fingerprint of a force-based element.
-    pub(super) fn element_variables<'v>(&self, variables: &'v [f64]) -> &'v [f64] {
-        &variables[self.points.len() * self.section.variable_count()..]
-    }
-
     /// Internal variables e, q and v of a force-based element at the end of the last step.
     pub(super) fn last_state(&self, variables: &[f64]) -> LastState<N, B> {
-        let mut values = self.element_variables(variables).iter().copied();
+        let first = self.points.len() * self.section.variable_count();
+        let mut values = variables[first..].iter().copied();
         let mut next = || values.next().unwrap_or(0.0);
         let mut deformations = [[0.0; N]; MAX_SECTIONS];
         for section in deformations.iter_mut().take(self.points.len()) {
@@ -314,9 +310,6 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
             let values = deformations.chain(&state.forces).chain(v);
             for (variable, value) in last_state.iter_mut().zip(values) {
                 *variable = *value;
-            }
-            if let Some((fingerprint, values)) = last_state.split_last_mut() {
-                *fingerprint = next_fingerprint(*fingerprint, values);
             }
         }
     }

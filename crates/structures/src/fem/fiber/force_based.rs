@@ -68,7 +68,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
         variables: &[f64],
     ) -> Result<BasicState<N, B>> {
         let key = SolutionKey { length: self.length, v: *v };
-        let mut memo = self.memo.at(self.element_variables(variables));
+        let mut memo = self.memo.at(variables);
         if let Some(state) = memo.find(&key) {
             return Ok(state);
         }
