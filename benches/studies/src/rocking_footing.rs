@@ -51,6 +51,9 @@ pub(crate) struct RockingFootingOptions {
     docs: Option<PathBuf>,
 }
 
+/// Measured rows from one cross of the picture to the next.
+const CROSS_INTERVAL: usize = 3;
+
 /// A law and its name.
 type NamedLaw = (&'static str, Box<dyn InterfaceLaw>);
 
@@ -191,6 +194,7 @@ fn measured_panels(packets: &[RockingPacket]) -> [FigurePanel; 2] {
         .downward()
         .legend(SeriesLabelPosition::LowerLeft);
     with_curves([moments, settlements], curves_of(packets), |panel, points| {
+        let points = points.into_iter().step_by(CROSS_INTERVAL).collect();
         panel.crosses("measured", CURVE_GRAY, points)
     })
 }
