@@ -218,7 +218,7 @@ impl EnergyAccumulator {
         let StepData { scene, structure, .. } = data;
         let work = dot(&increment.nonlinear_force, &increment.total_displacement);
         let Increment { midstep_displacement, force_displacement, .. } = increment;
-        // The remainder first: elements with internal variables then know their energies at the end.
+        // The remainder first: elements with internal variables then store their energies at the end.
         let remainder = structure
             .nonlinear()
             .and_then(|force| force.remainder(midstep_displacement, force_displacement));

@@ -7,7 +7,7 @@ pub(super) const VARIABLE_COUNT: usize = 10;
 /// Index of the strain at the end of the last step among the variables; its stress follows.
 pub(super) const LAST_STRAIN: usize = 7;
 /// Index of the work of the stress among the variables.
-const WORK: usize = 9;
+const STRESS_WORK: usize = 9;
 
 /// Direction of loading since the last reversal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +76,7 @@ impl SteelHistory {
             max_strain: variables[2],
             curve: Self::curve_of(variables),
             last: [variables[LAST_STRAIN], variables[LAST_STRAIN + 1]],
-            work: variables[WORK],
+            work: variables[STRESS_WORK],
         }
     }
 
@@ -85,7 +85,7 @@ impl SteelHistory {
     pub(super) fn write_end(last: [f64; 2], work: f64, variables: &mut [f64; VARIABLE_COUNT]) {
         variables[LAST_STRAIN] = last[0];
         variables[LAST_STRAIN + 1] = last[1];
-        variables[WORK] = work;
+        variables[STRESS_WORK] = work;
     }
 
     /// Overwrites internal variables by the history.

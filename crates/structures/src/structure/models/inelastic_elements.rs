@@ -2,7 +2,6 @@
 
 mod element;
 mod scratch;
-mod step_end;
 
 use std::cmp::Ordering;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -181,6 +180,71 @@ impl InelasticElements {
         }
         Ok(sum)
     }
+
+    /// Work of all elements' forces inside a step that is neither stored nor dissipated.
+    ///
+    /// Remainder, energy and commit need the same stresses. The remainder comes first: it takes those at mid-step from the last
+    /// forces, and stores energies and stresses at the end for the other two.
+    fn end_step(&self, midstep: &[f64], end: &[f64]) -> Result<f64> {
+        self.check_length(midstep)?;
+        self.check_length(end)?;
+        let scratch = &mut *self.scratch();
+        scratch.end_displacement.clear();
+        // From here on the stresses become those at the end.
+        let has_midstep_stresses = std::mem::take(&mut scratch.has_midstep_stresses)
+            && scratch.tangent_displacement == midstep;
+        let mut remainder = 0.0;
+        let mut energy = InternalEnergy::default();
+        let mut stress_start = 0;
+        for (element, force, variables) in self.forces() {
+            let order = element.rows.len();
+            let displacements = [&self.committed_displacement, midstep, end];
+            for (buffer, displacement) in scratch.displacements.iter_mut().zip(displacements) {
+                element.gather(displacement, &mut buffer[..order]);
+            }
+            let Scratch { displacements, force: element_force, matrix, stresses, .. } =
+                &mut *scratch;
+            let path = displacements.each_ref().map(|u| &u[..order]);
+            let stress_count = force.stress_count();
+            let stresses = &mut stresses[stress_start..][..stress_count];
+            stress_start += stress_count;
+            if stress_count > 0 && !has_midstep_stresses {
+                let unused_force = &mut element_force[..order];
+                let values = [unused_force, &mut matrix[..order * order], &mut *stresses];
+                force
+                    .force_tangent_and_stresses(&element.coordinates, path[1], variables, values)
+                    .map_err(|fault| fault.within(element.name()))?;
+            }
+            let (element_remainder, element_energy) = force
+                .end_step(&element.coordinates, path, variables, stresses)
+                .map_err(|fault| fault.within(element.name()))?;
+            remainder += element_remainder;
+            energy = energy + element_energy;
+        }
+        scratch.end_displacement.extend_from_slice(end);
+        scratch.end_energy = energy;
+        Ok(remainder)
+    }
+
+    /// Commits all elements at a displacement, with their stresses if it ends the last step.
+    fn commit_elements(&mut self, displacement: &[f64]) {
+        let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let has_end_stresses = scratch.end_energy_at(displacement).is_some();
+        scratch.discard_evaluations();
+        let mut stress_start = 0;
+        for element in &self.elements {
+            let Some(force) = element.element.inelastic() else { continue };
+            let stress_count = force.stress_count();
+            let stresses = &scratch.stresses[stress_start..][..stress_count];
+            stress_start += stress_count;
+            let stresses = if has_end_stresses { stresses } else { &[] };
+            let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
+            element.gather(displacement, element_displacement);
+            let variables = &mut self.variables[element.variables.clone()];
+            let coordinates = &element.coordinates;
+            force.commit_stresses(coordinates, element_displacement, stresses, variables);
+        }
+    }
 }
 
 impl NonlinearForce for InelasticElements {
@@ -188,7 +252,7 @@ impl NonlinearForce for InelasticElements {
         self.check_length(displacement)?;
         same_length("nonlinear force of the model", force.len(), self.dof_count)?;
         let scratch = &mut *self.scratch();
-        scratch.forget_evaluations();
+        scratch.discard_evaluations();
         let mut tangent_start = 0;
         let mut stress_start = 0;
         for (element, inelastic_force, variables) in self.forces() {
@@ -309,7 +373,7 @@ impl NonlinearForce for InelasticElements {
             return Err(CheckpointError::Corrupt { quantity: "state of the elements" }.into());
         }
         let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
-        scratch.forget_evaluations();
+        scratch.discard_evaluations();
         let variable_count = self.variables.len();
         self.variables.copy_from_slice(&values[..variable_count]);
         self.committed_displacement.copy_from_slice(&values[variable_count..]);

@@ -45,8 +45,8 @@ impl Scratch {
         }
     }
 
-    /// Forgets what evaluations at other displacements or internal variables have left.
-    pub(super) fn forget_evaluations(&mut self) {
+    /// Discards values of evaluations at other displacements or internal variables.
+    pub(super) fn discard_evaluations(&mut self) {
         self.tangent_displacement.clear();
         self.has_midstep_stresses = false;
         self.end_displacement.clear();

@@ -1,4 +1,4 @@
-//! Ends of steps from the stresses of the last forces, against evaluations that know none.
+//! Ends of steps from the stresses of the last forces, against evaluations without stored stresses.
 
 use super::displacements;
 use crate::fem::{
