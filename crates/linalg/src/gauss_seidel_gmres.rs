@@ -74,7 +74,7 @@ impl GaussSeidelGmres {
 
     /// Overwrites `rhs` with a solution; `tolerance` bounds its preconditioned residual.
     ///
-    /// The residual is relative to that of the zero vector.
+    /// The residual is relative to the residual of the zero vector.
     ///
     /// Returns the number of iterations; `None`, with the same `rhs`, if they do not reach the tolerance.
     pub fn solve(&mut self, rhs: &mut [f64], tolerance: f64) -> Option<usize> {

@@ -125,7 +125,8 @@ pub trait InelasticForce: Send + Sync {
 
     /// Remainder of a step, and energies at its end, as the two methods. Default: one after the other.
     ///
-    /// `stresses`: those that [`force_tangent_and_stresses`](InelasticForce::force_tangent_and_stresses) wrote at mid-step. They become those for
+    /// `stresses`: stresses at mid-step from
+    /// [`force_tangent_and_stresses`](InelasticForce::force_tangent_and_stresses). They become the stresses for
     /// [`commit_stresses`](InelasticForce::commit_stresses).
     ///
     /// # Errors

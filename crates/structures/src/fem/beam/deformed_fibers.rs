@@ -225,7 +225,7 @@ impl<const N: usize, const B: usize, const D: usize> DeformedFiberBeam<'_, N, B,
 
     /// Overwrites `variables` by those after a step that ended in this state.
     ///
-    /// `stresses`: those of [`end_step`](DeformedFiberBeam::end_step); empty without them.
+    /// `stresses`: stresses of the fibres after [`end_step`](DeformedFiberBeam::end_step); empty if they are not stored.
     pub(super) fn commit(&self, stresses: &[f64], variables: &mut [f64]) {
         self.beam.commit(&self.state, &self.v, stresses, variables);
     }

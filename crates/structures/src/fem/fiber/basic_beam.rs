@@ -294,7 +294,7 @@ impl<const N: usize, const B: usize> BasicBeam<'_, N, B> {
 
     /// Overwrites `variables` by those after a step that ended in a state with basic deformations v.
     ///
-    /// `stresses`: those of [`end_step`](BasicBeam::end_step); empty without them.
+    /// `stresses`: stresses of the fibres after [`end_step`](BasicBeam::end_step); empty if they are not stored.
     pub(in crate::fem) fn commit(
         &self,
         state: &BasicState<N, B>,

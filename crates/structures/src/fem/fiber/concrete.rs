@@ -273,20 +273,6 @@ impl UniaxialMaterial for Concrete {
         Ok(())
     }
 
-    fn remainders(
-        &self,
-        strains: [&[f64]; 3],
-        variables: &[f64],
-        remainders: &mut [f64],
-    ) -> std::result::Result<(), (usize, Error)> {
-        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
-        self.responses(strains[1], variables, &mut responses[..remainders.len()])?;
-        let mut stresses = responses.map(|response| response.stress);
-        let mut energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
-        let energies = &mut energies[..remainders.len()];
-        self.end_step(strains, &[variables], &mut stresses, remainders, energies)
-    }
-
     /// The remainder is the work of the stresses at mid-step less the changes of energy.
     fn end_step(
         &self,

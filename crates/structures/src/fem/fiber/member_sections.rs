@@ -145,7 +145,7 @@ impl FiberSection {
 
     /// Commits the fibres at the deformations of the sections.
     ///
-    /// `stresses`: those of [`end_step`](FiberSection::end_step); empty without them.
+    /// `stresses`: stresses of the fibres after [`end_step`](FiberSection::end_step); empty if they are not stored.
     pub(super) fn commit<const N: usize>(
         &self,
         deformations: &[[f64; N]],

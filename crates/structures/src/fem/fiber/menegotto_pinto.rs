@@ -319,25 +319,10 @@ impl UniaxialMaterial for MenegottoPinto {
 
     /// (σ(midstep) − (σ(start) + σ(end))/2) (end − start): work is integrated by the trapezoidal rule.
     fn remainder(&self, strains: [f64; 3], variables: &[f64]) -> Result<f64> {
-        checked(variables)?;
-        let mut remainder = [0.0];
-        let strains = strains.each_ref().map(std::slice::from_ref);
-        self.remainders(strains, variables, &mut remainder).map_err(|(_, fault)| fault)?;
-        Ok(remainder[0])
-    }
-
-    fn remainders(
-        &self,
-        strains: [&[f64]; 3],
-        variables: &[f64],
-        remainders: &mut [f64],
-    ) -> std::result::Result<(), (usize, Error)> {
-        let mut responses = [UniaxialResponse::default(); MAX_BATCH_FIBERS];
-        self.responses(strains[1], variables, &mut responses[..remainders.len()])?;
-        let mut stresses = responses.map(|response| response.stress);
-        let mut energies = [InternalEnergy::default(); MAX_BATCH_FIBERS];
-        let energies = &mut energies[..remainders.len()];
-        self.end_step(strains, &[variables], &mut stresses, remainders, energies)
+        let variables = checked(variables)?;
+        let stresses = [strains[1], strains[2]]
+            .map(|strain| self.on_branch(strain, &self.history_at(strain, variables)).stress);
+        Ok(self.remainder_with(strains, stresses, variables))
     }
 
     fn end_step(

@@ -201,30 +201,9 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
         Ok(())
     }
 
-    /// Overwrites `remainders` with those of several fibres, as [`responses`](UniaxialMaterial::responses).
-    ///
-    /// # Errors
-    /// The first of a fibre, with its index.
-    #[doc(hidden)]
-    fn remainders(
-        &self,
-        strains: [&[f64]; 3],
-        variables: &[f64],
-        remainders: &mut [f64],
-    ) -> std::result::Result<(), (usize, Error)> {
-        let count = self.variable_count();
-        for (k, remainder) in remainders.iter_mut().enumerate() {
-            let fiber_variables = &variables[k * count..(k + 1) * count];
-            let fiber_strains = strains.map(|strains| strains[k]);
-            *remainder =
-                self.remainder(fiber_strains, fiber_variables).map_err(|fault| (k, fault))?;
-        }
-        Ok(())
-    }
-
     /// Overwrites remainders of a step and energies at its end, of the same fibres of several sections.
     ///
-    /// `strains`, `variables`, and errors are as for [`remainders`](UniaxialMaterial::remainders) and
+    /// `strains`: at the start, at mid-step and at the end. `variables` and errors are as for
     /// [`responses_of_sections`](UniaxialMaterial::responses_of_sections). `stresses` are those at mid-step. A law whose
     /// [`commit_stresses`](UniaxialMaterial::commit_stresses) needs the stresses at the end overwrites them.
     ///
@@ -239,12 +218,18 @@ pub trait UniaxialMaterial: Any + Debug + Send + Sync {
         remainders: &mut [f64],
         energies: &mut [InternalEnergy],
     ) -> std::result::Result<(), (usize, Error)> {
-        let count = remainders.len() / variables.len().max(1);
-        for (k, variables) in variables.iter().enumerate() {
-            let fibers = k * count..(k + 1) * count;
-            let strains = strains.map(|strains| &strains[fibers.clone()]);
-            self.remainders(strains, variables, &mut remainders[fibers.clone()])?;
-            self.energies(strains[2], variables, &mut energies[fibers])?;
+        let fiber_count = remainders.len() / variables.len().max(1);
+        let variable_count = self.variable_count();
+        for (section, variables) in variables.iter().enumerate() {
+            let first = section * fiber_count;
+            for k in 0..fiber_count {
+                let fiber_variables = &variables[k * variable_count..(k + 1) * variable_count];
+                let fiber_strains = strains.map(|strains| strains[first + k]);
+                remainders[first + k] =
+                    self.remainder(fiber_strains, fiber_variables).map_err(|fault| (k, fault))?;
+            }
+            let fibers = first..first + fiber_count;
+            self.energies(&strains[2][fibers.clone()], variables, &mut energies[fibers])?;
         }
         Ok(())
     }
