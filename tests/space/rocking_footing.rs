@@ -6,8 +6,8 @@ use basemat::interface::{CyclicYielding, Yielding};
 
 use basemat_problems::assert_close;
 use basemat_problems::rocking_footing::{
-    BEARING_PRESSURE, CYCLES_PER_PACKET, FOOTING_SIDES, FRICTION_COEFFICIENT, SlowRockingTest,
-    VERTICAL_FORCE, fitted_law, measured_packets,
+    BEARING_PRESSURE, CYCLES_PER_PACKET, FOOTING_SIDES, FRICTION_COEFFICIENT, RockingPacket,
+    SlowRockingTest, VERTICAL_FORCE, fitted_law, measured_packets,
 };
 
 /// Means of the measured moments both ways, and settlements over the footing's length, of the packets a to e.
@@ -69,7 +69,7 @@ fn settlements_of_equal_cycles(law: CyclicYielding) -> Vec<f64> {
         ..SlowRockingTest::with_amplitudes(&[])
     };
     let run = test.run(law).unwrap();
-    let settlements: Vec<f64> = run.packets.iter().map(|packet| packet.settlement()).collect();
+    let settlements: Vec<f64> = run.packets.iter().map(RockingPacket::settlement).collect();
     let pairs = settlements.windows(2);
     pairs.map(|pair| (pair[1] - pair[0]) / CYCLES_PER_PACKET as f64).collect()
 }
