@@ -47,8 +47,10 @@ const SHORT_RANGE: f64 = 0.1;
 /// Samples of the record before its strong part.
 const WEAK_SAMPLES: usize = 70;
 const STEP_COUNT: usize = 1500;
-/// Each time is the smallest of this many runs. The runs of the laws alternate.
-const REPETITION_COUNT: usize = 7;
+/// Each ratio is the median of this many, an odd number.
+///
+/// The runs of the laws alternate, so that other processes and the processor's frequency change both times alike.
+const REPETITION_COUNT: usize = 9;
 /// Largest processor time of a step, relative to `Yielding`.
 const MAX_TIME_RATIO: f64 = 1.5;
 
@@ -138,23 +140,30 @@ fn measure(cells: CellCase, law: LawCase, steps: usize) -> Result<SettlingStepCo
     Ok(SettlingStepCost { cells: simulation.ground().elements().len(), seconds, trials })
 }
 
-/// Least costs of the laws in one scene; the runs of the laws alternate.
-fn least_costs(
+/// Costs of the laws in one scene, of each repetition.
+fn costs(
     cells: CellCase,
     repetitions: usize,
     steps: usize,
-) -> Result<[SettlingStepCost; LAW_CASES.len()], AnyError> {
-    let unmeasured = SettlingStepCost { cells: 0, seconds: f64::INFINITY, trials: 0.0 };
-    let mut costs = [unmeasured; LAW_CASES.len()];
+) -> Result<Vec<[SettlingStepCost; LAW_CASES.len()]>, AnyError> {
+    let mut costs = Vec::with_capacity(repetitions);
     for _ in 0..repetitions {
-        for (cost, law) in costs.iter_mut().zip(LAW_CASES) {
-            let measured_cost = measure(cells, law, steps)?;
-            if measured_cost.seconds < cost.seconds {
-                *cost = measured_cost;
-            }
-        }
+        let [yielding, long, short] = LAW_CASES;
+        costs.push([
+            measure(cells, yielding, steps)?,
+            measure(cells, long, steps)?,
+            measure(cells, short, steps)?,
+        ]);
     }
     Ok(costs)
+}
+
+/// Median of the ratios of a law's times to those of [`LawCase::Yielding`].
+fn median_ratio(costs: &[[SettlingStepCost; LAW_CASES.len()]], law: usize) -> f64 {
+    let mut ratios: Vec<f64> =
+        costs.iter().map(|cost| cost[law].seconds / cost[0].seconds).collect();
+    ratios.sort_unstable_by(f64::total_cmp);
+    ratios[ratios.len() / 2]
 }
 
 /// Runs the study.
@@ -167,19 +176,20 @@ pub(crate) fn run(options: &SettlingCostOptions) -> Result<(), AnyError> {
     print!("{table}");
     let mut slow_cases = Vec::new();
     for cells in CELL_CASES {
-        let [yielding, long, short] = least_costs(cells, repetitions, steps)?;
+        let costs = costs(cells, repetitions, steps)?;
+        let [yielding, long, short] = costs[0];
         let name = match cells {
             CellCase::Strips(count) => format!("{count} strips"),
             CellCase::Cells(_) => format!("{} in plan", yielding.cells),
         };
-        let long_ratio = long.seconds / yielding.seconds;
-        let short_ratio = short.seconds / yielding.seconds;
+        let [long_ratio, short_ratio] = [1, 2].map(|law| median_ratio(&costs, law));
         let row = format!(
             "|{name}|{:.2}|{long_ratio:.2}, {:.2}|{short_ratio:.2}, {:.2}|\n",
             yielding.trials, long.trials, short.trials
         );
         print!("{row}");
-        println!("  `Yielding`: {:.1} µs a step", 1e6 * yielding.seconds);
+        let fastest = costs.iter().map(|cost| cost[0].seconds).fold(f64::INFINITY, f64::min);
+        println!("  `Yielding`: {:.1} µs a step", 1e6 * fastest);
         table.push_str(&row);
         if long_ratio.max(short_ratio) > MAX_TIME_RATIO {
             slow_cases.push(name);

@@ -11,15 +11,17 @@
 //! t + (D + L)⁻¹ D (v − t): two substitutions, which read each entry of A once (Eisenstat 1981, SIAM J. Sci. Stat. Comput.
 //! 2, 1). The residual in the norm of this system does not grow in any iteration (Saad & Schultz 1986, SIAM J. Sci. Stat.
 //! Comput. 7, 856).
+//!
+//! The matrix has single precision: substitutions then read half as much memory, which takes most of their time.
 
 #![allow(
     clippy::inline_always,
     reason = "inlined functions are compiled for the instruction set of their caller"
 )]
+#![allow(clippy::cast_possible_truncation, reason = "the matrix has single precision")]
 
 use super::product::{
-    ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, add_rows, dot, transposed_multiply_add,
-    vectorized,
+    ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, dot, transposed_multiply_add, vectorized,
 };
 
 /// Largest number of iterations; a factorization takes less time than many more.
@@ -30,11 +32,17 @@ const MAX_KRYLOV_VECTORS: usize = 32;
 pub struct GaussSeidelGmres {
     order: usize,
     /// A, column by column.
-    columns: Vec<f64>,
+    columns: Vec<f32>,
+    /// D.
+    diagonal: Vec<f64>,
     /// V, one vector after the other.
     basis: Vec<f64>,
     /// Right-hand side, then a product with the preconditioned matrix.
     product: Vec<f64>,
+    /// Vector of a substitution.
+    substituted: Vec<f32>,
+    /// Column in double precision.
+    column: Vec<f64>,
 }
 
 impl GaussSeidelGmres {
@@ -45,13 +53,18 @@ impl GaussSeidelGmres {
         self.columns.reserve_exact(capacity * capacity);
         self.basis.clear();
         self.basis.reserve_exact(capacity * (MAX_KRYLOV_VECTORS + 1));
-        self.product.clear();
-        self.product.reserve_exact(capacity);
+        self.substituted.clear();
+        self.substituted.reserve_exact(capacity);
+        for vector in [&mut self.diagonal, &mut self.product, &mut self.column] {
+            vector.clear();
+            vector.reserve_exact(capacity);
+        }
     }
 
     /// Stores the matrix of `order` whose columns `append_column` writes, one after the other.
     ///
-    /// Returns false if an entry on the diagonal is not finite and above zero: sweeps then need not converge.
+    /// Returns false if an entry on the diagonal is not finite and above zero in single precision: sweeps then need not
+    /// converge.
     pub fn set_columns(
         &mut self,
         order: usize,
@@ -59,30 +72,29 @@ impl GaussSeidelGmres {
     ) -> bool {
         self.order = order;
         self.columns.clear();
-        (0..order).for_each(|column| append_column(column, &mut self.columns));
-        self.diagonal().all(|entry| entry > 0.0 && entry.is_finite())
-    }
-
-    /// A column of the matrix.
-    pub fn column(&self, k: usize) -> &[f64] {
-        &self.columns[k * self.order..][..self.order]
-    }
-
-    fn diagonal(&self) -> impl Iterator<Item = f64> {
-        (0..self.order).map(|k| self.columns[k * (self.order + 1)])
+        self.diagonal.clear();
+        for k in 0..order {
+            self.column.clear();
+            append_column(k, &mut self.column);
+            self.columns.extend(self.column.iter().map(|entry| *entry as f32));
+            self.diagonal.push(f64::from(self.columns[k * (order + 1)]));
+        }
+        self.diagonal.iter().all(|entry| *entry > 0.0 && entry.is_finite())
     }
 
     /// Overwrites `rhs` with a solution; `tolerance` bounds its preconditioned residual.
     ///
-    /// The residual is relative to the residual of the zero vector.
+    /// The residual is relative to the residual of the zero vector, and exact up to the rounding errors of single
+    /// precision: tolerances below 1e-5 gain nothing.
     ///
     /// Returns the number of iterations; `None`, with the same `rhs`, if they do not reach the tolerance.
     pub fn solve(&mut self, rhs: &mut [f64], tolerance: f64) -> Option<usize> {
         let order = self.order;
         let mut least_squares = LeastSquares::default();
-        self.product.clear();
-        self.product.extend_from_slice(rhs);
-        vectorized(Forward { columns: &self.columns, x: &mut self.product });
+        let Self { columns, product, substituted, .. } = self;
+        substitute_forward(columns, substituted, rhs.iter().copied());
+        product.clear();
+        product.extend(substituted.iter().copied().map(f64::from));
         self.basis.clear();
         let norm = self.append_to_basis();
         if norm == 0.0 {
@@ -120,39 +132,51 @@ impl GaussSeidelGmres {
 
     /// Overwrites the product with the preconditioned matrix times a vector of the basis.
     fn multiply(&mut self, vector: usize) {
-        let Self { order, columns, basis, product, .. } = self;
+        let Self { order, columns, diagonal, basis, product, substituted, .. } = self;
         let vector = &basis[vector * *order..][..*order];
+        substitute_backward(
+            columns,
+            substituted,
+            vector.iter().zip(&*diagonal).map(|(v, d)| v * d),
+        );
         product.clear();
-        product.extend(vector.iter().zip(columns.iter().step_by(*order + 1)).map(|(v, d)| v * d));
-        vectorized(Backward { columns, x: product });
-        // The second substitution takes the place of the next vector.
-        let end = basis.len();
-        basis.extend_from_within(end - *order..);
-        let correction = &mut basis[end..];
-        for ((value, t), d) in
-            correction.iter_mut().zip(product.iter()).zip(columns.iter().step_by(*order + 1))
-        {
-            *value = d * (*value - t);
-        }
-        vectorized(Forward { columns, x: correction });
+        product.extend(substituted.iter().copied().map(f64::from));
+        let differences = vector.iter().zip(&*product).zip(diagonal);
+        substitute_forward(columns, substituted, differences.map(|((v, t), d)| *d * (v - t)));
         product
             .iter_mut()
-            .zip(correction)
-            .for_each(|(value, correction)| *value += *correction);
-        basis.truncate(end);
+            .zip(substituted)
+            .for_each(|(value, correction)| *value += f64::from(*correction));
     }
 
     /// Overwrites `solution` with (D + U)⁻¹ D V c, c: `coefficients`.
     fn combine(&mut self, coefficients: &[f64; MAX_KRYLOV_VECTORS], solution: &mut [f64]) {
-        let Self { order, columns, basis, .. } = self;
+        let Self { order, columns, diagonal, basis, substituted, .. } = self;
         solution.fill(0.0);
         for (vector, coefficient) in basis.chunks_exact(*order).zip(coefficients) {
             transposed_multiply_add(vector, 1.0, &[*coefficient], solution);
         }
-        let diagonal = columns.iter().step_by(*order + 1);
-        solution.iter_mut().zip(diagonal).for_each(|(value, d)| *value *= d);
-        vectorized(Backward { columns, x: solution });
+        substitute_backward(
+            columns,
+            substituted,
+            solution.iter().zip(diagonal).map(|(x, d)| x * *d),
+        );
+        solution.iter_mut().zip(substituted).for_each(|(x, value)| *x = f64::from(*value));
     }
+}
+
+/// Overwrites `x` with (D + L)⁻¹ b, b: `values`.
+fn substitute_forward(columns: &[f32], x: &mut Vec<f32>, values: impl Iterator<Item = f64>) {
+    x.clear();
+    x.extend(values.map(|value| value as f32));
+    vectorized(Forward { columns, x });
+}
+
+/// Overwrites `x` with (D + U)⁻¹ b, b: `values`.
+fn substitute_backward(columns: &[f32], x: &mut Vec<f32>, values: impl Iterator<Item = f64>) {
+    x.clear();
+    x.extend(values.map(|value| value as f32));
+    vectorized(Backward { columns, x });
 }
 
 /// The least-squares problem of GMRES, whose Hessenberg matrix rotations make triangular.
@@ -210,8 +234,8 @@ impl LeastSquares {
 
 /// Substitution x ← (D + L)⁻¹ x.
 struct Forward<'a> {
-    columns: &'a [f64],
-    x: &'a mut [f64],
+    columns: &'a [f32],
+    x: &'a mut [f32],
 }
 
 impl WithSimd for Forward<'_> {
@@ -234,10 +258,10 @@ impl WithSimd for Forward<'_> {
             }
             if !rows_below.is_empty() {
                 // Only the last block is incomplete, without rows below.
-                let below = std::array::from_fn(|j| {
+                let below: [&[f32]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| {
                     &columns[(begin + j) * order + begin + block_len..][..rows_below.len()]
                 });
-                add_rows(simd, std::array::from_fn(|j| -block[j]), below, rows_below);
+                subtract_columns(simd, block, below, rows_below);
             }
             begin += block_len;
         }
@@ -246,8 +270,8 @@ impl WithSimd for Forward<'_> {
 
 /// Substitution x ← (D + U)⁻¹ x.
 struct Backward<'a> {
-    columns: &'a [f64],
-    x: &'a mut [f64],
+    columns: &'a [f32],
+    x: &'a mut [f32],
 }
 
 impl WithSimd for Backward<'_> {
@@ -271,10 +295,37 @@ impl WithSimd for Backward<'_> {
             }
             if !rows_above.is_empty() {
                 // Only the first block is incomplete, without rows above.
-                let above = std::array::from_fn(|j| &columns[(begin + j) * order..][..begin]);
-                add_rows(simd, std::array::from_fn(|j| -block[j]), above, rows_above);
+                let above: [&[f32]; COLUMNS_AT_ONCE] =
+                    std::array::from_fn(|j| &columns[(begin + j) * order..][..begin]);
+                subtract_columns(simd, block, above, rows_above);
             }
             end = begin;
+        }
+    }
+}
+
+/// y ← y − Σ factor · column for as many columns as there are factors in a complete block.
+#[inline(always)]
+fn subtract_columns<S: Simd>(
+    simd: S,
+    factors: &[f32],
+    columns: [&[f32]; COLUMNS_AT_ONCE],
+    y: &mut [f32],
+) {
+    let vector_factors: [S::f32s; COLUMNS_AT_ONCE] =
+        std::array::from_fn(|k| simd.splat_f32s(-factors[k]));
+    let [a, b, c, d] = columns.map(|column| S::as_simd_f32s(column));
+    let y_parts = S::as_mut_simd_f32s(y);
+    let columns = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
+    for (y, ((a, b), (c, d))) in y_parts.0.iter_mut().zip(columns) {
+        let first_sum = simd.mul_add_e_f32s(*a, vector_factors[0], *y);
+        let second_sum = simd.mul_add_e_f32s(*b, vector_factors[1], first_sum);
+        let third_sum = simd.mul_add_e_f32s(*c, vector_factors[2], second_sum);
+        *y = simd.mul_add_e_f32s(*d, vector_factors[3], third_sum);
+    }
+    for (i, y) in y_parts.1.iter_mut().enumerate() {
+        for (column, factor) in [a.1, b.1, c.1, d.1].iter().zip(factors) {
+            *y -= column[i] * factor;
         }
     }
 }
@@ -304,9 +355,9 @@ mod tests {
             assert!(system.set_columns(order, |j, values| {
                 values.extend(matrix.chunks_exact(order).map(|row| row[j]));
             }));
-            assert!(system.solve(&mut x, 1e-12).is_some(), "order {order}");
+            assert!(system.solve(&mut x, 1e-5).is_some(), "order {order}");
             for (a, b) in x.iter().zip(&expected) {
-                assert!((a - b).abs() < 1e-10, "order {order}: {a} for {b}");
+                assert!((a - b).abs() < 1e-4, "order {order}: {a} for {b}");
             }
         }
     }

@@ -1,5 +1,6 @@
 //! W in the form whose products take the least time, chosen when W is read.
 
+use super::lattice::LatticeCompliance;
 use super::low_rank::LowRankCompliance;
 use super::near_field::NearFieldBlocks;
 
@@ -12,6 +13,8 @@ pub(super) enum ComplianceForm {
     /// The stored entries alone.
     #[default]
     Entries,
+    /// Elements on a lattice; a force on one moves many others much.
+    Lattice(Box<LatticeCompliance>),
     /// Elements on a lattice; a force on one moves few others much.
     NearField(Box<NearFieldBlocks>),
     /// Independent elements under a structure with few modes; no entries are stored.

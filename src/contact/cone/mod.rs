@@ -28,7 +28,9 @@ mod acceleration;
 mod bounds;
 mod collective;
 mod compliance;
+mod curves;
 mod group;
+mod lattice;
 mod low_rank;
 mod low_rank_system;
 mod near_field;
@@ -46,9 +48,8 @@ mod tests;
 mod unknowns;
 
 use super::SearchMethod;
-use super::linearisation::Linearisation;
 use super::problem::{ContactInput, ContactResponse};
-use crate::error::{LawError, StepError};
+use crate::error::StepError;
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
 use crate::interface::Mode;
 use compliance::ComplianceForm;
@@ -62,8 +63,6 @@ use status::{Normal, Status, Tangential};
 ///
 /// More exact forces gain nothing: tangents and forces then converge together.
 const TANGENT_TOLERANCE: f64 = 1e-2;
-/// Error of an accepted solution, relative to the residual at which it is accepted.
-const SOLUTION_ERROR_FACTOR: f64 = 10.0;
 /// Gap at which a bond breaks, relative to the largest displacement: above its rounding.
 const BOND_BREAKING_GAP: f64 = 1e-12;
 
@@ -176,84 +175,6 @@ impl ForceSearch {
                 return Ok(method);
             }
         }
-    }
-
-    /// Solves with other tangents until the pressures are on the curves of their laws.
-    ///
-    /// `first_method`: of the present forces, up to [`TANGENT_TOLERANCE`].
-    fn follow_curves(
-        &mut self,
-        input: &ContactInput<'_>,
-        first_method: SearchMethod,
-        modes: &mut [Mode],
-        trials: &mut usize,
-    ) -> Result<SearchMethod, StepError> {
-        let mut method = first_method;
-        let mut linearisation = Linearisation::new();
-        self.problem.relative_tolerance = RELATIVE_RESIDUAL_TOLERANCE;
-        let mut is_exact = false;
-        loop {
-            let has_moved = self.move_tangents(input, &mut linearisation)?;
-            let is_solved = !has_moved && (is_exact || self.problem.is_solved());
-            let gap = BOND_BREAKING_GAP * input.length_scale;
-            if is_solved && (is_exact || !self.break_bonds(gap)) {
-                return Ok(method);
-            }
-            linearisation.is_done()?;
-            let found = self.solve_again(input, trials)?;
-            method = method.max(found);
-            self.write_modes(modes);
-            is_exact = true;
-        }
-    }
-
-    /// Moves the tangents towards the present forces; returns whether any has moved.
-    ///
-    /// A tangent stays where the force is near enough to the curve of its law.
-    fn move_tangents(
-        &mut self,
-        input: &ContactInput<'_>,
-        linearisation: &mut Linearisation,
-    ) -> Result<bool, LawError> {
-        linearisation.begin();
-        let mut has_moved = false;
-        let residual = SOLUTION_ERROR_FACTOR * self.problem.tolerance();
-        for e in 0..self.areas.len() {
-            let settlement = self.trial_settlements[e];
-            let hardens = self.problem.bounds[e].hardening > 0.0;
-            if settlement > 0.0 || hardens && self.newton.statuses[e].is_yield() {
-                let solution = self.tangent_solution(input, e, residual);
-                if let Some(next) = linearisation.compare(input, &solution, settlement)? {
-                    self.trial_settlements[e] = next.settlement;
-                    self.linearise(input, e)?;
-                    has_moved = true;
-                }
-            }
-        }
-        Ok(has_moved)
-    }
-
-    /// Finds forces by Newton's method from a solution whose bounds have changed a little.
-    fn solve_again(
-        &mut self,
-        input: &ContactInput<'_>,
-        trials: &mut usize,
-    ) -> Result<SearchMethod, StepError> {
-        let Self { problem, newton, .. } = self;
-        // Sweeps with a near field take less time.
-        if problem.form.near_field().is_none() {
-            let outcome = newton.solve_again(problem);
-            *trials += outcome.iterations;
-            if outcome.is_solved {
-                newton.classify(problem, false);
-                if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
-                    return Ok(SearchMethod::Newton);
-                }
-            } else {
-                self.set_initial_forces(input);
-            }
-        }
-        self.search_forces(input, trials)
     }
 
     /// Computes the changes of traction for the present forces.

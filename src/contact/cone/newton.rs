@@ -127,17 +127,27 @@ impl Newton {
             if residual <= problem.tolerance() {
                 return SolveOutcome::new(iteration, true);
             }
-            self.classify(problem, false);
-            let is_reduced = residual <= MAX_RESIDUAL_RATIO * previous_residual;
-            let reuses_factors =
-                is_reduced && residual <= MATRIX_REUSE_RESIDUAL * problem.largest_force();
-            let tolerance = linear_tolerance(problem, residual);
-            if !self.solve_system(problem, reuses_factors, tolerance) {
+            if !self.iterate(problem, residual, previous_residual) {
                 return SolveOutcome::new(iteration + 1, false);
             }
             previous_residual = residual;
         }
         SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
+    }
+
+    /// Makes one iteration from forces with this residual, N; `false` if the system is singular.
+    ///
+    /// It reuses the matrix of the previous iteration, whose residual is `previous_residual`, close to the solution.
+    pub(super) fn iterate(
+        &mut self,
+        problem: &mut ConeProblem,
+        residual: f64,
+        previous_residual: f64,
+    ) -> bool {
+        self.classify(problem, false);
+        let reuses_factors = falls_fast(residual, previous_residual)
+            && residual <= MATRIX_REUSE_RESIDUAL * problem.largest_force();
+        self.solve_system(problem, reuses_factors, linear_tolerance(problem, residual))
     }
 
     /// Iterates between Gauss–Seidel sweeps over many elements; ends early if the residual hardly falls.
@@ -287,6 +297,11 @@ impl Newton {
             StatusSystem::LowRank(system) => system.solve(problem, &self.statuses),
         }
     }
+}
+
+/// Whether the residual has fallen as fast as it should in an iteration; `false` for NaN.
+pub(super) fn falls_fast(residual: f64, previous_residual: f64) -> bool {
+    residual <= MAX_RESIDUAL_RATIO * previous_residual
 }
 
 /// Residual that the iterations of a linear system may leave, relative to the present `residual`.

@@ -28,7 +28,7 @@ use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 /// Residual at which a solution is accepted, relative to the largest force.
 pub(super) const RELATIVE_RESIDUAL_TOLERANCE: f64 = 1e-11;
 /// Number of elements from which a factorization takes longer than several accelerated sweeps.
-const MIN_ELEMENTS_FOR_ACCELERATION: usize = 64;
+pub(super) const MIN_ELEMENTS_FOR_ACCELERATION: usize = 64;
 
 /// Largest change of the last sweep, as a fraction of the residual tolerance.
 pub(super) const SWEEP_TOLERANCE_FACTOR: f64 = 1e-2;
@@ -183,6 +183,9 @@ impl ConeProblem {
             ComplianceForm::NearField(blocks) => {
                 blocks.update_displacements(force_change);
                 self.copy_near_field_displacements();
+            }
+            ComplianceForm::Lattice(lattice) => {
+                lattice.update_displacements(force_change, q, *added_diagonal, y);
             }
             ComplianceForm::LowRank(low_rank) => {
                 low_rank.update_displacements(force_change, q, *added_diagonal, y);

@@ -4,18 +4,18 @@
 
 use super::ForceSearch;
 use super::compliance::ComplianceForm;
+use super::lattice::LatticeCompliance;
 use super::near_field::NearFieldBlocks;
 use super::newton::Newton;
-use super::problem::{Bounds, ConeProblem};
+use super::problem::{Bounds, ConeProblem, MIN_ELEMENTS_FOR_ACCELERATION};
 use crate::contact::OnBed;
-use crate::contact::linearisation::{TangentSolution, point_on_curve};
 use crate::contact::problem::ContactInput;
 use crate::error::LawError;
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
 
 /// Rounding error of a length, relative to the largest: a few units in the last place.
-const ROUNDING_ERROR: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDING_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl ForceSearch {
     /// Reads W, q and the limits of the laws.
@@ -53,58 +53,6 @@ impl ForceSearch {
         if self.hardens {
             self.predict_settlements(input)?;
         }
-        Ok(())
-    }
-
-    /// Linearises the laws at the settlements that each element alone would have under its present force.
-    fn predict_settlements(&mut self, input: &ContactInput<'_>) -> Result<(), LawError> {
-        self.trial_settlements.fill(0.0);
-        self.set_initial_forces(input);
-        self.problem.update_displacements();
-        for e in 0..self.areas.len() {
-            if self.problem.bounds[e].hardening > 0.0 {
-                let solution =
-                    TangentSolution { yields: true, ..self.tangent_solution(input, e, 0.0) };
-                let begin = solution.settlement.max(0.0);
-                let limits = input.limits(e, begin)?;
-                let point = point_on_curve(input, &solution, limits)?;
-                self.trial_settlements[e] = point.settlement;
-                self.linearise(input, e)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Solution of an element in its present status.
-    ///
-    /// `residual`: error of its force, and of its gap times ρ, N.
-    pub(super) fn tangent_solution(
-        &self,
-        input: &ContactInput<'_>,
-        e: usize,
-        residual: f64,
-    ) -> TangentSolution {
-        let Self { problem, newton, areas, .. } = self;
-        let area = areas[e];
-        let [stiffness, _] = problem.rho[e];
-        let length_rounding = ROUNDING_ERROR * input.length_scale;
-        TangentSolution {
-            element: e,
-            pressure: problem.force(e) / area,
-            settlement: problem.bounds[e].closed_gap - problem.y[e],
-            yields: newton.statuses[e].is_yield(),
-            stiffness: stiffness / area,
-            pressure_rounding: residual / area,
-            settlement_rounding: length_rounding + residual / stiffness,
-        }
-    }
-
-    /// Replaces the pressure of yielding soil by the tangent at the element's trial settlement.
-    pub(super) fn linearise(&mut self, input: &ContactInput<'_>, e: usize) -> Result<(), LawError> {
-        let tangent = bounds(&input.limits(e, self.trial_settlements[e])?, self.areas[e]);
-        let bounds = &mut self.problem.bounds[e];
-        bounds.interval[1] = tangent.interval[1];
-        bounds.hardening = tangent.hardening;
         Ok(())
     }
 
@@ -151,7 +99,7 @@ impl ForceSearch {
         }
         problem.update_scales();
         problem.form = ComplianceForm::Entries;
-        // Near-field blocks take longer to compute than they save if W changes.
+        // Other forms take longer to compute than they save if W changes.
         if let Some(soil) = input.delassus.soil().filter(|_| is_constant)
             && let Some(cells) = soil.cells()
         {
@@ -160,6 +108,10 @@ impl ForceSearch {
             let ConeProblem { w, rho, form, .. } = problem;
             if let Some(blocks) = NearFieldBlocks::new(w, rho, cells, compliance, layer) {
                 *form = ComplianceForm::NearField(Box::new(blocks));
+            } else if cells.len() >= MIN_ELEMENTS_FOR_ACCELERATION
+                && let Some(lattice) = LatticeCompliance::new(w, cells, compliance, layer)
+            {
+                *form = ComplianceForm::Lattice(Box::new(lattice));
             }
         }
         problem.prepare_acceleration();
@@ -195,7 +147,7 @@ impl ForceSearch {
 }
 
 /// Bounds of the forces on an area, m².
-fn bounds(limits: &Limits, area: f64) -> Bounds {
+pub(super) fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
         friction: limits.friction,
         friction_limit: f64::INFINITY,

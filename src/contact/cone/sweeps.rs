@@ -110,7 +110,7 @@ impl ConeProblem {
         let mut form = std::mem::take(&mut self.form);
         let largest_change = match &mut form {
             ComplianceForm::LowRank(low_rank) => self.relax_all_by_modes(low_rank, tolerance),
-            ComplianceForm::Entries | ComplianceForm::NearField(_) => {
+            ComplianceForm::Entries | ComplianceForm::Lattice(_) | ComplianceForm::NearField(_) => {
                 (0..self.element_count).map(|e| self.relax(e, tolerance)).fold(0.0, max_or_nan)
             }
         };

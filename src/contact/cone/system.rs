@@ -22,12 +22,16 @@
 use super::problem::ConeProblem;
 use super::status::{Status, Tangential};
 use super::unknowns::{ComponentSum, Unknown, Unknowns};
-use crate::linalg::{DenseFactor, GaussSeidelGmres, dense_multiply_add, dot};
+use crate::linalg::{
+    DenseFactor, GaussSeidelGmres, dense_multiply_add, dot, transposed_multiply_add,
+};
 
 /// Number of columns of W⁻¹ that are solved together.
 const INVERSE_BLOCK_COLUMNS: usize = 32;
 /// Smallest order at which iterations take less time than factors.
 const MIN_ITERATIVE_ORDER: usize = 32;
+/// Typical number of products in a solution by iterations, with the assembly of its matrix.
+const ITERATION_COUNT: f64 = 7.0;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE_COST_FACTOR: f64 = 4.0;
 
@@ -71,6 +75,11 @@ pub(super) struct System {
 /// Cost of a factorization of this order.
 fn factorization_cost(order: usize) -> f64 {
     (order as f64).powi(3)
+}
+
+/// Cost of a solution by iterations of this order.
+fn iteration_cost(order: usize) -> f64 {
+    ITERATION_COUNT * (order as f64).powi(2)
 }
 
 impl System {
@@ -144,12 +153,11 @@ impl System {
         }
         let has_no_slip =
             !statuses.iter().any(|status| matches!(status.tangential, Tangential::Slip { .. }));
-        let are_displacements = self.prefers_displacements(problem, statuses);
+        let can_iterate = linear_tolerance > 0.0 && problem.has_hardening();
+        let are_displacements = self.prefers_displacements(problem, statuses, can_iterate);
         self.unknowns.are_displacements = are_displacements;
         self.unknowns.gather(problem, statuses);
-        let is_iterative = linear_tolerance > 0.0
-            && self.unknowns.list.len() >= MIN_ITERATIVE_ORDER
-            && problem.has_hardening();
+        let is_iterative = can_iterate && self.unknowns.list.len() >= MIN_ITERATIVE_ORDER;
         // Iterations have other rounding errors than factors of an earlier step.
         let is_reusable = has_no_slip
             && self.is_reusable
@@ -216,15 +224,27 @@ impl System {
     /// Whether fewer displacements than forces are unknown, and W⁻¹ is available.
     ///
     /// W⁻¹ of a constant W is computed at once; that of another W as soon as it would have saved its cost in this step.
-    fn prefers_displacements(&mut self, problem: &ConeProblem, statuses: &[Status]) -> bool {
+    fn prefers_displacements(
+        &mut self,
+        problem: &ConeProblem,
+        statuses: &[Status],
+        can_iterate: bool,
+    ) -> bool {
         let force_count: usize = statuses.iter().map(Status::unknown_force_count).sum();
         let displacement_count: usize =
             statuses.iter().map(Status::unknown_displacement_count).sum();
-        if displacement_count >= force_count {
+        let size = problem.component_count();
+        let saved_cost = if can_iterate && force_count >= MIN_ITERATIVE_ORDER {
+            // Unknown displacements need two more products, with all and with some columns of W⁻¹.
+            let products = (size * (size + displacement_count)) as f64;
+            iteration_cost(force_count) - iteration_cost(displacement_count) - products
+        } else {
+            factorization_cost(force_count) - factorization_cost(displacement_count)
+        };
+        if saved_cost <= 0.0 {
             return false;
         }
-        let size = problem.component_count();
-        self.saved_cost += factorization_cost(force_count) - factorization_cost(displacement_count);
+        self.saved_cost += saved_cost;
         if self.inverse.is_empty()
             && (self.is_constant
                 || self.saved_cost > INVERSE_COST_FACTOR * factorization_cost(size))
@@ -276,20 +296,9 @@ impl System {
             values.extend(mixed_rows.iter().map(|row| row.sum(column)));
             values[begin + j] += unknowns[j].diagonal();
         };
-        self.is_iterative = is_iterative;
-        if !is_iterative {
-            return factor.factor_columns(unknowns.len(), append_column);
-        }
-        iterations.set_columns(unknowns.len(), &mut append_column) || self.factor_iterated_matrix()
-    }
-
-    /// Factors the matrix of iterations that do not converge; `false` if it is singular.
-    fn factor_iterated_matrix(&mut self) -> bool {
-        let Self { unknowns, factor, iterations, .. } = self;
-        self.is_iterative = false;
-        factor.factor_columns(unknowns.list.len(), |j, values| {
-            values.extend_from_slice(iterations.column(j));
-        })
+        self.is_iterative =
+            is_iterative && iterations.set_columns(unknowns.len(), &mut append_column);
+        self.is_iterative || factor.factor_columns(unknowns.len(), append_column)
     }
 
     /// Solves, and adds the corrections to r.
@@ -302,7 +311,7 @@ impl System {
         let is_converged =
             self.is_iterative && self.iterations.solve(&mut self.rhs, linear_tolerance).is_some();
         if !is_converged {
-            if self.is_iterative && !self.factor_iterated_matrix() {
+            if self.is_iterative && !self.assemble(problem, false) {
                 return false;
             }
             self.factor.solve(&mut self.rhs);
@@ -333,7 +342,14 @@ impl System {
             *value += correction;
         }
         products.copy_from_slice(other);
-        if prescribed.iter().any(|correction| *correction != 0.0) {
+        let prescribed_count = prescribed.iter().filter(|correction| **correction != 0.0).count();
+        if prescribed_count <= list.len() {
+            // The matrix is symmetric: its rows are its columns.
+            let columns = matrix.chunks_exact(prescribed.len()).zip(&*prescribed);
+            for (column, correction) in columns.filter(|(_, correction)| **correction != 0.0) {
+                transposed_multiply_add(column, 1.0, &[*correction], products);
+            }
+        } else {
             // Only the rows of conditions; NaN marks the others.
             products.fill(f64::NAN);
             for i in list.iter().flat_map(|unknown| unknown.row.indices) {
