@@ -285,17 +285,28 @@ struct LastEntry {
 
 /// Entries of a factor in the lower triangle of `last_rows`.
 ///
-/// `None` unless these rows are the last in the order of elimination, and the factor has dense blocks.
+/// `None` unless these rows are the last in the order of elimination.
 fn last_entries(symbolic: &SymbolicCholesky<usize>, last_rows: &[usize]) -> Option<Vec<LastEntry>> {
-    let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
-        return None;
-    };
     let count = last_rows.len();
     let first_row = symbolic.nrows().checked_sub(count)?;
     if symbolic.perm()?.arrays().0[first_row..] != *last_rows {
         return None;
     }
+    let matrix_index = |row: usize, column: usize| (row - first_row) * count + column - first_row;
     let mut entries = Vec::new();
+    let blocks = match symbolic.raw() {
+        SymbolicCholeskyRaw::Supernodal(blocks) => blocks,
+        SymbolicCholeskyRaw::Simplicial(factor) => {
+            for column in first_row..symbolic.nrows() {
+                let indices = factor.col_ptr()[column]..factor.col_ptr()[column + 1];
+                entries.extend(indices.map(|factor_index| LastEntry {
+                    matrix_index: matrix_index(factor.row_idx()[factor_index], column),
+                    factor_index,
+                }));
+            }
+            return Some(entries);
+        }
+    };
     for k in (0..blocks.n_supernodes()).rev() {
         let begin_column = blocks.supernode_begin()[k];
         let end_column = blocks.supernode_end()[k];
@@ -306,7 +317,7 @@ fn last_entries(symbolic: &SymbolicCholesky<usize>, last_rows: &[usize]) -> Opti
             let rows = (begin_column..end_column).chain(rows_below.iter().copied()).enumerate();
             let lower_rows = rows.filter(|(_, row)| *row >= column);
             entries.extend(lower_rows.map(|(offset, row)| LastEntry {
-                matrix_index: (row - first_row) * count + column - first_row,
+                matrix_index: matrix_index(row, column),
                 factor_index: first_index + (column - begin_column) * height + offset,
             }));
         }

@@ -46,9 +46,7 @@ pub struct ChangingFactor {
     /// They belong to the test of a factor, and to right-hand sides on the last rows.
     solution: Vec<f64>,
     last_rows: Vec<usize>,
-    /// Entries of Cholesky's factor in the last rows.
-    ///
-    /// `None` unless they are a dense block.
+    /// Entries of Cholesky's factor in the last rows; `None` unless these are the last in its order.
     last_entries: Option<Vec<LastEntry>>,
     /// Cholesky's factor of the matrix condensed on the last rows, row-major.
     last_lower: Vec<f64>,

@@ -1,8 +1,10 @@
-//! Near-field blocks of a lattice against the entries of W.
+//! Forms of W on a lattice against its entries.
 
 use super::super::newton::Newton;
 use super::super::problem::{Bounds, ConeProblem};
-use super::super::{compliance::ComplianceForm, proximal::Proximal, search::find_forces};
+use super::super::{
+    compliance::ComplianceForm, lattice::LatticeCompliance, proximal::Proximal, search::find_forces,
+};
 use super::*;
 use basemat_testkit::random::Random;
 
@@ -69,8 +71,30 @@ fn rocking_body(random: &mut Random, friction: f64) -> ConeProblem {
     problem
 }
 
+/// The lattice form of W, whose elements have layers within the soil's compliance.
+fn lattice_form(problem: &ConeProblem) -> ComplianceForm {
+    let layer = |row: usize| if row < ELEMENT_COUNT { 0.3 } else { 0.2 };
+    let soil = |i, j| soil(i, j) - if i == j { layer(i) } else { 0.0 };
+    let lattice = LatticeCompliance::new(&problem.w, &cells(), soil, layer).unwrap();
+    ComplianceForm::Lattice(Box::new(lattice))
+}
+
+/// Compares products with those of the entries, then with a number on the diagonal.
+fn assert_multiplies_as_entries(problem: &mut ConeProblem, expected: &[f64]) {
+    for added_diagonal in [0.0, 0.1] {
+        problem.added_diagonal = added_diagonal;
+        problem.update_displacements();
+        let terms = problem.y.iter().zip(expected).zip(&problem.force_change);
+        for ((computed, expected), change) in terms {
+            let difference = computed - expected - added_diagonal * change;
+            assert!(difference.abs() < 1e-13, "{computed} {expected}");
+        }
+    }
+    problem.added_diagonal = 0.0;
+}
+
 #[test]
-fn near_field_blocks_multiply_as_the_entries_of_w() {
+fn forms_on_a_lattice_multiply_as_the_entries_of_w() {
     let mut random = Random(3);
     let mut problem = rocking_body(&mut random, 0.5);
     let near_field = blocks(&problem, soil).unwrap();
@@ -97,11 +121,11 @@ fn near_field_blocks_multiply_as_the_entries_of_w() {
     problem.force_change[7] = 0.0;
     problem.update_displacements();
     let expected = problem.y.clone();
+    problem.form = lattice_form(&problem);
+    assert_multiplies_as_entries(&mut problem, &expected);
     problem.form = ComplianceForm::NearField(Box::new(near_field));
+    assert_multiplies_as_entries(&mut problem, &expected);
     problem.update_displacements();
-    for (computed, expected) in problem.y.iter().zip(&expected) {
-        assert!((computed - expected).abs() < 1e-13, "{computed} {expected}");
-    }
     // The stored product has the same bits as a new product.
     let stored = problem.y.clone();
     let change = problem.force_change.clone();
@@ -112,13 +136,6 @@ fn near_field_blocks_multiply_as_the_entries_of_w() {
     assert_eq!(stored, problem.y);
     problem.update_displacements();
     assert_eq!(stored, problem.y);
-    // With a number on the diagonal.
-    problem.added_diagonal = 0.1;
-    problem.update_displacements();
-    for ((computed, expected), change) in problem.y.iter().zip(&expected).zip(&problem.force_change)
-    {
-        assert!((computed - expected - 0.1 * change).abs() < 1e-13, "{computed} {expected}");
-    }
     // The structure's part of W is not positive.
     assert!(blocks(&problem, |i, j| 1.1 * soil(i, j)).is_none());
     // Blocks of equal offset differ, or the structure's part has too many modes.
@@ -134,6 +151,7 @@ fn sweeps_of_all_forms_find_the_same_forces() {
     for friction in [0.2, 0.6, 1.5] {
         let mut problem = rocking_body(&mut random, friction);
         let near_field = blocks(&problem, soil).unwrap();
+        let lattice = lattice_form(&problem);
         let mut solve = |form: ComplianceForm| {
             problem.form = form;
             problem.force_change.fill(0.0);
@@ -155,9 +173,13 @@ fn sweeps_of_all_forms_find_the_same_forces() {
             forces
         };
         let expected = solve(ComplianceForm::Entries);
-        let near_field_forces = solve(ComplianceForm::NearField(Box::new(near_field)));
-        for (i, (expected, computed)) in expected.iter().zip(&near_field_forces).enumerate() {
-            assert!((expected - computed).abs() < 1e-10, "{friction}, {i}: {expected} {computed}");
+        for form in [ComplianceForm::NearField(Box::new(near_field)), lattice] {
+            for (i, (expected, computed)) in expected.iter().zip(&solve(form)).enumerate() {
+                assert!(
+                    (expected - computed).abs() < 1e-10,
+                    "{friction}, {i}: {expected} {computed}"
+                );
+            }
         }
         open_count += expected[..ELEMENT_COUNT].iter().filter(|p| **p == 0.0).count();
         slide_count += (0..ELEMENT_COUNT)

@@ -115,6 +115,7 @@ fn iterations_on_hardening_soil_meet_the_conditions_to_their_tolerance() {
     let count = 24;
     let mut problem = random_problem(&mut random, count, 0.5);
     let size = problem.component_count();
+    let mut different_count = 0;
     for case in 0..40 {
         // Elements that move each other little, as on soil, or much.
         let coupling = [1e-3, 1e-2, 0.3][case % 3];
@@ -146,7 +147,7 @@ fn iterations_on_hardening_soil_meet_the_conditions_to_their_tolerance() {
             .collect();
         let mut system = System::new(count);
         let mut changes = Vec::new();
-        for linear_tolerance in [1e-3, 1e-3, 1e-13, 0.0] {
+        for linear_tolerance in [1e-3, 1e-3, 1e-5, 0.0] {
             problem.reset_forces();
             let largest_before = problem.q.iter().fold(0.0_f64, |max, value| max.max(value.abs()));
             system.begin_step(problem.has_hardening());
@@ -161,6 +162,8 @@ fn iterations_on_hardening_soil_meet_the_conditions_to_their_tolerance() {
             changes.push(problem.force_change.clone());
         }
         assert_eq!(changes[0], changes[1]);
-        assert_ne!(changes[1], changes[2], "iterations end at their tolerance");
+        // One iteration may reach both tolerances if the elements move each other little.
+        different_count += usize::from(changes[1] != changes[2]);
     }
+    assert!(different_count > 20, "iterations end at their tolerance: {different_count}");
 }

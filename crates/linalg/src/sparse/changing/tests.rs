@@ -63,7 +63,7 @@ fn changing_factors_are_new_factors() {
             let error = residual.iter().enumerate().map(|(i, r)| (r - (i as f64).sin()).abs());
             assert!(error.fold(0.0, f64::max) < 1e-9);
         }
-        // Solutions on the last rows alone. Only the factor of the large grid has a dense block there.
+        // Solutions on the last rows alone.
         let last_rows: Vec<usize> = (0..side).map(|k| k * side + (k * k) % side).collect();
         let mut ending_factor =
             ChangingFactor::ending_with("grid", &first_matrix, &elimination, &last_rows).unwrap();
@@ -86,7 +86,7 @@ fn changing_factors_are_new_factors() {
                 }
             }
         }
-        assert_eq!(ending_factor.last_entries.is_some(), side == 40);
+        assert!(ending_factor.last_entries.is_some());
         let zero_matrix = grid(side, 0.0, 0.0, 0.0);
         let mut singular_matrix = zero_matrix.clone();
         singular_matrix.values.fill(0.0);
