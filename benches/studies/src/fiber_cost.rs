@@ -95,14 +95,10 @@ pub(crate) fn run(options: &FiberCostOptions) -> Result<(), AnyError> {
     );
     let mut slow_ratios = Vec::new();
     for (law, formulation, name) in FRAME_CASES {
-        let mut best_cost = None::<FrameStepCost>;
-        for _ in 0..repetitions {
-            let cost = measure(law, formulation, steps)?;
-            if best_cost.is_none_or(|best_cost| cost.seconds < best_cost.seconds) {
-                best_cost = Some(cost);
-            }
-        }
-        let Some(cost) = best_cost else { continue };
+        let costs = (0..repetitions).map(|_| measure(law, formulation, steps));
+        let mut costs: Vec<FrameStepCost> = costs.collect::<Result<_, _>>()?;
+        costs.sort_unstable_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        let cost = costs[0];
         let row = format!(
             "|{name}|{:.2}|{:.1}|{:.2}|{:.0e}|\n",
             1e3 * cost.seconds,

@@ -140,26 +140,20 @@ fn measure(cells: CellCase, law: LawCase, steps: usize) -> Result<SettlingStepCo
     Ok(SettlingStepCost { cells: simulation.ground().elements().len(), seconds, trials })
 }
 
+/// Cost of each law.
+type LawCosts = [SettlingStepCost; LAW_CASES.len()];
+
 /// Costs of the laws in one scene, of each repetition.
-fn costs(
-    cells: CellCase,
-    repetitions: usize,
-    steps: usize,
-) -> Result<Vec<[SettlingStepCost; LAW_CASES.len()]>, AnyError> {
-    let mut costs = Vec::with_capacity(repetitions);
-    for _ in 0..repetitions {
-        let [yielding, long, short] = LAW_CASES;
-        costs.push([
-            measure(cells, yielding, steps)?,
-            measure(cells, long, steps)?,
-            measure(cells, short, steps)?,
-        ]);
-    }
-    Ok(costs)
+fn costs(cells: CellCase, repetitions: usize, steps: usize) -> Result<Vec<LawCosts>, AnyError> {
+    let measure_all = |_| {
+        let [yielding, long, short] = LAW_CASES.map(|law| measure(cells, law, steps));
+        Ok([yielding?, long?, short?])
+    };
+    (0..repetitions).map(measure_all).collect()
 }
 
 /// Median of the ratios of a law's times to those of [`LawCase::Yielding`].
-fn median_ratio(costs: &[[SettlingStepCost; LAW_CASES.len()]], law: usize) -> f64 {
+fn median_ratio(costs: &[LawCosts], law: usize) -> f64 {
     let mut ratios: Vec<f64> =
         costs.iter().map(|cost| cost[law].seconds / cost[0].seconds).collect();
     ratios.sort_unstable_by(f64::total_cmp);

@@ -85,14 +85,15 @@ impl GaussSeidelGmres {
     /// Overwrites `rhs` with a solution; `tolerance` bounds its preconditioned residual.
     ///
     /// The residual is relative to the residual of the zero vector, and exact up to the rounding errors of single
-    /// precision: tolerances below 1e-5 gain nothing.
+    /// precision times the condition number: tolerances below 1e-5 gain nothing.
     ///
     /// Returns the number of iterations; `None`, with the same `rhs`, if they do not reach the tolerance.
     pub fn solve(&mut self, rhs: &mut [f64], tolerance: f64) -> Option<usize> {
         let order = self.order;
         let mut least_squares = LeastSquares::default();
         let Self { columns, product, substituted, .. } = self;
-        substitute_forward(columns, substituted, rhs.iter().copied());
+        overwrite(substituted, rhs.iter().copied());
+        vectorized(Forward { columns, x: substituted });
         product.clear();
         product.extend(substituted.iter().copied().map(f64::from));
         self.basis.clear();
@@ -134,15 +135,13 @@ impl GaussSeidelGmres {
     fn multiply(&mut self, vector: usize) {
         let Self { order, columns, diagonal, basis, product, substituted, .. } = self;
         let vector = &basis[vector * *order..][..*order];
-        substitute_backward(
-            columns,
-            substituted,
-            vector.iter().zip(&*diagonal).map(|(v, d)| v * d),
-        );
+        overwrite(substituted, vector.iter().zip(&*diagonal).map(|(v, d)| v * d));
+        vectorized(Backward { columns, x: substituted });
         product.clear();
         product.extend(substituted.iter().copied().map(f64::from));
         let differences = vector.iter().zip(&*product).zip(diagonal);
-        substitute_forward(columns, substituted, differences.map(|((v, t), d)| *d * (v - t)));
+        overwrite(substituted, differences.map(|((v, t), d)| *d * (v - t)));
+        vectorized(Forward { columns, x: substituted });
         product
             .iter_mut()
             .zip(substituted)
@@ -156,27 +155,16 @@ impl GaussSeidelGmres {
         for (vector, coefficient) in basis.chunks_exact(*order).zip(coefficients) {
             transposed_multiply_add(vector, 1.0, &[*coefficient], solution);
         }
-        substitute_backward(
-            columns,
-            substituted,
-            solution.iter().zip(diagonal).map(|(x, d)| x * *d),
-        );
+        overwrite(substituted, solution.iter().zip(diagonal).map(|(x, d)| x * *d));
+        vectorized(Backward { columns, x: substituted });
         solution.iter_mut().zip(substituted).for_each(|(x, value)| *x = f64::from(*value));
     }
 }
 
-/// Overwrites `x` with (D + L)⁻¹ b, b: `values`.
-fn substitute_forward(columns: &[f32], x: &mut Vec<f32>, values: impl Iterator<Item = f64>) {
-    x.clear();
-    x.extend(values.map(|value| value as f32));
-    vectorized(Forward { columns, x });
-}
-
-/// Overwrites `x` with (D + U)⁻¹ b, b: `values`.
-fn substitute_backward(columns: &[f32], x: &mut Vec<f32>, values: impl Iterator<Item = f64>) {
-    x.clear();
-    x.extend(values.map(|value| value as f32));
-    vectorized(Backward { columns, x });
+/// Overwrites a vector of single precision.
+fn overwrite(vector: &mut Vec<f32>, values: impl Iterator<Item = f64>) {
+    vector.clear();
+    vector.extend(values.map(|value| value as f32));
 }
 
 /// The least-squares problem of GMRES, whose Hessenberg matrix rotations make triangular.

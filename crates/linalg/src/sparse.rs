@@ -204,8 +204,7 @@ impl SparseFactor {
 
     /// The matrix condensed on `last_rows`, row-major: L Lᵀ of the last block of L.
     ///
-    /// `None` unless these rows are the last in the order of elimination, and the factors are Cholesky's with dense
-    /// blocks.
+    /// `None` unless these rows are the last in the order of elimination, and the factors are Cholesky's.
     pub fn condensed(&self, last_rows: &[usize]) -> Option<Vec<f64>> {
         let count = last_rows.len();
         let Factors::Cholesky { symbolic, values } = &self.factors else { return None };

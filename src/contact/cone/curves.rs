@@ -81,22 +81,27 @@ impl ForceSearch {
         trials: &mut usize,
     ) -> Result<SearchMethod, StepError> {
         let mut method = first_method;
-        let mut linearisation = Linearisation::new();
+        let mut is_exact = false;
         self.problem.relative_tolerance = RELATIVE_RESIDUAL_TOLERANCE;
         let gap = BOND_BREAKING_GAP * input.length_scale;
         // Sweeps with a near field take less time than Newton's method.
         if self.problem.form.near_field().is_none() {
-            let outcome = self.solve_with_tangents(input, &mut linearisation)?;
+            let outcome = self.solve_with_tangents(input)?;
             if outcome.iterations > 0 {
                 *trials += outcome.iterations;
                 method = method.max(SearchMethod::Newton);
                 self.write_modes(modes);
             }
-            if outcome.is_solved && !self.break_bonds(gap) {
-                return Ok(method);
+            if outcome.is_solved {
+                if !self.break_bonds(gap) {
+                    return Ok(method);
+                }
+                method = method.max(self.solve_again(input, trials)?);
+                self.write_modes(modes);
+                is_exact = true;
             }
         }
-        let mut is_exact = false;
+        let mut linearisation = Linearisation::new();
         loop {
             let has_moved = self.move_tangents(input, &mut linearisation)?;
             let is_solved = !has_moved && (is_exact || self.problem.is_solved());
@@ -113,31 +118,38 @@ impl ForceSearch {
 
     /// Moves the tangents after each iteration of Newton's method, while the residual falls fast.
     ///
-    /// Forces and tangents then converge together.
-    fn solve_with_tangents(
-        &mut self,
-        input: &ContactInput<'_>,
-        linearisation: &mut Linearisation,
-    ) -> Result<SolveOutcome, StepError> {
+    /// Forces and tangents then converge together. Where they do not, the forces are the first ones again.
+    fn solve_with_tangents(&mut self, input: &ContactInput<'_>) -> Result<SolveOutcome, StepError> {
+        let mut linearisation = Linearisation::new();
         let mut previous_residual = f64::INFINITY;
-        for iteration in 0..MAX_JOINT_ITERATIONS {
-            let has_moved = self.move_tangents(input, linearisation)?;
+        self.limited_change.copy_from_slice(&self.problem.force_change);
+        let mut iterations = 0;
+        while iterations < MAX_JOINT_ITERATIONS {
+            // Tangents do not move to forces far from a solution.
+            let residual = self.problem.max_residual();
+            let is_near = residual <= self.problem.tolerance();
+            if !(is_near || falls_fast(residual, previous_residual)) {
+                break;
+            }
+            let has_moved = self.move_tangents(input, &mut linearisation)?;
             let Self { problem, newton, .. } = self;
             let residual = problem.max_residual();
-            let is_solved = !has_moved && residual <= problem.tolerance();
-            if is_solved || !falls_fast(residual, previous_residual) {
-                return Ok(SolveOutcome::new(iteration, is_solved));
+            if !has_moved && residual <= problem.tolerance() {
+                return Ok(SolveOutcome::new(iterations, true));
             }
+            iterations += 1;
             if !newton.iterate(problem, residual, previous_residual) {
-                self.set_initial_forces(input);
-                self.problem.update_displacements();
-                return Ok(SolveOutcome::new(iteration + 1, false));
+                break;
             }
             problem.update_displacements();
             newton.classify(problem, false);
             previous_residual = residual;
         }
-        Ok(SolveOutcome::new(MAX_JOINT_ITERATIONS, false))
+        let Self { problem, newton, limited_change, .. } = self;
+        problem.force_change.copy_from_slice(limited_change);
+        problem.update_displacements();
+        newton.classify(problem, false);
+        Ok(SolveOutcome::new(iterations, false))
     }
 
     /// Moves the tangents towards the present forces; returns whether any has moved.

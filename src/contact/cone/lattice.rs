@@ -1,4 +1,4 @@
-//! W of many elements on a lattice, for products by Fourier transforms over the lattice.
+//! W of elements on a lattice, for products by Fourier transforms.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -30,7 +30,8 @@ impl LatticeCompliance {
     /// Splits the row-major `w`.
     ///
     /// `cells`: column and row of each element on the lattice. `soil(row, column)`: entry of G. `layer(row)`: entry of D.
-    /// `None` if soil blocks of equal offset differ, or the structure has too many modes.
+    /// `None` if soil blocks of equal offset differ, G is not symmetric, or the structure has too many modes or a
+    /// compliance that is not positive semi-definite.
     pub(super) fn new(
         w: &[f64],
         cells: &[[usize; 2]],

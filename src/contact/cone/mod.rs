@@ -86,7 +86,7 @@ pub(crate) struct ForceSearch {
     trial_settlements: Vec<f64>,
     /// Changes of force with which a search begins, N.
     initial_change: Vec<f64>,
-    /// Changes of force that solve with less friction, N.
+    /// Changes of force that solve with less friction, or with the first tangents of a step, N.
     limited_change: Vec<f64>,
     /// Whether the structure is linear: all steps then have the same W, unless layers change.
     is_linear: bool,

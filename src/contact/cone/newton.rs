@@ -135,9 +135,9 @@ impl Newton {
         SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
     }
 
-    /// Makes one iteration from forces with this residual, N; `false` if the system is singular.
+    /// Makes one iteration; `false` if the system is singular.
     ///
-    /// It reuses the matrix of the previous iteration, whose residual is `previous_residual`, close to the solution.
+    /// `residual`: of the present forces, N. The iteration reuses the matrix of the previous iteration, whose residual is `previous_residual`, close to the solution.
     pub(super) fn iterate(
         &mut self,
         problem: &mut ConeProblem,

@@ -1,7 +1,7 @@
 //! The linear system of prescribed statuses, for corrections that satisfy y = q + W (r − r₀).
 //!
 //! Each component of an element has a condition on its force or on its displacement; the other quantity is unknown.
-//! There are two systems with the same solution; the smaller one is solved:
+//! There are two systems with the same solution; the one of lower cost is solved:
 //!
 //! | | unknown forces, by W | unknown displacements, by W⁻¹ |
 //! |---|---|---|
@@ -16,8 +16,8 @@
 //! κ = R/\|t − ρ y\| is the radius ratio: the direction turns with the slip (Alart & Curnier 1991).
 //!
 //! Solutions by factors are equal up to rounding, those by iterations up to their tolerance. A resumed run must make the
-//! same choice as the uninterrupted one: by the statuses alone if W is constant, otherwise by the statuses of the same
-//! step. If all elements stick, the factors of W itself solve.
+//! same choice as the uninterrupted one: by the statuses, and whether iterations may solve, if W is constant; otherwise also
+//! by those of earlier systems of the same step. If all elements stick, the factors of W itself solve.
 
 use super::problem::ConeProblem;
 use super::status::{Status, Tangential};
@@ -72,14 +72,10 @@ pub(super) struct System {
     products: Vec<f64>,
 }
 
-/// Cost of a factorization of this order.
-fn factorization_cost(order: usize) -> f64 {
-    (order as f64).powi(3)
-}
-
-/// Cost of a solution by iterations of this order.
-fn iteration_cost(order: usize) -> f64 {
-    ITERATION_COUNT * (order as f64).powi(2)
+/// Cost of a solution of this order by factors, or by iterations if these are possible.
+fn solution_cost(order: usize, can_iterate: bool) -> f64 {
+    let iterates = can_iterate && order >= MIN_ITERATIVE_ORDER;
+    (order as f64).powi(2) * if iterates { ITERATION_COUNT } else { order as f64 }
 }
 
 impl System {
@@ -221,7 +217,9 @@ impl System {
         self.has_w_factor
     }
 
-    /// Whether fewer displacements than forces are unknown, and W⁻¹ is available.
+    /// Whether unknown displacements cost less than unknown forces, and W⁻¹ is available.
+    ///
+    /// `can_iterate`: whether iterations solve systems of sufficient order.
     ///
     /// W⁻¹ of a constant W is computed at once; that of another W as soon as it would have saved its cost in this step.
     fn prefers_displacements(
@@ -234,20 +232,18 @@ impl System {
         let displacement_count: usize =
             statuses.iter().map(Status::unknown_displacement_count).sum();
         let size = problem.component_count();
-        let saved_cost = if can_iterate && force_count >= MIN_ITERATIVE_ORDER {
-            // Unknown displacements need two more products, with all and with some columns of W⁻¹.
-            let products = (size * (size + displacement_count)) as f64;
-            iteration_cost(force_count) - iteration_cost(displacement_count) - products
-        } else {
-            factorization_cost(force_count) - factorization_cost(displacement_count)
-        };
+        // Iterations for displacements need two more products, with all and with some columns of W⁻¹.
+        let product_cost = if can_iterate { size * (size + displacement_count) } else { 0 };
+        let saved_cost = solution_cost(force_count, can_iterate)
+            - solution_cost(displacement_count, can_iterate)
+            - product_cost as f64;
         if saved_cost <= 0.0 {
             return false;
         }
         self.saved_cost += saved_cost;
         if self.inverse.is_empty()
             && (self.is_constant
-                || self.saved_cost > INVERSE_COST_FACTOR * factorization_cost(size))
+                || self.saved_cost > INVERSE_COST_FACTOR * solution_cost(size, false))
         {
             if !self.factor_w(problem) {
                 return false;
